@@ -1,0 +1,82 @@
+// Plane homographies between two camera frames, and the derivatives that the filters need.
+//
+// A homography H_ba takes pixels of frame a to pixels of frame b: x_b ~ H_ba x_a. It is kept scaled to h33 = 1, and
+// its eight free entries are stacked row by row: h11 h12 h13 h21 h22 h23 h31 h32.
+//
+// In pixels these entries span six orders of magnitude. Covariances are therefore always those of the *scaled*
+// homography T H T^-1 (Hartley), with T = ImageScaling(width, height).T: the picture's centre at the origin, half its
+// width as the unit. One such unit of h13 or h23 is width / 2 pixels.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace redbee {
+
+using Vector8d = Eigen::Matrix<double, 8, 1>;
+using Matrix8d = Eigen::Matrix<double, 8, 8>;
+
+/// Hartley's scaling for a picture's size, the same for every frame of one camera.
+struct ImageScaling {
+  ImageScaling(int width, int height);
+
+  /// Scaled homography T H T^-1, h33 = 1.
+  Eigen::Matrix3d scale(const Eigen::Matrix3d& H_px) const;
+  /// Pixel homography T^-1 H T, h33 = 1.
+  Eigen::Matrix3d unscale(const Eigen::Matrix3d& H_scaled) const;
+
+  Eigen::Matrix3d T;          ///< pixels to scaled coordinates
+  Eigen::Matrix3d T_inverse;  ///< scaled coordinates to pixels
+  double unit_px;             ///< pixels in one scaled unit
+};
+
+/// H / h33.
+Eigen::Matrix3d normaliseHomography(const Eigen::Matrix3d& H);
+/// The eight free entries of H / h33, row by row.
+Vector8d toVector(const Eigen::Matrix3d& H);
+Eigen::Matrix3d fromVector(const Vector8d& h);
+
+/// Where a point goes: the inhomogeneous part of H x.
+Eigen::Vector2d transfer(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
+/// d transfer(H, x) / d toVector(H), for H with h33 = 1.
+Eigen::Matrix<double, 2, 8> transferJacobian(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
+/// d transfer(H, x) / d x.
+Eigen::Matrix2d transferJacobianPoint(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
+
+/// d toVector(A B) / d toVector(A) and / d toVector(B), for A and B with h33 = 1; the division by (A B)_33 included.
+struct ComposeJacobians {
+  Matrix8d by_left;
+  Matrix8d by_right;
+};
+ComposeJacobians composeJacobians(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B);
+/// d toVector(H^-1) / d toVector(H), for H with h33 = 1.
+Matrix8d inverseJacobian(const Eigen::Matrix3d& H);
+/// d toVector(M) / d vec(M), vec row by row over all nine entries: the projection onto h33 = 1.
+Eigen::Matrix<double, 8, 9> projectionJacobian(const Eigen::Matrix3d& M);
+
+/// Relative pose of two camera frames a, b over a plane.
+/// Plane in frame a: m_a' X = h_a, m_a the unit normal from the camera towards the plane, h_a > 0 its distance [m].
+struct PlaneMotion {
+  Eigen::Matrix3d R_ba;  ///< turns coordinates in a into coordinates in b
+  Eigen::Vector3d t_ba;  ///< X_b = R_ba X_a + t_ba [m]
+  Eigen::Vector3d m_a;
+  double h_a;
+};
+
+/// K (R + t m' / h) K^-1, h33 = 1 (method.md's form of the paper's equation 1).
+Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion);
+
+/// Derivative of toVector(planeHomography(K, motion)) by a left rotation of R_ba (R <- exp(d) R) [rad], by t_ba [m], by a
+/// left rotation of m_a (m <- exp(d) m) [rad] and by h_a [m].
+struct PlaneHomographyJacobians {
+  Eigen::Matrix<double, 8, 3> by_rotation;
+  Eigen::Matrix<double, 8, 3> by_translation;
+  Eigen::Matrix<double, 8, 3> by_normal;
+  Vector8d by_height;
+};
+PlaneHomographyJacobians planeHomographyJacobians(const Eigen::Matrix3d& K, const PlaneMotion& motion);
+
+/// Mean distance [px] between where A and B take the points of a 16-px grid over the picture. Points that either sends
+/// to infinity or behind the camera are left out; infinity where none is left.
+double meanTransferError(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B, int width, int height);
+
+}  // namespace redbee

@@ -1,0 +1,40 @@
+// What an IMU and an altimeter measure, and how well.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace redbee {
+
+/// One IMU measurement, in the IMU frame I, on the IMU's clock.
+struct ImuSample {
+  int64_t utime = 0;      ///< us
+  Eigen::Vector3d gyro;   ///< rad/s, angular rate of I against the ground, in I
+  Eigen::Vector3d accel;  ///< m/s^2, specific force in I (+9.81 upwards at rest)
+};
+
+/// Height of the camera above the ground plane, on the IMU's clock.
+struct AltitudeSample {
+  int64_t utime = 0;    ///< us
+  double height_m = 0;  ///< m
+  double sigma_m = 0;   ///< m, one standard deviation; > 0
+};
+
+/// Kalibr's continuous-time noise model.
+struct ImuNoise {
+  double gyro_noise_density = 1.7e-4;   ///< rad/s/sqrt(Hz)
+  double accel_noise_density = 2.0e-3;  ///< m/s^2/sqrt(Hz)
+  double gyro_random_walk = 2.0e-5;     ///< rad/s^2/sqrt(Hz)
+  double accel_random_walk = 4.0e-4;    ///< m/s^3/sqrt(Hz)
+};
+
+/// How the camera sits on the IMU and where it starts; the offline calibration finds these.
+struct InertialExtrinsics {
+  Eigen::Matrix3d R_CI = Eigen::Matrix3d::Identity();  ///< turns IMU coordinates into camera coordinates
+  Eigen::Vector3d p_IC = Eigen::Vector3d::Zero();      ///< camera centre in the IMU frame [m]
+  double timeshift_s = 0;                              ///< t_imu = t_cam + timeshift (Kalibr's sign)
+  double start_height_m = 2.0;                         ///< camera above the ground plane at the first frame [m]
+  double start_height_sigma_m = 1.0;                   ///< its standard deviation [m]
+};
+
+}  // namespace redbee

@@ -1,0 +1,50 @@
+// An analytic flight: position and attitude as sums of sinusoids, so that velocity, acceleration and angular rate are exact.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace redbee::simulation {
+
+struct Sinusoid {
+  double amplitude = 0;     ///< m or rad
+  double frequency_hz = 0;  ///< Hz
+  double phase = 0;         ///< rad
+};
+
+/// offset + rate * t + sum of sinusoids.
+struct Channel {
+  double offset = 0;
+  double rate = 0;
+  std::vector<Sinusoid> sinusoids;
+};
+
+struct TrajectoryParameters {
+  Channel position[3];  ///< of the IMU in G [m]: x, y, z (up)
+  Channel yaw_pitch_roll[3];  ///< rad; R_GI = Rz(yaw) Ry(pitch) Rx(roll), IMU: x forward, y left, z up
+};
+
+struct TrajectoryState {
+  Eigen::Vector3d p_GI;     ///< m
+  Eigen::Vector3d v_GI;     ///< m/s
+  Eigen::Vector3d a_GI;     ///< m/s^2
+  Eigen::Matrix3d R_GI;
+  Eigen::Vector3d omega_I;  ///< rad/s, of I against G, in I
+};
+
+class Trajectory {
+ public:
+  explicit Trajectory(TrajectoryParameters parameters) : parameters_(std::move(parameters)) {}
+  TrajectoryState at(double t_s) const;
+
+  /// Ordinary flight over the field: a few metres a second, gentle turns about all axes, `pitch_down_rad` of mean camera tilt
+  /// comes from the mounting, not from here. The same seed gives the same flight.
+  static Trajectory ordinary(unsigned seed, double height_m);
+  /// Strong rotation about all axes over flat ground: what a calibration asks for.
+  static Trajectory calibration(unsigned seed, double height_m);
+
+ private:
+  TrajectoryParameters parameters_;
+};
+
+}  // namespace redbee::simulation

@@ -1,0 +1,46 @@
+// Points on a regular grid, followed from frame to frame by pyramidal Lucas-Kanade.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+namespace redbee {
+
+struct TrackerParameters {
+  int grid_px = 16;                 ///< px between sample points, both ways (paper: 16)
+  int window_px = 13;               ///< px, odd: side of the patch that is followed
+  int levels = 3;                   ///< pyramid levels, 1 = the picture alone
+  int iterations = 12;              ///< at most, per level
+  double epsilon_px = 0.02;         ///< px: a smaller step ends the iteration
+  double min_eigenvalue = 8.0;      ///< grey levels^2 per pixel: smallest eigenvalue of the mean gradient matrix that is texture
+  double max_forward_backward_px = 0.7;  ///< px: a point tracked there and back must return this close
+  double max_residual = 25.0;       ///< grey levels: mean absolute difference of the two patches
+};
+
+/// Correspondences between two frames, ideal pixels. All arrays have the same length.
+struct PointTracks {
+  std::vector<cv::Point2f> previous;
+  std::vector<cv::Point2f> current;
+  int sampled = 0;  ///< grid points looked at, the refused ones included
+};
+
+/// Keeps the previous frame's pyramid. Assumes grey 8-bit pictures of one size; a change of size starts anew.
+class PointTracker {
+ public:
+  explicit PointTracker(const TrackerParameters& parameters);
+  ~PointTracker();
+
+  /// Tracks the grid of the previous picture into this one, `guess` (previous to current, ideal pixels) as the starting point.
+  /// Empty on the first picture and after a change of size.
+  PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess);
+  void reset();
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace redbee

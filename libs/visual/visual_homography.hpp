@@ -1,0 +1,59 @@
+// The visual stage: tracking and the ground's homography, frame by frame (method.md, "Visual homography").
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "visual/homography_estimation.hpp"
+#include "visual/point_tracker.hpp"
+
+namespace redbee {
+
+struct VisualParameters {
+  TrackerParameters tracker;
+  RansacParameters ransac;
+  double max_frame_gap_s = 0.5;  ///< s: frames further apart than this are not tracked into each other
+  double min_sharpness = 0.0;    ///< mean squared gradient [grey levels^2] below which a picture is blank, black or blurred
+};
+
+enum class VisualStatus {
+  kGood,
+  kFirstFrame,   ///< nothing to track from: the first frame, after a gap, a repeated or earlier time, or a change of size
+  kNoTexture,    ///< blank, black or blurred: too few points can be tracked
+  kNoPlane,      ///< points were tracked and no plane explains enough of them
+};
+const char* toString(VisualStatus status);
+
+/// What inertial prediction is known for the pair of frames.
+struct HomographyPrediction {
+  Eigen::Matrix3d H;    ///< previous to current, ideal pixels
+  Matrix8d covariance;  ///< scaled
+};
+
+struct VisualHomography {
+  int64_t utime_previous = 0;
+  int64_t utime = 0;
+  VisualStatus status = VisualStatus::kFirstFrame;
+  PointTracks tracks;
+  std::optional<HomographyEstimate> ground;  ///< present exactly when status is kGood
+};
+
+class VisualHomographyEstimator {
+ public:
+  explicit VisualHomographyEstimator(const VisualParameters& parameters);
+
+  /// Time of the frame that the next one is tracked from; nothing before the first.
+  std::optional<int64_t> previousTime() const { return previous_utime_; }
+
+  /// `grey`: 8-bit, undistorted.
+  VisualHomography step(int64_t utime, const cv::Mat& grey, const std::optional<HomographyPrediction>& prediction);
+
+ private:
+  VisualParameters parameters_;
+  PointTracker tracker_;
+  std::optional<int64_t> previous_utime_;
+  cv::Size size_;
+};
+
+}  // namespace redbee
