@@ -1,5 +1,6 @@
 #include "geometry/camera.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 

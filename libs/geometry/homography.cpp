@@ -1,5 +1,6 @@
 #include "geometry/homography.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <limits>
 

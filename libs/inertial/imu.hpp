@@ -33,8 +33,8 @@ struct InertialExtrinsics {
   Eigen::Matrix3d R_CI = Eigen::Matrix3d::Identity();  ///< turns IMU coordinates into camera coordinates
   Eigen::Vector3d p_IC = Eigen::Vector3d::Zero();      ///< camera centre in the IMU frame [m]
   double timeshift_s = 0;                              ///< t_imu = t_cam + timeshift (Kalibr's sign)
-  double start_height_m = 2.0;                         ///< camera above the ground plane at the first frame [m]
-  double start_height_sigma_m = 1.0;                   ///< its standard deviation [m]
+  double start_height_m = 2.0;        ///< camera above the ground plane at the first frame [m]
+  double start_height_sigma_m = 1.0;  ///< its standard deviation [m]
 };
 
 }  // namespace redbee

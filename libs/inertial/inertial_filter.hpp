@@ -1,12 +1,13 @@
 // From IMU samples to the ground plane's homography between frames (method.md, "Inertial homography").
 //
-// An error-state Kalman filter over attitude, velocity, height, gyro and accelerometer bias. It dead-reckons on the IMU and is
-// corrected by gravity (slowly, gated), by an altimeter where there is one, and by the visual part of the previous fused
-// homography, which holds t / h. The pose at the previous frame is kept in the state (a stochastic clone), so that the
-// covariance of the frame-to-frame homography is propagated and not guessed.
+// An error-state Kalman filter over attitude, velocity, height, gyro and accelerometer bias. It dead-reckons
+// on the IMU and is corrected by gravity (slowly, gated), by an altimeter where there is one, and by the
+// visual part of the previous fused homography, which holds t / h. The pose at the previous frame is kept in
+// the state (a stochastic clone), so that the covariance of the frame-to-frame homography is propagated and
+// not guessed.
 //
-// The filter stands still at the last frame until the next one asks for it, so that a correction for the last frame
-// arrives at the state it belongs to. It knows no clock but the times inside its samples.
+// The filter stands still at the last frame until the next one asks for it, so that a correction for the last
+// frame arrives at the state it belongs to. It knows no clock but the times inside its samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,16 +24,21 @@ namespace redbee {
 struct InertialParameters {
   InertialExtrinsics extrinsics;
   ImuNoise noise;
-  double gravity = 9.81;                        ///< m/s^2
-  double start_velocity_sigma = 1.0;            ///< m/s: how fast the drone may be at the first frame
-  double gyro_bias_sigma = 0.01;                ///< rad/s: turn-on bias of the gyro
-  double accel_bias_sigma = 0.15;               ///< m/s^2: turn-on bias of the accelerometer
-  double extrinsic_rotation_sigma_deg = 0.1;    ///< deg: what the calibration of R_CI leaves open
-  double gravity_gate = 0.5;                    ///< m/s^2: | |accel| - g | above which gravity corrects nothing
-  double gravity_sigma = 1.0;                   ///< m/s^2: how far specific force is trusted as the vertical, when ungated
-  double max_imu_gap_s = 0.1;                   ///< s: a longer hole in the IMU's samples is a gap
-  double max_frame_gap_s = 2.0;                 ///< s: frames further apart than this start anew
-  double innovation_gate_probability = 0.999;   ///< chi-square gate of every correction
+  double gravity = 9.81;                                ///< m/s^2
+  double start_velocity_sigma = 3.0;                    ///< m/s: how fast the drone may be at the first frame
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();  ///< rad/s: what is known of it beforehand
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  ///< m/s^2
+  double gyro_bias_sigma = 0.01;                         ///< rad/s: turn-on bias of the gyro
+  double accel_bias_sigma = 0.15;                        ///< m/s^2: turn-on bias of the accelerometer
+  double extrinsic_rotation_sigma_deg = 0.1;             ///< deg: what the calibration of R_CI leaves open
+  double gravity_gate = 0.5;  ///< m/s^2: | |accel| - g | above which gravity corrects nothing
+  double gravity_sigma =
+      1.0;  ///< m/s^2: the drone's own acceleration, which specific force holds beside gravity
+  double gravity_correlation_s =
+      2.0;                       ///< s: how long that acceleration lasts; makes gravity's correction slow
+  double max_imu_gap_s = 0.1;    ///< s: a longer hole in the IMU's samples is a gap
+  double max_frame_gap_s = 2.0;  ///< s: frames further apart than this start anew
+  double innovation_gate_probability = 0.999;  ///< chi-square gate of every correction
 };
 
 enum class InertialStatus {
@@ -44,23 +50,24 @@ enum class InertialStatus {
 };
 const char* toString(InertialStatus status);
 
-/// Motion of the camera from frame a (the previous) to frame b, and the homography of the ground that follows.
+/// Motion of the camera from frame a (the previous) to frame b, and the homography of the ground that
+/// follows.
 struct InertialHomography {
   int64_t utime_previous = 0;  ///< camera clock, us
   int64_t utime = 0;           ///< camera clock, us
   InertialStatus status = InertialStatus::kInitialising;
-  bool valid = false;                                     ///< H, covariance and motion hold
-  Eigen::Matrix3d H = Eigen::Matrix3d::Identity();        ///< ideal pixels of a to ideal pixels of b, h33 = 1
-  Matrix8d covariance = Matrix8d::Zero();                 ///< of the scaled homography's eight entries (homography.hpp)
-  PlaneMotion motion;                                     ///< R_ba, t_ba, m_a, h_a in camera frames [m]
-  Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();  ///< of R_ba, left perturbation [rad^2]
-  Eigen::Vector3d direction_of_gravity = Eigen::Vector3d::Zero(); ///< unit, down, in camera frame b
-  double height_m = 0;                                    ///< of camera b above the ground plane
+  bool valid = false;                               ///< H, covariance and motion hold
+  Eigen::Matrix3d H = Eigen::Matrix3d::Identity();  ///< ideal pixels of a to ideal pixels of b, h33 = 1
+  Matrix8d covariance = Matrix8d::Zero();  ///< of the scaled homography's eight entries (homography.hpp)
+  PlaneMotion motion;                      ///< R_ba, t_ba, m_a, h_a in camera frames [m]
+  Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();   ///< of R_ba, left perturbation [rad^2]
+  Eigen::Vector3d direction_of_gravity = Eigen::Vector3d::Zero();  ///< unit, down, in camera frame b
+  double height_m = 0;                                             ///< of camera b above the ground plane
   double height_sigma_m = 0;
 };
 
-/// A homography of the ground between two consecutive frames, measured without the IMU's help: what the fusion's update
-/// took from vision. (Feeding back the fused value itself would count the IMU twice.)
+/// A homography of the ground between two consecutive frames, measured without the IMU's help: what the
+/// fusion's update took from vision. (Feeding back the fused value itself would count the IMU twice.)
 struct HomographyObservation {
   int64_t utime_previous = 0;
   int64_t utime = 0;
@@ -76,12 +83,13 @@ struct CorrectionReport {
 
 /// The filter's nominal state, for tests and monitoring.
 struct InertialState {
-  int64_t utime = 0;         ///< camera clock
-  Eigen::Matrix3d R_GI;      ///< yaw free
-  Eigen::Vector3d v_GI;      ///< m/s in G
+  int64_t utime = 0;     ///< camera clock
+  Eigen::Matrix3d R_GI;  ///< yaw free
+  Eigen::Vector3d v_GI;  ///< m/s in G
   double camera_height_m = 0;
   Eigen::Vector3d gyro_bias;   ///< rad/s
   Eigen::Vector3d accel_bias;  ///< m/s^2
+  Eigen::Matrix3d R_CI;  ///< the mounting, with what the filter has corrected within the calibration's sigma
 };
 
 class InertialFilter {
@@ -91,17 +99,20 @@ class InertialFilter {
   InertialFilter(InertialFilter&&) noexcept;
   InertialFilter& operator=(InertialFilter&&) noexcept;
 
-  /// Samples may come late (sorted in by their own time) or twice (ignored). Non-finite ones are refused: false.
+  /// Samples may come late (sorted in by their own time) or twice (ignored). Non-finite ones are refused:
+  /// false.
   bool addImu(const ImuSample& sample);
   bool addAltitude(const AltitudeSample& sample);
 
   /// True when the samples reach the exposure time of a frame with this (camera) time.
   bool covers(int64_t frame_utime) const;
 
-  /// Moves the filter to this frame and gives the motion since the last one. Never throws on bad times: the status says.
+  /// Moves the filter to this frame and gives the motion since the last one. Never throws on bad times: the
+  /// status says.
   InertialHomography advanceTo(int64_t frame_utime);
 
-  /// Corrects the state at the last frame. Refused (not applied) when it is not for the last two frames or fails its gate.
+  /// Corrects the state at the last frame. Refused (not applied) when it is not for the last two frames or
+  /// fails its gate.
   CorrectionReport correct(const HomographyObservation& observation);
 
   std::optional<InertialState> state() const;

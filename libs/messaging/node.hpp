@@ -9,8 +9,8 @@
 
 namespace redbee {
 
-/// A node subscribes in its constructor; its handlers only take messages in, and process() does the work. So a burst of messages is
-/// seen whole before any of them is worked on.
+/// A node subscribes in its constructor; its handlers only take messages in, and process() does the work. So
+/// a burst of messages is seen whole before any of them is worked on.
 class Node {
  public:
   virtual ~Node() = default;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/homography.hpp"
+#include "segmentation/object_tracker.hpp"
 #include "segmentation/parameters.hpp"
 #include "visual/point_tracker.hpp"
 
@@ -17,9 +18,9 @@ namespace redbee {
 
 enum class SegmentationStatus {
   kGood,
-  kLearning,        ///< the background is not known yet: everything is "unknown", the mask is empty
-  kNoHomography,    ///< nothing is known of the camera's motion to this frame: the background starts anew
-  kBadPicture,      ///< black, blank or frozen: nothing was learned from it, the mask is empty
+  kLearning,      ///< the background is not known yet: everything is "unknown", the mask is empty
+  kNoHomography,  ///< nothing is known of the camera's motion to this frame: the background starts anew
+  kBadPicture,    ///< black, blank or frozen: nothing was learned from it, the mask is empty
 };
 const char* toString(SegmentationStatus status);
 
@@ -27,27 +28,20 @@ const char* toString(SegmentationStatus status);
 struct SegmentationInput {
   int64_t utime_previous = 0;
   int64_t utime = 0;
-  cv::Mat grey;                                 ///< 8-bit
-  std::optional<Eigen::Matrix3d> ground;        ///< homography previous to current
-  std::optional<Eigen::Matrix3d> front;         ///< the second plane's; nothing where there is none
-  std::optional<PlaneMotion> motion;            ///< of the camera, where an IMU tells: rotation, translation, plane
-  PointTracks tracks;                           ///< sample points, for the flow's entropy
-};
-
-struct Detection {
-  int id = 0;              ///< identity: the same object keeps it, through missed frames and stops
-  cv::Rect box;            ///< px
-  double area_px = 0;      ///< of its mask
-  double score = 0;        ///< mean P_FG over its mask, 0..1
-  bool seen = true;        ///< false: carried by the tracker through a frame in which it did not stand out
+  cv::Mat grey;                                     ///< 8-bit
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix, for `motion`
+  std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current
+  std::optional<Eigen::Matrix3d> front;             ///< the second plane's; nothing where there is none
+  std::optional<PlaneMotion> motion;  ///< of the camera, where an IMU tells: rotation, translation, plane
+  PointTracks tracks;                 ///< sample points, for the flow's entropy
 };
 
 struct SegmentationOutput {
   int64_t utime = 0;
   SegmentationStatus status = SegmentationStatus::kLearning;
-  cv::Mat probability;     ///< CV_8U, P_FG * 255
-  cv::Mat mask;            ///< CV_8U, 0 or 255
-  cv::Mat unknown;         ///< CV_8U, 255 where the background has not been seen yet (there the mask is 0)
+  cv::Mat probability;  ///< CV_8U, P_FG * 255
+  cv::Mat mask;         ///< CV_8U, 0 or 255
+  cv::Mat unknown;      ///< CV_8U, 255 where the background has not been seen yet (there the mask is 0)
   std::vector<Detection> detections;
 };
 
@@ -56,8 +50,8 @@ class MotionSegmenter {
   explicit MotionSegmenter(const SegmentationParameters& parameters);
   ~MotionSegmenter();
 
-  /// Frames in order of time. A gap in utime_previous / utime, a repeated or earlier frame, or a change of size starts the
-  /// background anew (and says so in the status); identities survive what they can.
+  /// Frames in order of time. A gap in utime_previous / utime, a repeated or earlier frame, or a change of
+  /// size starts the background anew (and says so in the status); identities survive what they can.
   SegmentationOutput step(const SegmentationInput& input);
 
  private:

@@ -13,23 +13,25 @@ namespace redbee::simulation {
 
 struct ImuSimulatorParameters {
   double rate_hz = 400;
-  ImuNoise noise;                                         ///< set every density to zero for a perfect IMU
-  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();    ///< rad/s at the start
-  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();   ///< m/s^2 at the start
+  ImuNoise noise;                                        ///< set every density to zero for a perfect IMU
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   ///< rad/s at the start
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  ///< m/s^2 at the start
   double gravity = 9.81;
   unsigned seed = 1;
 };
 
 /// Samples on [begin_s, end_s] of the trajectory's time. utime = start_utime + t.
-std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s, double end_s, int64_t start_utime,
-                                   const ImuSimulatorParameters& parameters);
+std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s, double end_s,
+                                   int64_t start_utime, const ImuSimulatorParameters& parameters);
 
 /// Height of the camera above z = 0 with white noise.
-std::vector<AltitudeSample> simulateAltimeter(const Trajectory& trajectory, const InertialExtrinsics& extrinsics,
-                                              double begin_s, double end_s, int64_t start_utime, double rate_hz,
+std::vector<AltitudeSample> simulateAltimeter(const Trajectory& trajectory,
+                                              const InertialExtrinsics& extrinsics, double begin_s,
+                                              double end_s, int64_t start_utime, double rate_hz,
                                               double sigma_m, unsigned seed);
 
 /// Exact motion of the camera between two trajectory times (IMU clock) over the plane z = 0.
-PlaneMotion exactMotion(const Trajectory& trajectory, const InertialExtrinsics& extrinsics, double t_a, double t_b);
+PlaneMotion exactMotion(const Trajectory& trajectory, const InertialExtrinsics& extrinsics, double t_a,
+                        double t_b);
 
 }  // namespace redbee::simulation

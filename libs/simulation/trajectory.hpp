@@ -1,7 +1,9 @@
-// An analytic flight: position and attitude as sums of sinusoids, so that velocity, acceleration and angular rate are exact.
+// An analytic flight: position and attitude as sums of sinusoids, so that velocity, acceleration and angular
+// rate are exact.
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 namespace redbee::simulation {
@@ -20,14 +22,14 @@ struct Channel {
 };
 
 struct TrajectoryParameters {
-  Channel position[3];  ///< of the IMU in G [m]: x, y, z (up)
+  Channel position[3];        ///< of the IMU in G [m]: x, y, z (up)
   Channel yaw_pitch_roll[3];  ///< rad; R_GI = Rz(yaw) Ry(pitch) Rx(roll), IMU: x forward, y left, z up
 };
 
 struct TrajectoryState {
-  Eigen::Vector3d p_GI;     ///< m
-  Eigen::Vector3d v_GI;     ///< m/s
-  Eigen::Vector3d a_GI;     ///< m/s^2
+  Eigen::Vector3d p_GI;  ///< m
+  Eigen::Vector3d v_GI;  ///< m/s
+  Eigen::Vector3d a_GI;  ///< m/s^2
   Eigen::Matrix3d R_GI;
   Eigen::Vector3d omega_I;  ///< rad/s, of I against G, in I
 };
@@ -35,12 +37,14 @@ struct TrajectoryState {
 class Trajectory {
  public:
   explicit Trajectory(TrajectoryParameters parameters) : parameters_(std::move(parameters)) {}
+  /// State at this time [s]; any time, also negative.
   TrajectoryState at(double t_s) const;
 
-  /// Ordinary flight over the field: a few metres a second, gentle turns about all axes, `pitch_down_rad` of mean camera tilt
-  /// comes from the mounting, not from here. The same seed gives the same flight.
+  /// Ordinary flight along +x of G: one to three metres a second, turns within 10 degrees about all axes. The
+  /// mean tilt of the camera comes from its mounting (R_CI), not from here. The same seed gives the same
+  /// flight.
   static Trajectory ordinary(unsigned seed, double height_m);
-  /// Strong rotation about all axes over flat ground: what a calibration asks for.
+  /// Strong rotation about all axes (25 degrees, 0.3 to 1 Hz) over flat ground: what a calibration asks for.
   static Trajectory calibration(unsigned seed, double height_m);
 
  private:

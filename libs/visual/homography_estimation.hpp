@@ -13,43 +13,57 @@
 namespace redbee {
 
 struct RansacParameters {
-  double inlier_px = 1.0;       ///< px: transfer error below which a point follows the plane
+  double inlier_px = 1.0;  ///< px: transfer error below which a point follows the plane
   int max_iterations = 400;
-  double confidence = 0.999;    ///< of having drawn one clean sample
-  int min_inliers = 40;         ///< fewer is no plane
-  double min_inlier_share = 0.0;   ///< of all correspondences
-  double min_spread = 0.02;     ///< of the picture's area: what the inliers' grid cells must cover
-  uint32_t seed = 1;            ///< of the sampler: the same input gives the same output
+  double confidence = 0.999;      ///< of having drawn one clean sample
+  int min_inliers = 40;           ///< fewer is no plane
+  double min_inlier_share = 0.0;  ///< of all correspondences
+  double min_spread = 0.02;       ///< of the picture's area: what the inliers' grid cells must cover
+  uint32_t seed = 1;              ///< of the sampler: the same input gives the same output
 };
+
+/// Neighbouring patches overlap, share noise and bias (interpolation, compression, relief), and so err
+/// together; what the fit has swallowed of that does not show in its residuals. The covariance of independent
+/// errors is enlarged by this factor: about right (median normalised error at most that of chi-square with 8
+/// degrees of freedom) for rendered flights over flat ground. Relief and facades taken for ground are a bias
+/// that no residual shows: there it is still too small.
+inline constexpr double kCorrelationInflation = 6.0;
 
 struct HomographyEstimate {
-  Eigen::Matrix3d H;          ///< previous to current, ideal pixels, h33 = 1
-  Matrix8d covariance;        ///< of the scaled entries, from the inliers' residuals (noise variance times inverse information)
-  std::vector<uint8_t> inlier;   ///< per correspondence, 1 = follows the plane
+  Eigen::Matrix3d H;    ///< previous to current, ideal pixels, h33 = 1
+  Matrix8d covariance;  ///< of the scaled entries, from the inliers' residuals (noise variance times inverse
+                        ///< information)
+  std::vector<uint8_t> inlier;  ///< per correspondence, 1 = follows the plane
   int inliers = 0;
   int outliers = 0;
-  double rms_px = 0;          ///< of the inliers' transfer errors
+  double rms_px = 0;  ///< of the inliers' transfer errors
 };
 
-/// The plane with most inliers; nothing where no plane passes the minima. Least squares on the inliers by Gauss-Newton.
+/// The plane with most inliers; nothing where no plane passes the minima. Least squares on the inliers by
+/// Gauss-Newton.
 std::optional<HomographyEstimate> estimateHomography(const PointTracks& tracks, int width, int height,
                                                      const RansacParameters& parameters);
 
-/// The plane nearest to a predicted one: the points that agree with `prediction` within its own uncertainty (scaled
-/// covariance) plus inlier_px select the candidates, RANSAC among them the plane (method.md: "the ground is the plane whose
-/// homography agrees with H_I"). Inlier flags still speak of all tracks.
+/// The plane nearest to a predicted one: the points that agree with `prediction` within its own uncertainty
+/// (scaled covariance) plus inlier_px select the candidates, RANSAC among them the plane (method.md: "the
+/// ground is the plane whose homography agrees with H_I"). Inlier flags still speak of all tracks.
 std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& tracks, int width, int height,
                                                          const Eigen::Matrix3d& prediction,
                                                          const Matrix8d& prediction_covariance,
                                                          const RansacParameters& parameters);
 
-/// The second plane (method.md: front plane): RANSAC over the points that the ground homography does not explain.
+/// The second plane (method.md: front plane): RANSAC over the points that the ground homography does not
+/// explain.
 struct FrontPlaneParameters {
-  double ground_px = 1.5;       ///< px: a point within this of the ground homography belongs to the ground
+  double ground_px = 1.5;  ///< px: a point within this of the ground homography belongs to the ground
   RansacParameters ransac;
-  double min_separation_px = 0.5;  ///< px: a front plane whose motion differs less from the ground's, where its points are, is none
+  double min_separation_px =
+      0.5;  ///< px: a front plane whose motion differs less from the ground's, where its points are, is none
+  FrontPlaneParameters();  ///< stricter minima of share and spread than the ground's: the rest is mostly
+                           ///< outliers
 };
-std::optional<HomographyEstimate> estimateFrontPlane(const PointTracks& tracks, const Eigen::Matrix3d& ground, int width,
-                                                     int height, const FrontPlaneParameters& parameters);
+std::optional<HomographyEstimate> estimateFrontPlane(const PointTracks& tracks, const Eigen::Matrix3d& ground,
+                                                     int width, int height,
+                                                     const FrontPlaneParameters& parameters);
 
 }  // namespace redbee

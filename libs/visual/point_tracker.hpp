@@ -10,14 +10,15 @@
 namespace redbee {
 
 struct TrackerParameters {
-  int grid_px = 16;                 ///< px between sample points, both ways (paper: 16)
-  int window_px = 13;               ///< px, odd: side of the patch that is followed
-  int levels = 3;                   ///< pyramid levels, 1 = the picture alone
-  int iterations = 12;              ///< at most, per level
-  double epsilon_px = 0.02;         ///< px: a smaller step ends the iteration
-  double min_eigenvalue = 8.0;      ///< grey levels^2 per pixel: smallest eigenvalue of the mean gradient matrix that is texture
+  int grid_px = 16;          ///< px between sample points, both ways (paper: 16)
+  int window_px = 13;        ///< px, odd: side of the patch that is followed
+  int levels = 3;            ///< pyramid levels, 1 = the picture alone
+  int iterations = 12;       ///< at most, per level
+  double epsilon_px = 0.02;  ///< px: a smaller step ends the iteration
+  double min_eigenvalue =
+      1.5;  ///< grey levels^2 per px: smaller eigenvalue of the mean gradient matrix; texture
   double max_forward_backward_px = 0.7;  ///< px: a point tracked there and back must return this close
-  double max_residual = 25.0;       ///< grey levels: mean absolute difference of the two patches
+  double max_residual = 25.0;            ///< grey levels: mean absolute difference of the two patches
 };
 
 /// Correspondences between two frames, ideal pixels. All arrays have the same length.
@@ -33,9 +34,13 @@ class PointTracker {
   explicit PointTracker(const TrackerParameters& parameters);
   ~PointTracker();
 
-  /// Tracks the grid of the previous picture into this one, `guess` (previous to current, ideal pixels) as the starting point.
-  /// Empty on the first picture and after a change of size.
+  /// Tracks the grid of the previous picture into this one, `guess` (previous to current, ideal pixels) as
+  /// the starting point. Empty on the first picture and after a change of size. Without a guess the shift of
+  /// the picture as a whole serves. Throws std::invalid_argument for a picture that is empty or not 8-bit
+  /// grey.
   PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess);
+  /// Grid points of a picture with texture enough to be followed; changes nothing.
+  int texturedPoints(const cv::Mat& grey);
   void reset();
 
  private:

@@ -14,14 +14,18 @@ struct VisualParameters {
   TrackerParameters tracker;
   RansacParameters ransac;
   double max_frame_gap_s = 0.5;  ///< s: frames further apart than this are not tracked into each other
-  double min_sharpness = 0.0;    ///< mean squared gradient [grey levels^2] below which a picture is blank, black or blurred
+  double min_sharpness =
+      0.0;  ///< mean squared gradient [grey levels^2] below which a picture is blank, black or blurred
+  double min_sharpness_share =
+      0.15;  ///< of the sharpness of the frame tracked from, below which a picture is blurred
 };
 
 enum class VisualStatus {
   kGood,
-  kFirstFrame,   ///< nothing to track from: the first frame, after a gap, a repeated or earlier time, or a change of size
-  kNoTexture,    ///< blank, black or blurred: too few points can be tracked
-  kNoPlane,      ///< points were tracked and no plane explains enough of them
+  kFirstFrame,  ///< nothing to track from: the first frame, after a gap, a repeated or earlier time, or a
+                ///< change of size
+  kNoTexture,   ///< blank, black or blurred: too few points can be tracked
+  kNoPlane,     ///< points were tracked and no plane explains enough of them
 };
 const char* toString(VisualStatus status);
 
@@ -46,14 +50,25 @@ class VisualHomographyEstimator {
   /// Time of the frame that the next one is tracked from; nothing before the first.
   std::optional<int64_t> previousTime() const { return previous_utime_; }
 
-  /// `grey`: 8-bit, undistorted.
-  VisualHomography step(int64_t utime, const cv::Mat& grey, const std::optional<HomographyPrediction>& prediction);
+  /// `grey`: 8-bit, undistorted; anything else throws std::invalid_argument. A blank or blurred frame
+  /// (kNoTexture) is passed over: the next one is tracked from the last good frame, as long as that is not
+  /// older than max_frame_gap_s, so `prediction` starts at previousTime(). A time that does not move forward
+  /// starts anew from this frame.
+  VisualHomography step(int64_t utime, const cv::Mat& grey,
+                        const std::optional<HomographyPrediction>& prediction);
 
  private:
+  void forgetReference();
+  void adopt(int64_t utime, const cv::Mat& grey, double sharpness);
+  bool isBlind(const cv::Mat& grey, double sharpness);
+  std::optional<HomographyEstimate> estimateGround(
+      const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const;
+
   VisualParameters parameters_;
   PointTracker tracker_;
   std::optional<int64_t> previous_utime_;
   cv::Size size_;
+  double reference_sharpness_ = 0;  ///< of the frame tracked from; 0 where there is none
 };
 
 }  // namespace redbee

@@ -1,0 +1,158 @@
+#include "calibration/calibration.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/diagnostics.hpp"
+#include "calibration/flight_solution.hpp"
+#include "calibration/recording.hpp"
+#include "calibration/split_half.hpp"
+#include "calibration/verdict_table.hpp"
+#include "geometry/so3.hpp"
+
+namespace redbee::calibration {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+/// Closed forms that are less certain than this are no starting point.
+constexpr double kAcceptedHandEyeSigma_rad = 3.0 * kDegree;
+constexpr double kAcceptedCorrelation = 0.5;
+
+JointPriors priorsFor(const CalibrationInput& input, const Mounting& mounting) {
+  JointPriors priors;
+  priors.q_CI = Eigen::Quaterniond(mounting.R_CI);
+  priors.rotation_sigma_rad = 5.0 * kDegree;
+  priors.p_IC = input.nominal.p_IC;
+  priors.p_IC_sigma_m = 0.05;
+  priors.timeshift_s = input.nominal.timeshift_s;
+  priors.timeshift_sigma_s = 0.03;
+  priors.gyro_bias_sigma = input.gyro_bias_sigma;
+  priors.accel_bias_sigma = input.accel_bias_sigma;
+  priors.tilt_sigma_rad = 3.0 * kDegree;
+  priors.height_m = input.nominal.start_height_m;
+  return priors;
+}
+
+/// What the rotations show, and the nominal values for what they do not.
+Mounting mountingFrom(const RotationAlignment& alignment, const CalibrationInput& input) {
+  Mounting mounting;
+  mounting.R_CI = input.nominal.R_CI;
+  mounting.p_IC = input.nominal.p_IC;
+  mounting.timeshift_s = input.nominal.timeshift_s;
+  if (!alignment.possible || alignment.correlation < kAcceptedCorrelation) return mounting;
+  mounting.timeshift_s = alignment.timeshift_s;
+  if (alignment.hand_eye.sigma.maxCoeff() > kAcceptedHandEyeSigma_rad) return mounting;
+  mounting.R_CI = alignment.hand_eye.R_CI;
+  mounting.gyro_bias = alignment.hand_eye.gyro_bias;
+  return mounting;
+}
+
+void fillValues(CalibrationResult& result, const FlightSolution& solution, const CalibrationInput& input) {
+  const JointState& state = solution.state;
+  CalibratedValues& values = result.values;
+  values.nominal = input.nominal;
+  values.estimated.R_CI = state.q_CI.toRotationMatrix();
+  values.estimated.p_IC = state.p_IC;
+  values.estimated.timeshift_s = state.timeshift_s;
+  if (input.target.empty()) {
+    values.estimated.start_height_m = cameraHeight(state, 0);
+    values.estimated.start_height_sigma_m = std::sqrt(solution.analysis.covariance.first_height);
+  } else {
+    values.estimated.start_height_m = input.nominal.start_height_m;
+    values.estimated.start_height_sigma_m = input.nominal.start_height_sigma_m;
+  }
+  values.gyro_bias = state.biases.front().gyro;
+  values.accel_bias = state.biases.front().accel;
+  values.tilt_rad = state.tilt;
+}
+
+void fillExcitation(CalibrationResult& result, const FlightSolution& solution, const RotationAlignment& alignment) {
+  Excitation& excitation = result.excitation;
+  excitation.rotation = alignment.hand_eye.excitation;
+  excitation.rotation_correlation = alignment.correlation;
+  excitation.acceleration = accelerationExcitation(solution.state);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(solution.analysis.covariance.rotation);
+  excitation.rotation_sigmas = eigen.eigenvalues().cwiseMax(0).cwiseSqrt().reverse();
+  result.values.rotation_sigma_rad = excitation.rotation_sigmas(0);
+}
+
+void fillFit(CalibrationResult& result, const FlightSolution& solution, const Recording& recording,
+             const CalibrationInput& input) {
+  result.vision_sigma_scale = std::sqrt(solution.input.vision_variance_scale);
+  result.imu_sigma_scale = std::sqrt(solution.input.imu_variance_scale);
+  result.frames = static_cast<int>(recording.t_cam_s.size());
+  result.frames_given = static_cast<int>(input.frames.size());
+  result.duration_s = recording.t_cam_s.back() - recording.t_cam_s.front();
+  double squares = 0, count = 0;
+  for (const GroundHomography& ground : solution.input.ground) {
+    squares += ground.points * ground.rms_px * ground.rms_px;
+    count += ground.points;
+  }
+  for (const TargetPose& pose : solution.input.target) {
+    squares += pose.rms_px * pose.rms_px;
+    count += 1;
+  }
+  result.points_rms_px = count > 0 ? std::sqrt(squares / count) : 0.0;
+  result.measurements = static_cast<int>(solution.input.ground.size() + solution.input.target.size());
+}
+
+void addWarnings(CalibrationResult& result) {
+  if (result.frames < result.frames_given) {
+    result.warnings.push_back("used " + std::to_string(result.frames) + " of " + std::to_string(result.frames_given) +
+                              " frames: the IMU does not cover the others without a hole");
+  }
+  if (2 * result.measurements < result.frames) {
+    result.warnings.push_back("only " + std::to_string(result.measurements) + " measurements in " +
+                              std::to_string(result.frames) + " frames: little texture, or little ground in view");
+  }
+  if (result.imu_sigma_scale > 3) {
+    result.warnings.push_back("the IMU is noisier than its densities say, by " +
+                              std::to_string(static_cast<int>(std::lround(result.imu_sigma_scale))) + " times");
+  }
+  for (const SplitHalfEntry& entry : result.split_half) {
+    if (entry.ratio() <= 4) continue;
+    result.warnings.push_back("the two halves of the recording disagree about " + entry.name);
+  }
+}
+
+}  // namespace
+
+const ParameterReport& CalibrationResult::parameter(const std::string& name) const {
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const ParameterReport& report) { return report.name == name; });
+  if (found == parameters.end()) throw CalibrationError("no parameter " + name);
+  return *found;
+}
+
+CalibrationResult calibrate(const CalibrationInput& input, const std::function<void(double)>& progress) {
+  const auto done = [&](double share) {
+    if (progress) progress(share);
+  };
+  const Recording recording = prepareRecording(input);
+  done(0.2);
+  const RotationAlignment alignment = alignRotations(rotationsOf(recording), *recording.imu);
+  done(0.4);
+  const Mounting mounting = mountingFrom(alignment, input);
+  const JointPriors priors = priorsFor(input, mounting);
+  const FlightSolution solution = solveFlight(recording, input, mounting, priors, input.start_height);
+  if (!solution.usable) {
+    throw CalibrationError("the joint problem has no solution: the pictures and the IMU do not belong together");
+  }
+  done(0.7);
+
+  CalibrationResult result;
+  fillValues(result, solution, input);
+  fillExcitation(result, solution, alignment);
+  fillFit(result, solution, recording, input);
+  result.split_half = splitHalf(recording, input, solution);
+  done(0.95);
+  result.parameters = parameterReports(result, solution.analysis.covariance, input);
+  keepOrRefuse(result);
+  result.diagnostics = diagnose(solution, recording, input, alignment);
+  addWarnings(result);
+  return result;
+}
+
+}  // namespace redbee::calibration

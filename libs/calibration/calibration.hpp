@@ -1,0 +1,130 @@
+// Offline calibration of a camera on an IMU, from a flight over flat ground or from a known target.
+//
+// Estimated: R_CI, time shift, lever arm, gyro and accelerometer bias, and over ground the height at the first frame and the plane's tilt
+// against gravity. What the recording does not show is refused: it keeps its nominal value, and the verdict says so.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "calibration/rotation_alignment.hpp"
+#include "calibration/verdict.hpp"
+#include "geometry/camera.hpp"
+#include "inertial/imu.hpp"
+#include "visual/homography_estimation.hpp"
+#include "visual/point_tracker.hpp"
+
+namespace redbee::calibration {
+
+/// what() is one line: why nothing can be calibrated with this recording.
+class CalibrationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Points followed from frame a to frame b; ideal pixels; times of the camera clock [us].
+struct GroundMatch {
+  int64_t utime_a = 0;
+  int64_t utime_b = 0;
+  PointTracks points;
+};
+
+/// Corners of a known rigid target in one picture.
+struct TargetView {
+  int64_t utime = 0;                     ///< us, camera clock
+  std::vector<Eigen::Vector2d> pixels;   ///< raw
+  std::vector<Eigen::Vector3d> corners;  ///< m, in the target's frame
+};
+
+struct MeasuredHeight {
+  double height_m = 0;
+  double sigma_m = 0.02;
+};
+
+struct CalibrationInput {
+  CameraIntrinsics camera;
+  InertialExtrinsics nominal;      ///< a starting point for what the recording does not show
+  ImuNoise noise;
+  double gravity = 9.81;           ///< m/s^2
+  double gyro_bias_sigma = 0.01;   ///< rad/s, turn-on bias
+  double accel_bias_sigma = 0.15;  ///< m/s^2, turn-on bias
+  std::vector<ImuSample> imu;
+  std::vector<AltitudeSample> altimeter;       ///< may be empty
+  std::optional<MeasuredHeight> start_height;  ///< camera above ground at the first frame, measured by hand
+  std::vector<int64_t> frames;                 ///< times of all frames, us, camera clock
+  std::vector<GroundMatch> ground;             ///< either this
+  std::vector<TargetView> target;              ///< or this
+  RansacParameters ransac;
+};
+
+/// Nominal, estimated and kept values. `kept` has the estimated value of what was found or is weak, the nominal one of what was refused.
+struct CalibratedValues {
+  InertialExtrinsics nominal;
+  InertialExtrinsics estimated;
+  InertialExtrinsics kept;
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   ///< rad/s in I, at the start
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  ///< m/s^2 in I, at the start
+  Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();    ///< of the ground's normal, towards G's x and y
+  double rotation_sigma_rad = 0;                         ///< of R_CI, about its least certain axis
+};
+
+/// Difference of the two halves' estimates over its standard deviation.
+struct SplitHalfEntry {
+  std::string name;
+  std::string unit;
+  double difference = 0;  ///< largest over the parameter's entries
+  double sigma = 0;       ///< of that difference
+  double ratio() const { return sigma > 0 ? difference / sigma : 0; }
+};
+
+/// How the recording excites the parameters.
+struct Excitation {
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< rad/s, rms about the principal axes, descending
+  double rotation_correlation = 0;                     ///< of camera and gyro rates at the best time shift
+  double acceleration = 0;                             ///< m/s^2, rms of the drone's own (gravity taken off)
+  Eigen::Vector3d rotation_sigmas = Eigen::Vector3d::Zero();  ///< rad, of R_CI along its principal directions, descending
+};
+
+/// Series for the report's pictures.
+struct Diagnostics {
+  RotationAlignment alignment;
+  std::vector<double> pair_t_s;             ///< camera clock since the first frame
+  std::vector<double> pair_error_before_px; ///< mean transfer error of the predicted homography, nominal extrinsics
+  std::vector<double> pair_error_after_px;  ///< the same with the estimated ones
+  std::vector<Eigen::Vector2d> scatter_before_px;  ///< transfer errors of a sample of the points
+  std::vector<Eigen::Vector2d> scatter_after_px;
+  std::vector<double> bias_t_s;
+  std::vector<Eigen::Vector3d> gyro_bias;   ///< rad/s
+  std::vector<Eigen::Vector3d> accel_bias;  ///< m/s^2
+  std::vector<double> frame_t_s;
+  std::vector<double> height_m;             ///< camera above ground at each frame
+};
+
+struct CalibrationResult {
+  CalibratedValues values;
+  std::vector<ParameterReport> parameters;
+  std::vector<SplitHalfEntry> split_half;  ///< empty where a half is too short
+  Excitation excitation;
+  double vision_sigma_scale = 1;  ///< the homographies' stated deviations had to be multiplied by this
+  double imu_sigma_scale = 1;     ///< and the IMU's by this, for the residuals to be what they claim
+  int frames = 0;                 ///< used
+  int frames_given = 0;
+  int measurements = 0;           ///< homographies or target poses used
+  double duration_s = 0;
+  double points_rms_px = 0;       ///< of the points or corners about their homographies or poses
+  Diagnostics diagnostics;
+  std::vector<std::string> warnings;  ///< one line each
+
+  const ParameterReport& parameter(const std::string& name) const;
+};
+
+/// Throws CalibrationError where there is too little to work on: no IMU during the frames, too little texture, too few frames.
+/// `progress` is told the share that is done, 0 to 1.
+CalibrationResult calibrate(const CalibrationInput& input, const std::function<void(double)>& progress = {});
+
+}  // namespace redbee::calibration

@@ -1,0 +1,15 @@
+// Series for the report: what the solution explains, and what the nominal values would have.
+#pragma once
+
+#include "calibration/calibration.hpp"
+#include "calibration/flight_solution.hpp"
+
+namespace redbee::calibration {
+
+Diagnostics diagnose(const FlightSolution& solution, const Recording& recording, const CalibrationInput& input,
+                     const RotationAlignment& alignment);
+
+/// rms of the drone's own acceleration over the recording [m/s^2], from the change of the frames' velocities.
+double accelerationExcitation(const JointState& state);
+
+}  // namespace redbee::calibration

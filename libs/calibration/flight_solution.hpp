@@ -1,0 +1,21 @@
+// One recording, or a half of it, solved from first values to covariances.
+#pragma once
+
+#include "calibration/initial_trajectory.hpp"
+#include "calibration/joint_problem.hpp"
+#include "calibration/recording.hpp"
+
+namespace redbee::calibration {
+
+struct FlightSolution {
+  JointInput input;  ///< with the homographies that were kept, and the variance scales
+  JointState state;
+  JointAnalysis analysis;
+  bool usable = false;
+};
+
+/// Starts from `mounting`; `priors` are those of the joint problem, their height excepted, which is found, unless `start_height` is given.
+FlightSolution solveFlight(const Recording& recording, const CalibrationInput& input, const Mounting& mounting,
+                           const JointPriors& priors, const std::optional<MeasuredHeight>& start_height);
+
+}  // namespace redbee::calibration

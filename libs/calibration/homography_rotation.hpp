@@ -1,0 +1,21 @@
+// What a homography of an unknown plane says of the camera's rotation.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace redbee::calibration {
+
+/// Rotation of the camera between two frames a, b, as far as one homography shows it. All are rotation vectors
+/// [rad] of R_CaCb, in the camera frame.
+struct RotationCandidates {
+  /// Rotation nearest to K^-1 H K: off by half the cross product of translation / height and normal, but unique.
+  Eigen::Vector3d rough;
+  /// The physically possible rotations (Malis and Vargas 2007): up to two; one where the camera did not move.
+  std::vector<Eigen::Vector3d> exact;
+};
+
+/// H_ba in ideal pixels.
+RotationCandidates rotationsFromHomography(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_ba);
+
+}  // namespace redbee::calibration

@@ -1,0 +1,47 @@
+// The inputs of a calibration, brought onto one time scale and reduced to what the estimators take.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "calibration/imu_history.hpp"
+#include "calibration/joint_problem.hpp"
+#include "calibration/rotation_alignment.hpp"
+
+namespace redbee::calibration {
+
+/// Correspondences between two frames (indices), and their homography.
+struct IndexedMatch {
+  size_t a = 0;
+  size_t b = 0;
+  const PointTracks* points = nullptr;
+};
+
+/// Frames on which the IMU and vision overlap without a hole. Shares the IMU and the correspondences with the input.
+struct Recording {
+  std::shared_ptr<const ImuHistory> imu;
+  std::shared_ptr<const Camera> camera;
+  std::vector<double> t_cam_s;  ///< increasing, since the first frame of the input
+  std::vector<IndexedMatch> matches;
+  std::vector<GroundHomography> ground;
+  std::vector<TargetPose> target;
+  std::vector<HeightObservation> heights;
+
+  bool hasTarget() const { return !target.empty(); }
+};
+
+/// Throws CalibrationError where nothing can be calibrated with this.
+Recording prepareRecording(const CalibrationInput& input);
+/// Frames [begin, end) alone.
+Recording partOf(const Recording& whole, size_t begin, size_t end);
+/// The camera's rotation between frames, for alignRotations.
+std::vector<RotationObservation> rotationsOf(const Recording& recording);
+/// Homography with information of a match; nothing where no plane is found. `prediction`: take the plane near this one.
+std::optional<GroundHomography> groundHomography(const IndexedMatch& match, const CameraIntrinsics& camera,
+                                                 const RansacParameters& ransac,
+                                                 const std::optional<Eigen::Matrix3d>& prediction);
+
+}  // namespace redbee::calibration

@@ -1,0 +1,14 @@
+// The check that costs no theory: the two halves of a recording, each on its own, must agree.
+#pragma once
+
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "calibration/flight_solution.hpp"
+
+namespace redbee::calibration {
+
+/// Starts both halves at the whole's solution. Empty where a half is too short or not solvable.
+std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const CalibrationInput& input, const FlightSolution& whole);
+
+}  // namespace redbee::calibration

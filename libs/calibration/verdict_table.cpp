@@ -1,0 +1,136 @@
+#include "calibration/verdict_table.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "geometry/so3.hpp"
+
+namespace redbee::calibration {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
+
+template <typename Matrix>
+double worstSigma(const Matrix& covariance) {
+  return std::sqrt(std::max(Eigen::SelfAdjointEigenSolver<Matrix>(covariance).eigenvalues().maxCoeff(), 0.0));
+}
+
+template <typename Matrix>
+ParameterReport vectorReport(const std::string& name, const std::string& unit, const Eigen::VectorXd& value,
+                             const Eigen::VectorXd& nominal, const Matrix& covariance, double scale) {
+  ParameterReport report;
+  report.name = name;
+  report.unit = unit;
+  report.value = list(scale * value);
+  report.nominal = list(scale * nominal);
+  report.sigma = list(scale * covariance.diagonal().cwiseMax(0).cwiseSqrt());
+  report.worst_sigma = scale * worstSigma(covariance);
+  return report;
+}
+
+ParameterReport rotationReport(const CalibratedValues& values, const JointCovariance& covariance) {
+  const Eigen::Vector3d turn = logSO3(values.estimated.R_CI * values.nominal.R_CI.transpose());
+  auto report = vectorReport("camera.R_CI", "deg", turn, Eigen::Vector3d::Zero(), covariance.rotation, 1 / kDegree);
+  report.found_below = 0.1;
+  report.weak_below = 1.0;
+  judge(report, "rotation about at least two axes");
+  return report;
+}
+
+ParameterReport timeshiftReport(const CalibratedValues& values, const JointCovariance& covariance) {
+  using Matrix1d = Eigen::Matrix<double, 1, 1>;
+  auto report = vectorReport("camera.timeshift_s", "s", Matrix1d(values.estimated.timeshift_s),
+                             Matrix1d(values.nominal.timeshift_s), Matrix1d(covariance.timeshift), 1);
+  report.found_below = 0.001;
+  report.weak_below = 0.005;
+  judge(report, "quick changes of the turning rate");
+  return report;
+}
+
+ParameterReport leverArmReport(const CalibratedValues& values, const JointCovariance& covariance) {
+  auto report = vectorReport("camera.p_IC", "m", values.estimated.p_IC, values.nominal.p_IC, covariance.p_IC, 1);
+  report.found_below = 0.01;
+  report.weak_below = 0.03;
+  judge(report, "strong rotation close to the ground");
+  return report;
+}
+
+/// worst_sigma is relative to the height.
+ParameterReport heightReport(const CalibratedValues& values, const JointCovariance& covariance, bool applies) {
+  using Matrix1d = Eigen::Matrix<double, 1, 1>;
+  auto report = vectorReport("plane.height_m", "m", Matrix1d(values.estimated.start_height_m),
+                             Matrix1d(values.nominal.start_height_m), Matrix1d(covariance.first_height), 1);
+  if (!applies) {
+    report.verdict = Verdict::kNotApplicable;
+    report.words = "no ground in a recording of a target";
+    return report;
+  }
+  report.worst_sigma /= values.estimated.start_height_m;
+  report.found_below = 0.02;
+  report.weak_below = 0.1;
+  report.unit = "of the height";
+  judge(report, "acceleration, an altimeter or a measured height (--height)");
+  report.unit = "m";
+  return report;
+}
+
+ParameterReport tiltReport(const CalibratedValues& values, const JointCovariance& covariance, bool applies) {
+  auto report = vectorReport("plane.tilt", "deg", values.tilt_rad, Eigen::Vector2d::Zero(), covariance.tilt, 1 / kDegree);
+  if (!applies) {
+    report.verdict = Verdict::kNotApplicable;
+    report.words = "no ground in a recording of a target";
+    return report;
+  }
+  report.found_below = 0.3;
+  report.weak_below = 1.0;
+  judge(report, "turns about the vertical, which tell a tilted ground from a biased accelerometer");
+  return report;
+}
+
+ParameterReport gyroBiasReport(const CalibratedValues& values, const JointCovariance& covariance) {
+  auto report = vectorReport("gyro_bias", "deg/s", values.gyro_bias, Eigen::Vector3d::Zero(), covariance.gyro_bias,
+                             1 / kDegree);
+  report.found_below = 0.05;
+  report.weak_below = 0.25;
+  judge(report, "texture and time");
+  return report;
+}
+
+ParameterReport accelBiasReport(const CalibratedValues& values, const JointCovariance& covariance) {
+  auto report = vectorReport("accel_bias", "m/s^2", values.accel_bias, Eigen::Vector3d::Zero(), covariance.accel_bias, 1);
+  report.found_below = 0.03;
+  report.weak_below = 0.1;
+  judge(report, "rotation against gravity");
+  return report;
+}
+
+}  // namespace
+
+std::vector<ParameterReport> parameterReports(const CalibrationResult& result, const JointCovariance& covariance,
+                                              const CalibrationInput& input) {
+  const bool ground = input.target.empty();
+  return {rotationReport(result.values, covariance),       timeshiftReport(result.values, covariance),
+          leverArmReport(result.values, covariance),       heightReport(result.values, covariance, ground),
+          tiltReport(result.values, covariance, ground),   gyroBiasReport(result.values, covariance),
+          accelBiasReport(result.values, covariance)};
+}
+
+void keepOrRefuse(CalibrationResult& result) {
+  const auto estimated = [&](const char* name) {
+    const Verdict verdict = result.parameter(name).verdict;
+    return verdict == Verdict::kFound || verdict == Verdict::kWeak;
+  };
+  CalibratedValues& values = result.values;
+  values.kept = values.nominal;
+  if (estimated("camera.R_CI")) values.kept.R_CI = values.estimated.R_CI;
+  if (estimated("camera.timeshift_s")) values.kept.timeshift_s = values.estimated.timeshift_s;
+  if (estimated("camera.p_IC")) values.kept.p_IC = values.estimated.p_IC;
+  if (estimated("plane.height_m")) {
+    values.kept.start_height_m = values.estimated.start_height_m;
+    values.kept.start_height_sigma_m = values.estimated.start_height_sigma_m;
+  }
+}
+
+}  // namespace redbee::calibration

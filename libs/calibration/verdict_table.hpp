@@ -1,0 +1,18 @@
+// The table of parameters: estimates, deviations, limits, verdicts.
+#pragma once
+
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "calibration/joint_problem.hpp"
+
+namespace redbee::calibration {
+
+/// All parameters in the order of the report, judged.
+std::vector<ParameterReport> parameterReports(const CalibrationResult& result, const JointCovariance& covariance,
+                                              const CalibrationInput& input);
+
+/// Fills result.values.kept according to the verdicts.
+void keepOrRefuse(CalibrationResult& result);
+
+}  // namespace redbee::calibration

@@ -1,0 +1,52 @@
+// Numbers out of CSV files, with the line in every complaint.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace redbee {
+
+/// Reads a CSV file row by row. Empty lines and lines that start with '#' (the ASL layout's headers) are
+/// passed over.
+class CsvReader {
+ public:
+  /// Throws InputError where the file is missing.
+  explicit CsvReader(std::filesystem::path path);
+
+  /// False at the end. Throws InputError where the row has not `columns` fields (0: any number).
+  bool next(size_t columns);
+  const std::vector<std::string>& fields() const { return fields_; }
+  /// The field as a finite number / as an integer; InputError with file and line otherwise.
+  double number(size_t column) const;
+  int64_t integer(size_t column) const;
+  int line() const { return line_; }
+  const std::filesystem::path& path() const { return path_; }
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::vector<std::string> fields_;
+  int line_ = 0;
+};
+
+/// Refuses times that run backwards or repeat.
+class IncreasingTimes {
+ public:
+  void check(const CsvReader& csv, int64_t utime);
+
+ private:
+  bool any_ = false;
+  int64_t last_ = 0;
+};
+
+/// ns to us, to the nearest: stamps of 24 and 20 Hz are no whole microseconds, and cutting them off would
+/// move every frame by half a microsecond on average against IMU stamps that are whole.
+constexpr int64_t microseconds(int64_t nanoseconds) {
+  return (nanoseconds >= 0 ? nanoseconds + 500 : nanoseconds - 500) / 1000;
+}
+
+}  // namespace redbee

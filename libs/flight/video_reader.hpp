@@ -1,0 +1,51 @@
+// Frames of a video file in the order of their times, and the packets of a data track beside them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace redbee {
+
+struct VideoFrame {
+  int64_t utime = 0;  ///< us, on the video's clock (presentation time)
+  cv::Mat picture;    ///< 8-bit, grey or BGR as asked for
+};
+
+/// A packet of a data track.
+struct DataPacket {
+  double start_s = 0;  ///< on the video's clock
+  double duration_s = 0;
+  std::vector<uint8_t> bytes;
+};
+
+struct VideoReaderOptions {
+  int width = 0;      ///< px, of the frames given out, the height keeps the aspect; both even. 0: as recorded
+  bool grey = false;  ///< luma only; false: BGR
+};
+
+/// Throws InputError: no video stream, no frames, a file cut short (naming the last good frame), times that
+/// do not increase.
+class VideoReader {
+ public:
+  VideoReader(const std::filesystem::path& path, const VideoReaderOptions& options);
+  ~VideoReader();
+
+  std::optional<VideoFrame> next();
+  /// As the container says; 0 where it does not.
+  int64_t expectedFrames() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// All packets of the data track with this four-letter tag ("gpmd"); empty where there is no such track.
+/// Throws InputError where the file is no container or is cut short.
+std::vector<DataPacket> readDataTrack(const std::filesystem::path& path, const std::string& tag);
+
+}  // namespace redbee

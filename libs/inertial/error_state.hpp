@@ -1,0 +1,75 @@
+// The inertial filter's state, its error, and how both move with the IMU.
+//
+// Rotations carry their error on the right: R_true = R exp(error); the camera's mounting on the left:
+// R_CI_true = exp(error) R_CI. Everything else adds.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "inertial/imu.hpp"
+#include "inertial/imu_buffer.hpp"
+
+namespace redbee {
+
+/// Where each part of the error lies in its vector.
+enum ErrorIndex {
+  kAttitude = 0,        ///< rad, in I
+  kPosition = 3,        ///< m, in G
+  kVelocity = 6,        ///< m/s, in G
+  kGyroBias = 9,        ///< rad/s
+  kAccelBias = 12,      ///< m/s^2
+  kCloneAttitude = 15,  ///< rad, in I at the previous frame
+  kClonePosition = 18,  ///< m, in G
+  kMounting = 21,       ///< rad, in C: what the calibration of R_CI left open
+  kErrorSize = 24,
+};
+using ErrorCovariance = Eigen::Matrix<double, kErrorSize, kErrorSize>;
+using ErrorVector = Eigen::Matrix<double, kErrorSize, 1>;
+template <int kRows>
+using MeasurementJacobian = Eigen::Matrix<double, kRows, kErrorSize>;
+
+struct NavigationState {
+  Eigen::Matrix3d R_GI;
+  Eigen::Vector3d p_GI;  ///< m; horizontally only its difference to the clone's means anything
+  Eigen::Vector3d v_GI;  ///< m/s
+  Eigen::Vector3d gyro_bias;
+  Eigen::Vector3d accel_bias;
+  Eigen::Matrix3d R_GI_clone;  ///< at the previous frame
+  Eigen::Vector3d p_GI_clone;
+  Eigen::Matrix3d R_CI;
+  ErrorCovariance P;
+};
+
+struct PropagationParameters {
+  ImuNoise noise;
+  double gravity;    ///< m/s^2
+  double max_gap_s;  ///< a step inside a longer hole is a guess
+};
+
+/// Integrates from one knot to the next: second order in the step, so that vibration of the airframe, a
+/// quarter of the sampling rate and more, does not pump the velocity.
+void propagate(NavigationState& state, const ImuKnot& from, const ImuKnot& to,
+               const PropagationParameters& parameters);
+
+/// Makes the present pose the clone, and the place on the ground below it the origin of G.
+void clonePose(NavigationState& state);
+
+/// Adds an estimated error to the state.
+void addError(NavigationState& state, const ErrorVector& error);
+
+/// Kalman update in Joseph's form. `innovation` = measured - predicted; S_inverse of its covariance H P H' +
+/// R.
+template <int kRows>
+void update(NavigationState& state, const MeasurementJacobian<kRows>& H,
+            const Eigen::Matrix<double, kRows, 1>& innovation, const Eigen::Matrix<double, kRows, kRows>& R,
+            const Eigen::Matrix<double, kRows, kRows>& S_inverse) {
+  const Eigen::Matrix<double, kErrorSize, kRows> gain = state.P * H.transpose() * S_inverse;
+  const ErrorCovariance rest = ErrorCovariance::Identity() - gain * H;
+  const ErrorCovariance P = rest * state.P * rest.transpose() + gain * R * gain.transpose();
+  state.P = 0.5 * (P + P.transpose());
+  addError(state, gain * innovation);
+}
+
+bool isSound(const NavigationState& state);
+
+}  // namespace redbee

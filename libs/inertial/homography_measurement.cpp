@@ -1,0 +1,89 @@
+#include "inertial/homography_measurement.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/so3.hpp"
+
+namespace redbee {
+namespace {
+
+/// Covariance of (translation error) (normal error)' / h in the homography's entries, the two taken as
+/// independent: the sum over their principal axes.
+Matrix8d productCovariance(const Eigen::Matrix3d& K, const PlaneMotion& motion,
+                           const Eigen::Matrix3d& translation, const Eigen::Matrix3d& normal) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shifts(translation);
+  Matrix8d sum = Matrix8d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    PlaneMotion shifted = motion;
+    shifted.t_ba = std::sqrt(std::max(0.0, shifts.eigenvalues()(i))) * shifts.eigenvectors().col(i);
+    const Eigen::Matrix<double, 8, 3> by_normal = planeHomographyJacobians(K, shifted).by_normal;
+    sum += by_normal * normal * by_normal.transpose();
+  }
+  return sum;
+}
+
+}  // namespace
+
+PlaneMotion cameraMotion(const NavigationState& state, const Eigen::Vector3d& p_IC) {
+  const Eigen::Matrix3d R_CbG = state.R_CI * state.R_GI.transpose();
+  const Eigen::Matrix3d R_CaG = state.R_CI * state.R_GI_clone.transpose();
+  const Eigen::Vector3d p_GCa = state.p_GI_clone + state.R_GI_clone * p_IC;
+  const Eigen::Vector3d p_GCb = state.p_GI + state.R_GI * p_IC;
+  return {R_CbG * R_CaG.transpose(), R_CbG * (p_GCa - p_GCb), -R_CaG.col(2), p_GCa.z()};
+}
+
+MotionJacobians motionJacobians(const NavigationState& state, const PlaneMotion& motion,
+                                const Eigen::Vector3d& p_IC) {
+  const Eigen::Matrix3d R_CbG = state.R_CI * state.R_GI.transpose();
+  const Eigen::Matrix3d lever_a = -state.R_GI_clone * skew(p_IC);  // camera centre a by the clone's attitude
+  const Eigen::Vector3d a_in_b =
+      state.R_GI.transpose() * (state.p_GI_clone + state.R_GI_clone * p_IC - state.p_GI);
+  MotionJacobians J;
+  J.rotation.setZero();
+  J.rotation.middleCols<3>(kAttitude) = -state.R_CI;
+  J.rotation.middleCols<3>(kCloneAttitude) = motion.R_ba * state.R_CI;
+  J.rotation.middleCols<3>(kMounting) = Eigen::Matrix3d::Identity() - motion.R_ba;
+  J.translation.setZero();
+  J.translation.middleCols<3>(kAttitude) = state.R_CI * skew(a_in_b);
+  J.translation.middleCols<3>(kPosition) = -R_CbG;
+  J.translation.middleCols<3>(kCloneAttitude) = R_CbG * lever_a;
+  J.translation.middleCols<3>(kClonePosition) = R_CbG;
+  J.translation.middleCols<3>(kMounting) = -skew(motion.t_ba);
+  J.normal.setZero();
+  J.normal.middleCols<3>(kCloneAttitude) = -state.R_CI;
+  J.normal.middleCols<3>(kMounting).setIdentity();
+  J.height.setZero();
+  J.height.middleCols<3>(kCloneAttitude) = lever_a.row(2);
+  J.height(kClonePosition + 2) = 1;
+  return J;
+}
+
+HomographyMeasurement homographyMeasurement(const NavigationState& state, const PlaneMotion& motion,
+                                            const MotionJacobians& jacobians,
+                                            const Eigen::Matrix3d& K_scaled) {
+  const PlaneHomographyJacobians by = planeHomographyJacobians(K_scaled, motion);
+  HomographyMeasurement z;
+  z.predicted = toVector(planeHomography(K_scaled, motion));
+  z.jacobian = by.by_rotation * jacobians.rotation + by.by_translation * jacobians.translation +
+               by.by_normal * jacobians.normal + by.by_height * jacobians.height;
+  z.linear_covariance = z.jacobian * state.P * z.jacobian.transpose();
+  z.second_order_covariance =
+      productCovariance(K_scaled, motion, jacobians.translation * state.P * jacobians.translation.transpose(),
+                        jacobians.normal * state.P * jacobians.normal.transpose());
+  return z;
+}
+
+double cameraHeight(const NavigationState& state, const Eigen::Vector3d& p_IC) {
+  return state.p_GI.z() + state.R_GI.row(2) * p_IC;
+}
+
+MeasurementJacobian<1> cameraHeightJacobian(const NavigationState& state, const Eigen::Vector3d& p_IC) {
+  MeasurementJacobian<1> J = MeasurementJacobian<1>::Zero();
+  J.middleCols<3>(kAttitude) = -state.R_GI.row(2) * skew(p_IC);
+  J(kPosition + 2) = 1;
+  return J;
+}
+
+}  // namespace redbee

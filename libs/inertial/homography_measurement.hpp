@@ -1,0 +1,43 @@
+// The ground's homography between the clone's frame and the present one, as a function of the filter's state.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "geometry/homography.hpp"
+#include "inertial/error_state.hpp"
+
+namespace redbee {
+
+/// Motion of the camera from the clone to the present pose; p_IC is the camera centre in I [m].
+PlaneMotion cameraMotion(const NavigationState& state, const Eigen::Vector3d& p_IC);
+
+/// Derivatives of the parts of a motion by the error state; rotation and normal by left perturbations.
+struct MotionJacobians {
+  MeasurementJacobian<3> rotation;
+  MeasurementJacobian<3> translation;
+  MeasurementJacobian<3> normal;
+  MeasurementJacobian<1> height;
+};
+MotionJacobians motionJacobians(const NavigationState& state, const PlaneMotion& motion,
+                                const Eigen::Vector3d& p_IC);
+
+/// The scaled homography's eight entries as a measurement.
+struct HomographyMeasurement {
+  Vector8d predicted;
+  MeasurementJacobian<8> jacobian;
+  Matrix8d linear_covariance;  ///< J P J'
+  /// Of the product of the translation's and the normal's errors. It is small beside J P J' but for a drone
+  /// of unknown velocity: there t = 0, J knows nothing of the normal, and without this term the filter would
+  /// be far too sure.
+  Matrix8d second_order_covariance;
+};
+/// `K_scaled`: T K, the camera matrix with the image scaling in front.
+HomographyMeasurement homographyMeasurement(const NavigationState& state, const PlaneMotion& motion,
+                                            const MotionJacobians& jacobians,
+                                            const Eigen::Matrix3d& K_scaled);
+
+/// Height of the camera above the ground [m], and its derivative by the error state.
+double cameraHeight(const NavigationState& state, const Eigen::Vector3d& p_IC);
+MeasurementJacobian<1> cameraHeightJacobian(const NavigationState& state, const Eigen::Vector3d& p_IC);
+
+}  // namespace redbee

@@ -1,0 +1,58 @@
+// IMU samples in the order of their own times, whatever order they came in.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "inertial/imu.hpp"
+
+namespace redbee {
+
+/// Times beyond this [us] are damaged; within it, differences cannot overflow.
+constexpr int64_t kMaxUtime = 4'000'000'000'000'000'000;
+bool isPlausibleTime(int64_t utime);
+
+/// One end of an integration step.
+struct ImuKnot {
+  ImuSample sample;   ///< measured, or interpolated between its neighbours
+  double hole_s = 0;  ///< distance of the two measurements that enclose the step which ends here
+};
+
+/// The samples on [begin, end], the ends interpolated (held, where nothing lies beyond them).
+struct ImuSpan {
+  std::vector<ImuKnot> knots;  ///< the first at begin, the last at end
+  int measured = 0;            ///< samples on (begin, end]
+  double longest_hole_s = 0;   ///< over all steps
+  double extrapolated_s = 0;   ///< how far the ends reach beyond the first and last sample
+};
+
+/// Bounded: the oldest samples go when nobody takes them. A sample far from all others in time is believed
+/// when the next one confirms it: then the clock has jumped, and the samples of the old time are forgotten.
+class ImuBuffer {
+ public:
+  explicit ImuBuffer(double clock_jump_s) : clock_jump_us_(clock_jump_s * 1e6) {}
+
+  void add(const ImuSample& sample);
+  bool empty() const { return samples_.empty(); }
+  std::size_t size() const { return samples_.size(); }
+  /// Precondition of all below: not empty.
+  int64_t newest() const { return samples_.back().utime; }
+  ImuSpan span(int64_t begin, int64_t end) const;
+  /// Samples on [begin, end].
+  std::vector<ImuSample> samplesOn(int64_t begin, int64_t end) const;
+  /// Forgets what is not needed for spans that begin at `utime` or later.
+  void forgetBefore(int64_t utime);
+
+ private:
+  ImuSample at(int64_t utime) const;
+  bool isFar(int64_t a, int64_t b) const;
+  void insert(const ImuSample& sample);
+
+  double clock_jump_us_;
+  std::deque<ImuSample> samples_;
+  std::optional<ImuSample> suspect_;
+};
+
+}  // namespace redbee

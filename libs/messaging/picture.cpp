@@ -1,0 +1,129 @@
+#include "messaging/picture.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+namespace {
+
+constexpr int kMaxSide = 16384;
+
+bool plausibleSize(const image_t& message) {
+  return message.width > 0 && message.height > 0 && message.width <= kMaxSide && message.height <= kMaxSide &&
+         message.size >= 0 && static_cast<size_t>(message.size) == message.data.size();
+}
+
+std::optional<cv::Mat> decodeJpeg(const image_t& message, int flags) {
+  const auto declared = jpegSize(message.data.data(), message.data.size());
+  if (!declared || *declared != cv::Size(message.width, message.height)) return std::nullopt;
+  cv::Mat decoded = cv::imdecode(message.data, flags);
+  if (decoded.size() != *declared) return std::nullopt;
+  return decoded;
+}
+
+/// The message's bytes as a picture, without a copy.
+std::optional<cv::Mat> viewRaw(const image_t& message, int channels) {
+  const int64_t row = static_cast<int64_t>(message.width) * channels;
+  if (message.row_stride < row || static_cast<int64_t>(message.row_stride) * message.height != message.size) {
+    return std::nullopt;
+  }
+  // cv::Mat has no read-only view; the callers below only read.
+  auto* data = const_cast<uint8_t*>(message.data.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  return cv::Mat(message.height, message.width, CV_8UC(channels), data, static_cast<size_t>(message.row_stride));
+}
+
+std::optional<cv::Mat> convertRaw(const image_t& message, int channels, int code) {
+  const auto view = viewRaw(message, channels);
+  if (!view) return std::nullopt;
+  cv::Mat converted;
+  if (code < 0) {
+    view->copyTo(converted);
+  } else {
+    cv::cvtColor(*view, converted, code);
+  }
+  return converted;
+}
+
+}  // namespace
+
+std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size) {
+  if (size < 4 || data[0] != 0xFF || data[1] != 0xD8) return std::nullopt;
+  const auto big16 = [&](size_t at) { return data[at] << 8 | data[at + 1]; };
+  size_t at = 2;
+  while (at + 9 <= size && data[at] == 0xFF) {
+    const uint8_t marker = data[at + 1];
+    const bool is_frame_header =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (is_frame_header) return cv::Size(big16(at + 7), big16(at + 5));
+    at += marker == 0xFF ? 1 : 2 + static_cast<size_t>(big16(at + 2));
+  }
+  return std::nullopt;
+}
+
+std::optional<cv::Mat> decodeGrey(const image_t& message) {
+  if (!plausibleSize(message)) return std::nullopt;
+  switch (message.pixelformat) {
+    case kGray:
+      return convertRaw(message, 1, -1);
+    case kRgb:
+      return convertRaw(message, 3, cv::COLOR_RGB2GRAY);
+    case kBgr:
+      return convertRaw(message, 3, cv::COLOR_BGR2GRAY);
+    case kMjpeg:
+      return decodeJpeg(message, cv::IMREAD_GRAYSCALE);
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<cv::Mat> decodeColour(const image_t& message) {
+  if (!plausibleSize(message)) return std::nullopt;
+  switch (message.pixelformat) {
+    case kGray:
+      return convertRaw(message, 1, cv::COLOR_GRAY2BGR);
+    case kRgb:
+      return convertRaw(message, 3, cv::COLOR_RGB2BGR);
+    case kBgr:
+      return convertRaw(message, 3, -1);
+    case kMjpeg:
+      return decodeJpeg(message, cv::IMREAD_COLOR);
+    default:
+      return std::nullopt;
+  }
+}
+
+image_t rawGreyMessage(int64_t utime, const cv::Mat& grey) {
+  image_t message;
+  message.utime = utime;
+  message.width = grey.cols;
+  message.height = grey.rows;
+  message.row_stride = grey.cols;
+  message.pixelformat = kGray;
+  const cv::Mat whole = grey.isContinuous() ? grey : grey.clone();
+  message.data.assign(whole.data, whole.data + whole.total());
+  message.size = static_cast<int32_t>(message.data.size());
+  message.nmetadata = 0;
+  return message;
+}
+
+image_t jpegMessage(int64_t utime, const cv::Mat& picture, int quality) {
+  image_t message;
+  message.utime = utime;
+  message.width = picture.cols;
+  message.height = picture.rows;
+  message.row_stride = 0;
+  message.pixelformat = kMjpeg;
+  cv::imencode(".jpg", picture, message.data, {cv::IMWRITE_JPEG_QUALITY, quality});
+  message.size = static_cast<int32_t>(message.data.size());
+  message.nmetadata = 0;
+  return message;
+}
+
+std::vector<uint8_t> encodePng(const cv::Mat& map) {
+  std::vector<uint8_t> bytes;
+  cv::imencode(".png", map, bytes,
+               {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_RLE});
+  return bytes;
+}
+
+}  // namespace redbee

@@ -1,0 +1,36 @@
+// Pictures inside image_t messages.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "redbee/image_t.hpp"
+
+namespace redbee {
+
+/// bot_core's fourcc numbers.
+enum PixelFormat : int32_t {
+  kGray = 1497715271,
+  kRgb = 859981650,
+  kBgr = 861030210,
+  kMjpeg = 1196444237,
+};
+
+/// Width and height that a JPEG's header declares; nothing where there is no such header. Decodes nothing.
+std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size);
+
+/// The picture as 8-bit grey, or as BGR. Nothing where the message lies about its size or format, or is cut short: sizes are compared
+/// with the header's before anything is decoded.
+std::optional<cv::Mat> decodeGrey(const image_t& message);
+std::optional<cv::Mat> decodeColour(const image_t& message);
+
+image_t rawGreyMessage(int64_t utime, const cv::Mat& grey);
+/// `picture`: grey or BGR.
+image_t jpegMessage(int64_t utime, const cv::Mat& picture, int quality);
+
+/// 8-bit single-channel PNG, made for speed: maps with few values shrink to a few hundred bytes.
+std::vector<uint8_t> encodePng(const cv::Mat& map);
+
+}  // namespace redbee

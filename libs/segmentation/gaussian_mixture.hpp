@@ -1,0 +1,54 @@
+// A mixture of Gaussians of the grey value per pixel, the number of Gaussians found as it goes (Zivkovic,
+// "Improved adaptive Gaussian mixture model for background subtraction", ICPR 2004; the paper's [3]).
+//
+// Two departures. Each pixel has its own age, for pixels come into a flying camera's view at different times:
+// the learning rate is 1 / (2 age) until the history is full. And the whole model can be moved by a
+// homography.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace redbee {
+
+class GaussianMixture {
+ public:
+  /// `threshold`: squared Mahalanobis distance within which a value belongs to a Gaussian of the background.
+  GaussianMixture(cv::Size size, int history_frames, double threshold);
+
+  /// Learns the values of `grey` (CV_8U) where `valid` (CV_8U) is not 0. Returns CV_8U: 255 where a valid
+  /// pixel does not belong to the background it had before, else 0.
+  cv::Mat update(const cv::Mat& grey, const cv::Mat& valid);
+
+  /// 255 where fewer than `frames` values have been learned.
+  cv::Mat unknown(int frames) const;
+
+  /// The same scene points at new pixels: model(x) = model(H^-1 x), the nearest pixel's, for blurred
+  /// Gaussians are no background of anything. New pixels have age 0.
+  void move(const Eigen::Matrix3d& H);
+
+ private:
+  struct Gaussian {
+    float weight = 0;  ///< 0: not in use
+    float mean = 0;
+    float variance = 0;
+  };
+  static constexpr int kGaussians = 3;
+  struct Pixel {
+    std::array<Gaussian, kGaussians> gaussians;  ///< by falling weight
+    uint16_t age = 0;
+  };
+
+  bool learn(Pixel& pixel, float value) const;
+  void addGaussian(Pixel& pixel, float value, float rate) const;
+
+  cv::Size size_;
+  int history_;
+  float threshold_;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace redbee

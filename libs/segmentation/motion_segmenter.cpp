@@ -1,0 +1,163 @@
+#include "segmentation/motion_segmenter.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include "segmentation/flow_entropy.hpp"
+#include "segmentation/foreground_probability.hpp"
+#include "segmentation/parallax_evidence.hpp"
+#include "segmentation/picture_check.hpp"
+#include "segmentation/two_plane_background.hpp"
+#include "segmentation/warping.hpp"
+
+namespace redbee {
+
+const char* toString(SegmentationStatus status) {
+  switch (status) {
+    case SegmentationStatus::kGood:
+      return "good";
+    case SegmentationStatus::kLearning:
+      return "learning";
+    case SegmentationStatus::kNoHomography:
+      return "no homography";
+    case SegmentationStatus::kBadPicture:
+      return "bad picture";
+  }
+  return "?";
+}
+
+class MotionSegmenter::Implementation {
+ public:
+  explicit Implementation(const SegmentationParameters& parameters)
+      : parameters_(parameters),
+        picture_check_(parameters),
+        planes_(parameters),
+        parallax_(parameters),
+        probability_(parameters),
+        tracker_(parameters) {}
+
+  SegmentationOutput step(const SegmentationInput& input) {
+    const bool continues = followsOn(input);
+    const bool is_first = last_utime_ == kNever;
+    if (!input.grey.empty() && input.grey.size() != size_) {
+      tracker_.reset();
+      picture_check_.reset();
+      size_ = input.grey.size();
+    }
+    last_utime_ = input.utime;
+    if (continues) {
+      carry(input);
+    } else {
+      forget();
+    }
+    SegmentationOutput output = emptyOutput(input);
+    if (!picture_check_.accepts(input.grey)) {
+      output.status = SegmentationStatus::kBadPicture;
+      output.detections = tracker_.update({}, size_);
+      return output;
+    }
+    const BackgroundVerdict verdict = learn(input, output);
+    ++learned_;
+    if (!continues && !is_first) {
+      output.status = SegmentationStatus::kNoHomography;
+    } else if (learned_ <= parameters_.learning_frames) {
+      output.status = SegmentationStatus::kLearning;
+    } else {
+      judge(verdict, output);
+    }
+    if (output.status != SegmentationStatus::kGood) {
+      output.probability.setTo(0);
+      output.detections = tracker_.update({}, size_);
+    }
+    return output;
+  }
+
+ private:
+  static constexpr int64_t kNever = INT64_MIN;
+
+  bool followsOn(const SegmentationInput& input) const {
+    return last_utime_ != kNever && input.utime > last_utime_ && input.utime_previous == last_utime_ &&
+           input.grey.size() == size_ && input.ground && isUsableHomography(*input.ground);
+  }
+
+  void forget() {
+    planes_.reset();
+    parallax_.reset();
+    probability_.reset();
+    learned_ = 0;
+  }
+
+  void carry(const SegmentationInput& input) {
+    if (parameters_.method == SegmentationMethod::kTwoPlanes) {
+      planes_.carry(*input.ground, input.front);
+    } else {
+      parallax_.carry(*input.ground, input.motion);
+    }
+    probability_.carry(*input.ground);
+    tracker_.carry(*input.ground);
+  }
+
+  SegmentationOutput emptyOutput(const SegmentationInput& input) const {
+    SegmentationOutput output;
+    output.utime = input.utime;
+    output.probability = cv::Mat::zeros(size_, CV_8U);
+    output.mask = cv::Mat::zeros(size_, CV_8U);
+    output.unknown = cv::Mat(size_, CV_8U, cv::Scalar(255));
+    return output;
+  }
+
+  /// Learns the picture and leaves P_FG and the unknown pixels in the output.
+  BackgroundVerdict learn(const SegmentationInput& input, SegmentationOutput& output) {
+    BackgroundVerdict verdict;
+    cv::Mat foreground;
+    cv::Mat order;
+    if (parameters_.method == SegmentationMethod::kTwoPlanes) {
+      verdict = planes_.learn(input.grey);
+      verdict.foreground.convertTo(foreground, CV_32F, 1.0 / 255);
+    } else {
+      foreground = parallax_.learn(input.utime, input.grey, input.K);
+      if (foreground.empty()) foreground = cv::Mat::zeros(size_, CV_32F);
+      verdict.unknown = parallax_.unseen().empty() ? output.unknown : parallax_.unseen();
+    }
+    if (parameters_.use_refinement) {
+      if (parameters_.use_entropy && input.ground) {
+        order = flowOrder(input.tracks, *input.ground, size_, parameters_);
+      }
+      probability_map_ = probability_.update(foreground, order);
+    } else {
+      probability_map_ = foreground;
+    }
+    return verdict;
+  }
+
+  void judge(const BackgroundVerdict& verdict, SegmentationOutput& output) {
+    output.status = SegmentationStatus::kGood;
+    output.unknown = verdict.unknown;
+    probability_map_.setTo(0, verdict.unknown);
+    probability_map_.convertTo(output.probability, CV_8U, 255);
+    ForegroundComponents found = findComponents(probability_map_, verdict.unknown, parameters_);
+    output.mask = found.mask;
+    output.detections = tracker_.update(found.components, size_);
+  }
+
+  SegmentationParameters parameters_;
+  PictureCheck picture_check_;
+  TwoPlaneBackground planes_;
+  ParallaxEvidence parallax_;
+  ForegroundProbability probability_;
+  ObjectTracker tracker_;
+  cv::Mat probability_map_;
+  cv::Size size_;
+  int64_t last_utime_ = kNever;
+  int learned_ = 0;
+};
+
+MotionSegmenter::MotionSegmenter(const SegmentationParameters& parameters)
+    : implementation_(std::make_unique<Implementation>(parameters)) {}
+
+MotionSegmenter::~MotionSegmenter() = default;
+
+SegmentationOutput MotionSegmenter::step(const SegmentationInput& input) {
+  return implementation_->step(input);
+}
+
+}  // namespace redbee

@@ -1,0 +1,12 @@
+#include "segmentation/parameters.hpp"
+
+namespace redbee {
+
+SegmentationParameters paperSegmentation() {
+  SegmentationParameters parameters;
+  parameters.method = SegmentationMethod::kTwoPlanes;
+  parameters.confirm_frames = 1;
+  return parameters;
+}
+
+}  // namespace redbee

@@ -1,0 +1,29 @@
+#include "segmentation/warping.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+
+cv::Matx33d toMatx(const Eigen::Matrix3d& H) {
+  return {H(0, 0), H(0, 1), H(0, 2), H(1, 0), H(1, 1), H(1, 2), H(2, 0), H(2, 1), H(2, 2)};
+}
+
+cv::Mat carryMap(const cv::Mat& map, const Eigen::Matrix3d& H, int interpolation) {
+  cv::Mat carried;
+  cv::warpPerspective(map, carried, toMatx(H), map.size(), interpolation, cv::BORDER_CONSTANT,
+                      cv::Scalar::all(0));
+  return carried;
+}
+
+cv::Mat overlapMask(const cv::Size& size, const Eigen::Matrix3d& H) {
+  return carryMap(cv::Mat(size, CV_8U, cv::Scalar(255)), H, cv::INTER_NEAREST);
+}
+
+bool isUsableHomography(const Eigen::Matrix3d& H) {
+  constexpr double kSingular = 1e-9;
+  return H.allFinite() && std::abs(H.determinant()) > kSingular;
+}
+
+}  // namespace redbee

@@ -1,0 +1,77 @@
+// A whole simulated flight: pictures, IMU and altimeter of one trajectory over one scene, and the truth about
+// them.
+//
+// Clocks: the trajectory runs on the IMU's clock, utime = start_utime + t. Frame k carries the camera's
+// clock, start_utime + k / fps, and was exposed at t_imu = t_cam + timeshift (Kalibr's sign).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/camera.hpp"
+#include "inertial/imu.hpp"
+#include "simulation/imu_simulator.hpp"
+#include "simulation/renderer.hpp"
+#include "simulation/scene.hpp"
+#include "simulation/trajectory.hpp"
+
+namespace redbee::simulation {
+
+struct AltimeterParameters {
+  double rate_hz = 50;
+  double sigma_m = 0.05;  ///< m
+  unsigned seed = 1;
+};
+
+struct Scenario {
+  Trajectory trajectory;
+  CameraIntrinsics intrinsics;
+  InertialExtrinsics extrinsics;  ///< true ones, the time shift included
+  ImuSimulatorParameters imu;
+  AltimeterParameters altimeter;
+  Scene scene;
+  SensorParameters sensor;
+  double fps = 24;
+  int frames = 240;
+  int64_t start_utime = 1700000000000000;
+};
+
+struct SimulatedFrame {
+  int64_t utime = 0;  ///< camera clock
+  RenderedPicture picture;
+};
+
+class FlightSimulator {
+ public:
+  /// Throws std::invalid_argument for a scenario that cannot be flown (no frames, no picture size, fps <= 0).
+  explicit FlightSimulator(const Scenario& scenario);
+
+  const Scenario& scenario() const { return scenario_; }
+  const Camera& camera() const { return camera_; }
+
+  /// Any k >= 0; each frame can be asked for alone, and is the same whenever it is.
+  SimulatedFrame frame(int k) const;
+  int64_t frameUtime(int k) const;   ///< camera clock, us
+  double exposureTime(int k) const;  ///< trajectory time [s]
+  CameraPose pose(int k) const;
+
+  /// Exact homography of the ground, ideal pixels of frame k-1 to those of frame k. Identity for k = 0.
+  Eigen::Matrix3d homography(int k) const;
+  /// The same for the plane of a patch (index in scene.patches) that does not move: throws
+  /// std::invalid_argument for one that does.
+  Eigen::Matrix3d frontHomography(int k, size_t patch) const;
+
+  /// From half a second before the first exposure to half a second after the last one.
+  std::vector<ImuSample> imu() const;
+  std::vector<AltitudeSample> altimeter() const;
+
+ private:
+  double recordingEnd() const;
+
+  Scenario scenario_;
+  Camera camera_;
+  Renderer renderer_;
+};
+
+}  // namespace redbee::simulation

@@ -1,0 +1,267 @@
+#include "simulation/renderer.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "simulation/wave_field.hpp"
+
+namespace redbee::simulation {
+namespace {
+
+constexpr float kHorizonInverseDepth = 1e-3F;  // 1/m: ground farther away than this is sky
+constexpr double kTurn = 2 * 3.14159265358979323846;
+
+/// A plane as one camera sees it. For a ray d: inverse depth q = Q d, surface coordinates u = (U d) / q, v =
+/// (V d) / q.
+struct PlaneView {
+  Eigen::Vector3f U, V, Q;
+};
+
+PlaneView viewOf(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis_u, const Eigen::Vector3d& axis_v,
+                 const CameraPose& pose) {
+  const Eigen::Vector3d normal = axis_u.cross(axis_v);
+  const Eigen::Vector3d offset = pose.p_GC - origin;
+  const double distance = -normal.dot(offset);
+  if (distance == 0) return {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  const Eigen::Vector3d Q = pose.R_CG * normal / distance;
+  return {(axis_u.dot(offset) * Q + pose.R_CG * axis_u).cast<float>(),
+          (axis_v.dot(offset) * Q + pose.R_CG * axis_v).cast<float>(), Q.cast<float>()};
+}
+
+bool insidePerson(float across, float down) {
+  const float head_x = across / 0.42F, head_y = (down - 0.08F) / 0.08F;
+  if (head_x * head_x + head_y * head_y <= 1) return true;
+  if (down > 0.16F && down < 0.58F) return std::abs(across) < 1 - 0.5F * (down - 0.16F);
+  return down >= 0.58F && down <= 1 && std::abs(across) > 0.08F && std::abs(across) < 0.75F;
+}
+
+/// Patch coordinates as shares of its half width and half height, -1 to 1.
+bool insideShape(PatchShape shape, float x, float y) {
+  if (std::abs(x) > 1 || std::abs(y) > 1) return false;
+  if (shape == PatchShape::kEllipse) return x * x + y * y <= 1;
+  if (shape == PatchShape::kPerson) return insidePerson(x, (y + 1) / 2);
+  return true;
+}
+
+/// Scaled so that the grey level of the coloured surface is the uncoloured one.
+cv::Vec3f tintOf(const Eigen::Vector3d& bgr) {
+  const Eigen::Vector3d scaled = bgr / bgr.dot(Eigen::Vector3d(0.114, 0.587, 0.299));
+  return {static_cast<float>(scaled[0]), static_cast<float>(scaled[1]), static_cast<float>(scaled[2])};
+}
+
+Eigen::Vector3d centreAt(const Patch& patch, double t_s) {
+  return patch.centre + patch.motion.displacementAt(t_s);
+}
+
+/// Pixel range that a patch can cover: the box of its corners, or the whole picture where a corner lies
+/// behind the camera.
+cv::Rect boxOf(const Patch& patch, const CameraPose& pose, double t_s, const Camera& camera) {
+  const cv::Rect all(0, 0, camera.intrinsics().width, camera.intrinsics().height);
+  if (camera.isDistorted()) return all;
+  Eigen::Vector2d low(1e6, 1e6), high(-1e6, -1e6);
+  for (const double u : {-0.5, 0.5}) {
+    for (const double v : {-0.5, 0.5}) {
+      const Eigen::Vector3d corner =
+          centreAt(patch, t_s) + u * patch.width_m * patch.axis_u + v * patch.height_m * patch.axis_v;
+      const Eigen::Vector3d X = pose.R_CG * (corner - pose.p_GC);
+      if (X.z() < 0.05) return all;
+      const Eigen::Vector2d pixel = (camera.K() * X).hnormalized();
+      low = low.cwiseMin(pixel);
+      high = high.cwiseMax(pixel);
+    }
+  }
+  low = low.cwiseMax(-1e5);
+  high = high.cwiseMin(1e5);
+  const cv::Point first(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
+  const cv::Point beyond(static_cast<int>(std::ceil(high.x())) + 1,
+                         static_cast<int>(std::ceil(high.y())) + 1);
+  return all & cv::Rect(first, beyond);
+}
+
+}  // namespace
+
+class Renderer::Implementation {
+ public:
+  Implementation(const Camera& camera, Scene scene, const SensorParameters& sensor)
+      : camera_(camera), scene_(std::move(scene)), sensor_(sensor) {
+    if (scene_.patches.size() > 254) throw std::invalid_argument("a scene has at most 254 patches");
+    precomputeRays();
+    addSurface(scene_.ground);
+    for (const Patch& patch : scene_.patches) addSurface(patch.material);
+  }
+
+  RenderedPicture render(const CameraPose& pose, double t_s, unsigned index) const {
+    RenderedPicture picture;
+    const std::vector<PlaneView> views = planeViews(pose, t_s);
+    picture.surface = nearestSurfaces(views, pose, t_s);
+    labelMovers(picture, t_s);
+    const cv::Mat light = shade(views, picture.surface, t_s);
+    picture.grey = expose(light, t_s, index);
+    if (sensor_.colour) picture.bgr = expose(coloured(light, picture.surface), t_s, index);
+    return picture;
+  }
+
+ private:
+  void precomputeRays() {
+    const CameraIntrinsics& size = camera_.intrinsics();
+    rays_.create(size.height, size.width);
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const Eigen::Vector2d ideal = camera_.undistort({x, y});
+        rays_(y, x) = {static_cast<float>((ideal.x() - size.cx) / size.fx),
+                       static_cast<float>((ideal.y() - size.cy) / size.fy)};
+      }
+    }
+  }
+
+  void addSurface(const Material& material) {
+    textures_.emplace_back(material);
+    tints_.push_back(tintOf(material.bgr));
+  }
+
+  std::vector<PlaneView> planeViews(const CameraPose& pose, double t_s) const {
+    std::vector<PlaneView> views{
+        viewOf(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), pose)};
+    for (const Patch& patch : scene_.patches) {
+      views.push_back(viewOf(centreAt(patch, t_s), patch.axis_u, patch.axis_v, pose));
+    }
+    return views;
+  }
+
+  cv::Mat nearestSurfaces(const std::vector<PlaneView>& views, const CameraPose& pose, double t_s) const {
+    cv::Mat_<uchar> surface(rays_.size());
+    cv::Mat_<float> inverse_depth(rays_.size());
+    layGround(views.front(), surface, inverse_depth);
+    for (size_t i = 0; i < scene_.patches.size(); ++i) {
+      layPatch(i, views[i + 1], boxOf(scene_.patches[i], pose, t_s, camera_), surface, inverse_depth);
+    }
+    return surface;
+  }
+
+  void layGround(const PlaneView& view, cv::Mat_<uchar>& surface, cv::Mat_<float>& inverse_depth) const {
+    for (int y = 0; y < rays_.rows; ++y) {
+      for (int x = 0; x < rays_.cols; ++x) {
+        const cv::Vec2f& ray = rays_(y, x);
+        const float q = view.Q.x() * ray[0] + view.Q.y() * ray[1] + view.Q.z();
+        surface(y, x) = q > kHorizonInverseDepth ? kSurfaceGround : kSurfaceSky;
+        inverse_depth(y, x) = std::max(q, kHorizonInverseDepth);
+      }
+    }
+  }
+
+  void layPatch(size_t index, const PlaneView& view, const cv::Rect& box, cv::Mat_<uchar>& surface,
+                cv::Mat_<float>& inverse_depth) const {
+    const Patch& patch = scene_.patches[index];
+    const auto half_width = static_cast<float>(patch.width_m / 2),
+               half_height = static_cast<float>(patch.height_m / 2);
+    for (int y = box.y; y < box.br().y; ++y) {
+      for (int x = box.x; x < box.br().x; ++x) {
+        const Eigen::Vector3f ray(rays_(y, x)[0], rays_(y, x)[1], 1);
+        const float q = view.Q.dot(ray);
+        if (q <= inverse_depth(y, x)) continue;
+        if (!insideShape(patch.shape, view.U.dot(ray) / (q * half_width),
+                         view.V.dot(ray) / (q * half_height)))
+          continue;
+        surface(y, x) = static_cast<uchar>(index + 1);
+        inverse_depth(y, x) = q;
+      }
+    }
+  }
+
+  void labelMovers(RenderedPicture& picture, double t_s) const {
+    cv::Mat_<uchar> mask_of(1, 256, uchar{0}), id_of(1, 256, uchar{0});
+    uchar movers = 0;
+    for (size_t i = 0; i < scene_.patches.size(); ++i) {
+      const Patch& patch = scene_.patches[i];
+      if (patch.kind != PatchKind::kMover) continue;
+      mask_of(static_cast<int>(i) + 1) = patch.motion.isMovingAt(t_s) ? kMaskMoving : kMaskStopped;
+      id_of(static_cast<int>(i) + 1) = ++movers;
+    }
+    cv::LUT(picture.surface, mask_of, picture.mask);
+    cv::LUT(picture.surface, id_of, picture.id);
+  }
+
+  cv::Mat shade(const std::vector<PlaneView>& views, const cv::Mat_<uchar>& surface, double t_s) const {
+    std::vector<std::optional<WaveField>> waves(views.size());
+    for (size_t i = 0; i < scene_.patches.size(); ++i) {
+      if (scene_.patches[i].waving) waves[i + 1].emplace(*scene_.patches[i].waving, t_s);
+    }
+    cv::Mat_<float> light(surface.size());
+    for (int y = 0; y < surface.rows; ++y) {
+      for (int x = 0; x < surface.cols; ++x) {
+        const size_t i = surface(y, x);
+        light(y, x) = i == kSurfaceSky ? static_cast<float>(scene_.sky_grey)
+                                       : shadePixel(views[i], waves[i], textures_[i], rays_(y, x));
+      }
+    }
+    return light;
+  }
+
+  float shadePixel(const PlaneView& view, const std::optional<WaveField>& wave, const Texture& texture,
+                   const cv::Vec2f& direction) const {
+    const Eigen::Vector3f ray(direction[0], direction[1], 1);
+    const float depth = 1 / view.Q.dot(ray);
+    float u = view.U.dot(ray) * depth, v = view.V.dot(ray) * depth;
+    // Derivatives by the ray's slopes, times the slope of one pixel.
+    const auto pixel_x = static_cast<float>(depth / camera_.intrinsics().fx);
+    const auto pixel_y = static_cast<float>(depth / camera_.intrinsics().fy);
+    const Footprint footprint{
+        (view.U.x() - u * view.Q.x()) * pixel_x, (view.V.x() - v * view.Q.x()) * pixel_x,
+        (view.U.y() - u * view.Q.y()) * pixel_y, (view.V.y() - v * view.Q.y()) * pixel_y};
+    if (wave) {
+      const Eigen::Vector2f shift = wave->shiftAt(u, v);
+      u += shift.x();
+      v += shift.y();
+    }
+    return texture.sample(u, v, footprint);
+  }
+
+  cv::Mat coloured(const cv::Mat_<float>& light, const cv::Mat_<uchar>& surface) const {
+    const cv::Vec3f sky = tintOf({1.15, 1.0, 0.92});
+    cv::Mat_<cv::Vec3f> bgr(light.size());
+    for (int y = 0; y < light.rows; ++y) {
+      for (int x = 0; x < light.cols; ++x) {
+        bgr(y, x) = light(y, x) * (surface(y, x) == kSurfaceSky ? sky : tints_[surface(y, x)]);
+      }
+    }
+    return bgr;
+  }
+
+  /// Lens blur, gain and noise.
+  cv::Mat expose(const cv::Mat& light, double t_s, unsigned index) const {
+    cv::Mat exposed = light;
+    if (sensor_.blur_sigma_px > 0) cv::GaussianBlur(light, exposed, {}, sensor_.blur_sigma_px);
+    const double gain = 1 + sensor_.exposure_drift * std::sin(kTurn * t_s / sensor_.exposure_period_s);
+    cv::Mat noise(light.size(), light.type(), cv::Scalar::all(0));
+    if (sensor_.noise_sigma > 0) {
+      cv::RNG random((static_cast<std::uint64_t>(sensor_.seed) << 32U) + index * 0x9E3779B9ULL + 1);
+      random.fill(noise, cv::RNG::NORMAL, 0, sensor_.noise_sigma);
+    }
+    cv::Mat picture;
+    cv::scaleAdd(exposed, gain, noise, noise);
+    noise.convertTo(picture, CV_8U);
+    return picture;
+  }
+
+  Camera camera_;
+  Scene scene_;
+  SensorParameters sensor_;
+  cv::Mat_<cv::Vec2f> rays_;       ///< x / z and y / z of every raw pixel, in C
+  std::vector<Texture> textures_;  ///< ground first, then the patches
+  std::vector<cv::Vec3f> tints_;   ///< as textures_
+};
+
+Renderer::Renderer(const Camera& camera, const Scene& scene, const SensorParameters& sensor)
+    : implementation_(std::make_unique<Implementation>(camera, scene, sensor)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+RenderedPicture Renderer::render(const CameraPose& pose, double t_s, unsigned index) const {
+  return implementation_->render(pose, t_s, index);
+}
+
+}  // namespace redbee::simulation

@@ -1,0 +1,51 @@
+// Pictures of a scene, one ray through each raw pixel's centre.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "geometry/camera.hpp"
+#include "simulation/camera_pose.hpp"
+#include "simulation/scene.hpp"
+
+namespace redbee::simulation {
+
+struct SensorParameters {
+  double noise_sigma = 1.5;      ///< grey levels, white
+  double exposure_drift = 0;     ///< relative amplitude of a slow sinusoid of the gain
+  double exposure_period_s = 5;  ///< s
+  double blur_sigma_px = 0;      ///< Gaussian, px
+  bool colour = false;           ///< also render BGR
+  unsigned seed = 1;             ///< of the noise
+};
+
+inline constexpr uchar kMaskMoving = 255;
+inline constexpr uchar kMaskStopped = 170;
+inline constexpr uchar kSurfaceGround = 0;
+inline constexpr uchar kSurfaceSky = 255;
+
+struct RenderedPicture {
+  cv::Mat grey;     ///< CV_8UC1
+  cv::Mat bgr;      ///< CV_8UC3, empty unless asked for
+  cv::Mat mask;     ///< CV_8UC1: 0 background, kMaskMoving, kMaskStopped
+  cv::Mat id;       ///< CV_8UC1: 0 background, 1..N the mover, in the order of the scene's movers
+  cv::Mat surface;  ///< CV_8UC1: kSurfaceGround, kSurfaceSky, or 1 + index of the patch in the scene
+};
+
+class Renderer {
+ public:
+  /// Throws std::invalid_argument for more than 254 patches.
+  Renderer(const Camera& camera, const Scene& scene, const SensorParameters& sensor);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// The scene at t_s. The same arguments give the same picture; `index` seeds the picture's noise.
+  RenderedPicture render(const CameraPose& pose, double t_s, unsigned index) const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace redbee::simulation

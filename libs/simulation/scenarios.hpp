@@ -1,0 +1,28 @@
+// Named flights for tests: 640x480, f = 500 px, 24 frames a second, camera pitched down, 5 to 10 m above the
+// ground, consumer-grade IMU at 400 Hz with biases and a time shift of a few milliseconds. The same seed
+// gives the same flight.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "simulation/flight_simulator.hpp"
+
+namespace redbee::simulation {
+
+/// R_CI of a camera that looks along the IMU's x axis, pitched down by this angle.
+Eigen::Matrix3d pitchedMounting(double pitch_down_rad);
+
+/// Grass and nothing else; camera 30 degrees down.
+Scenario groundOnly(unsigned seed);
+/// Grass, a facade across the left of the view (patch kFacadePatch), and a car that crosses the ground.
+Scenario twoPlanes(unsigned seed);
+inline constexpr size_t kFacadePatch = 0;
+/// Grass, a pond whose surface waves (patch kPondPatch), and a car.
+Scenario wavingWater(unsigned seed);
+inline constexpr size_t kPondPatch = 0;
+/// Grass under a camera that looks 60 degrees down and turns strongly about all axes.
+Scenario calibrationFlight(unsigned seed);
+/// Grass and five people on foot; the first stops from 3 s to 5 s and goes on.
+Scenario walkers(unsigned seed);
+
+}  // namespace redbee::simulation

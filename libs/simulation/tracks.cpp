@@ -1,0 +1,69 @@
+#include "simulation/tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "geometry/homography.hpp"
+
+namespace redbee::simulation {
+namespace {
+
+constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kOutlierLow = 5, kOutlierHigh = 30;  // px off the true place
+
+/// Column by column from the left, so that a share of the last ones is a region and not a sprinkle.
+std::vector<Eigen::Vector2d> gridPoints(const TrackGrid& grid) {
+  std::vector<Eigen::Vector2d> points;
+  for (int x = grid.step / 2; x < grid.width; x += grid.step) {
+    for (int y = grid.step / 2; y < grid.height; y += grid.step) points.emplace_back(x, y);
+  }
+  return points;
+}
+
+size_t shareOf(size_t count, double share) {
+  return static_cast<size_t>(std::llround(static_cast<double>(count) * std::clamp(share, 0.0, 1.0)));
+}
+
+void spoil(SimulatedTracks& tracks, size_t index, const Eigen::Matrix3d& H_ground,
+           const Eigen::Matrix3d& H_other, std::mt19937& random) {
+  std::uniform_real_distribution<double> length(kOutlierLow, kOutlierHigh), turns(0, 1);
+  const Eigen::Vector2d ground = transfer(H_ground, tracks.before[index]);
+  const Eigen::Vector2d other = transfer(H_other, tracks.before[index]);
+  const Eigen::Vector2d place = tracks.origin[index] == TrackOrigin::kOther ? other : ground;
+  do {
+    const double radius = length(random), angle = kTurn * turns(random);
+    tracks.after[index] = place + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  } while ((tracks.after[index] - ground).norm() < kOutlierLow ||
+           (tracks.after[index] - other).norm() < kOutlierLow);
+  tracks.origin[index] = TrackOrigin::kOutlier;
+}
+
+}  // namespace
+
+SimulatedTracks simulateTracks(const Eigen::Matrix3d& H_ground, const Eigen::Matrix3d& H_other,
+                               double other_share, double noise_px, double outlier_share,
+                               const TrackGrid& grid, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  SimulatedTracks tracks;
+  tracks.before = gridPoints(grid);
+  const size_t count = tracks.before.size();
+  const size_t first_other = count - shareOf(count, other_share);
+  for (size_t i = 0; i < count; ++i) {
+    const bool is_other = i >= first_other;
+    const double noise_x = noise_px * normal(random), noise_y = noise_px * normal(random);
+    tracks.after.push_back(transfer(is_other ? H_other : H_ground, tracks.before[i]) +
+                           Eigen::Vector2d(noise_x, noise_y));
+    tracks.origin.push_back(is_other ? TrackOrigin::kOther : TrackOrigin::kGround);
+  }
+  std::vector<size_t> order(count);
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::shuffle(order.begin(), order.end(), random);
+  order.resize(shareOf(count, outlier_share));
+  for (const size_t index : order) spoil(tracks, index, H_ground, H_other, random);
+  return tracks;
+}
+
+}  // namespace redbee::simulation

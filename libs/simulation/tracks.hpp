@@ -1,0 +1,32 @@
+// Correspondences without pictures: what a tracker would have found over two planes, with the truth about
+// each.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace redbee::simulation {
+
+enum class TrackOrigin { kGround, kOther, kOutlier };
+
+struct TrackGrid {
+  int width = 640;   ///< px
+  int height = 480;  ///< px
+  int step = 16;     ///< px between points, both ways; the first lie half a step from the border
+};
+
+struct SimulatedTracks {
+  std::vector<Eigen::Vector2d> before;  ///< ideal pixels of the previous frame
+  std::vector<Eigen::Vector2d> after;   ///< ideal pixels of this frame
+  std::vector<TrackOrigin> origin;
+};
+
+/// Points on a grid, moved by H_ground, or by H_other in the rightmost columns that make up `other_share` of
+/// the points. A share of `outlier_share` of all points, drawn at random, moves by neither: at least 5 px and
+/// up to 30 px off its plane's place. Every point but the outliers has white noise of `noise_px` per axis.
+/// The same seed gives the same tracks.
+SimulatedTracks simulateTracks(const Eigen::Matrix3d& H_ground, const Eigen::Matrix3d& H_other,
+                               double other_share, double noise_px, double outlier_share,
+                               const TrackGrid& grid, unsigned seed);
+
+}  // namespace redbee::simulation

@@ -1,0 +1,56 @@
+// The pieces that the robust estimation is made of: residuals, the minimal solution, least squares.
+// Everything here is in scaled coordinates (geometry/homography.hpp, ImageScaling).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geometry/homography.hpp"
+#include "visual/point_tracker.hpp"
+
+namespace redbee {
+
+/// Point pairs, scaled, each coordinate on its own so that loops over them vectorise.
+struct ScaledPairs {
+  ScaledPairs(const PointTracks& tracks, const ImageScaling& scaling);
+
+  std::size_t size() const { return ax.size(); }
+  Eigen::Vector2d previous(std::size_t i) const { return {ax[i], ay[i]}; }
+  Eigen::Vector2d current(std::size_t i) const { return {bx[i], by[i]}; }
+
+  std::vector<float> ax, ay, bx, by;
+};
+
+/// Squared transfer error of every pair into `squared`; huge where H sends a point to infinity or behind the
+/// camera.
+void squaredErrors(const ScaledPairs& pairs, const Eigen::Matrix3d& H, std::vector<float>& squared);
+
+/// The homography through four pairs (Hartley and Zisserman, 2nd ed., 4.1.1, by way of the projective basis);
+/// nothing where three points are nearly in a line or the pairs turn the quadrilateral over, which no plane
+/// seen from one side does.
+std::optional<Eigen::Matrix3d> homographyThroughFour(const ScaledPairs& pairs,
+                                                     const std::array<std::size_t, 4>& sample);
+
+struct LeastSquares {
+  Eigen::Matrix3d H;
+  Matrix8d inverse_information;  ///< (J' W J)^-1
+  double variance =
+      0;  ///< per coordinate: times inverse_information it is the covariance for independent errors
+};
+
+/// What is known of the homography beforehand, weighed against the pairs' squared residuals.
+struct FitPrior {
+  Vector8d mean;
+  Matrix8d information;  ///< inverse covariance, times the variance of a residual
+};
+
+/// Levenberg's method on the transfer errors of the chosen pairs, Huber weights with knee `knee`. Nothing
+/// where the pairs do not determine eight parameters.
+std::optional<LeastSquares> fitHomography(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen,
+                                          const Eigen::Matrix3d& start, double knee, int iterations,
+                                          const FitPrior* prior = nullptr);
+
+}  // namespace redbee

@@ -1,0 +1,225 @@
+#include "visual/patch_alignment.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace redbee {
+namespace {
+
+constexpr int kMaxWindow = 31;
+
+/// Where a patch's top left pixel and its bilinear weights lie for a centre between pixels.
+struct SamplePlace {
+  SamplePlace(const PyramidLevel& level, const Eigen::Vector2d& centre, int half) {
+    const double floor_x = std::floor(centre.x());
+    const double floor_y = std::floor(centre.y());
+    const double fx = centre.x() - floor_x;
+    const double fy = centre.y() - floor_y;
+    constexpr int kOne = 1 << BilinearWeights::kWeightBits;
+    const auto fixed = [](double w) { return static_cast<int16_t>(std::lround(w * kOne)); };
+    weights.top_left = fixed((1 - fx) * (1 - fy));
+    weights.top_right = fixed(fx * (1 - fy));
+    weights.bottom_left = fixed((1 - fx) * fy);
+    weights.bottom_right =
+        static_cast<int16_t>(kOne - weights.top_left - weights.top_right - weights.bottom_left);
+    corner = level.at(static_cast<int>(floor_x) - half, static_cast<int>(floor_y) - half);
+  }
+  const uint8_t* corner;
+  BilinearWeights weights{};
+};
+
+bool isNear(const PyramidLevel& level, const Eigen::Vector2d& centre) {
+  const double reach = PatchShape::kOverhang - 1;
+  // Written so that a NaN is not near.
+  return centre.x() >= -reach && centre.y() >= -reach && centre.x() <= level.width - 1 + reach &&
+         centre.y() <= level.height - 1 + reach;
+}
+
+}  // namespace
+
+PatchShape::PatchShape(int window_px) : side(window_px), half(window_px / 2), lanes((window_px + 7) / 8) {
+  if (window_px < 3 || window_px > kMaxWindow || window_px % 2 == 0) {
+    throw std::invalid_argument("the tracker's window must be odd and 3 to 31 px wide");
+  }
+  // A 32-bit sum adds two products of a sample and a gradient per group of eight.
+  constexpr double kLargestSample = 255 << kSampleBits;
+  constexpr double kLargestGradient = 255;
+  const double largest_sum = 2.0 * lanes * side * kLargestSample * kLargestGradient;
+  gradient_scale = std::min(16, static_cast<int>(2147483647.0 / largest_sum));
+}
+
+template <typename Lanes>
+struct PatchTemplate<Lanes>::Moments {
+  double grey, grey_grey, x, y, x_grey, y_grey, xx, xy, yy;
+};
+
+template <typename Lanes>
+void PatchTemplate<Lanes>::take(const PyramidLevel& level, int x, int y) {
+  const std::size_t stride = level.stride();
+  const uint8_t* row = level.at(x - shape_.half, y - shape_.half);
+  std::size_t at = 0;
+  for (int i = 0; i < shape_.side; ++i, row += stride) {
+    for (int lane = 0; lane < shape_.lanes; ++lane, at += 8) {
+      const uint8_t* p = row + 8 * lane;
+      const auto mask = Lanes::load(&mask_[static_cast<std::size_t>(8 * lane)]);
+      Lanes::store(&grey_[at], Lanes::mask(Lanes::loadBytes(p), mask));
+      Lanes::store(&gradient_x_[at],
+                   Lanes::mask(Lanes::subtract(Lanes::loadBytes(p + 1), Lanes::loadBytes(p - 1)), mask));
+      Lanes::store(
+          &gradient_y_[at],
+          Lanes::mask(Lanes::subtract(Lanes::loadBytes(p + stride), Lanes::loadBytes(p - stride)), mask));
+    }
+  }
+  projectGradients(moments());
+}
+
+template <typename Lanes>
+typename PatchTemplate<Lanes>::Moments PatchTemplate<Lanes>::moments() const {
+  const auto one = Lanes::spread(1);
+  auto grey = Lanes::zero(), grey_grey = Lanes::zero(), x = Lanes::zero(), y = Lanes::zero();
+  auto x_grey = Lanes::zero(), y_grey = Lanes::zero();
+  auto xx = Lanes::zero(), xy = Lanes::zero(), yy = Lanes::zero();
+  for (std::size_t at = 0; at < size_; at += 8) {
+    const auto t = Lanes::load(&grey_[at]);
+    const auto gx = Lanes::load(&gradient_x_[at]);
+    const auto gy = Lanes::load(&gradient_y_[at]);
+    grey = Lanes::addProducts(grey, t, one);
+    grey_grey = Lanes::addProducts(grey_grey, t, t);
+    x = Lanes::addProducts(x, gx, one);
+    y = Lanes::addProducts(y, gy, one);
+    x_grey = Lanes::addProducts(x_grey, gx, t);
+    y_grey = Lanes::addProducts(y_grey, gy, t);
+    xx = Lanes::addProducts(xx, gx, gx);
+    xy = Lanes::addProducts(xy, gx, gy);
+    yy = Lanes::addProducts(yy, gy, gy);
+  }
+  // The differences above span two pixels: half of them is the gradient.
+  const auto sum = [](const auto& lanes, double scale) {
+    return scale * static_cast<double>(Lanes::total(lanes));
+  };
+  return {sum(grey, 1),     sum(grey_grey, 1), sum(x, 0.5),   sum(y, 0.5),  sum(x_grey, 0.5),
+          sum(y_grey, 0.5), sum(xx, 0.25),     sum(xy, 0.25), sum(yy, 0.25)};
+}
+
+template <typename Lanes>
+void PatchTemplate<Lanes>::projectGradients(const Moments& m) {
+  const double n = shape_.side * shape_.side;
+  const double variance = m.grey_grey - m.grey * m.grey / n;
+  mean_grey_ = m.grey / n;
+  const auto slope = [&](double g, double g_grey) {
+    return variance > n ? (g_grey - g * m.grey / n) / variance : 0.0;
+  };
+  const double slope_x = slope(m.x, m.x_grey);
+  const double slope_y = slope(m.y, m.y_grey);
+  const double constant_x = (m.x - slope_x * m.grey) / n;
+  const double constant_y = (m.y - slope_y * m.grey) / n;
+  const double xx = m.xx - constant_x * m.x - slope_x * m.x_grey;
+  const double xy = m.xy - constant_x * m.y - slope_x * m.y_grey;
+  const double yy = m.yy - constant_y * m.y - slope_y * m.y_grey;
+  const double determinant = xx * yy - xy * xy;
+  smallest_eigenvalue_ = (0.5 * (xx + yy) - std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy)) / n;
+  if (!(smallest_eigenvalue_ > 0) || !(determinant > 0)) {
+    smallest_eigenvalue_ = 0;
+    return;
+  }
+  inverse_xx_ = yy / determinant;
+  inverse_xy_ = -xy / determinant;
+  inverse_yy_ = xx / determinant;
+
+  const int unit = shape_.gradient_scale << kProjectBits;
+  const auto factor = static_cast<int16_t>(unit / 2);
+  const auto fixedSlope = [&](double s) {
+    return static_cast<int16_t>(-std::lround(std::clamp(s, -1.0, 1.0) * unit));
+  };
+  const auto fixedConstant = [&](double c) {
+    return static_cast<int32_t>(-std::lround(c * unit)) + (1 << (kProjectBits - 1));
+  };
+  const int16_t fixed_slope_x = fixedSlope(slope_x), fixed_slope_y = fixedSlope(slope_y);
+  const int32_t fixed_constant_x = fixedConstant(constant_x), fixed_constant_y = fixedConstant(constant_y);
+  auto sum_x = Lanes::zero(), sum_y = Lanes::zero();
+  std::size_t at = 0;
+  for (int i = 0; i < shape_.side; ++i) {
+    for (int lane = 0; lane < shape_.lanes; ++lane, at += 8) {
+      const auto mask = Lanes::load(&mask_[static_cast<std::size_t>(8 * lane)]);
+      const auto t = Lanes::load(&grey_[at]);
+      const auto gx = Lanes::mask(
+          Lanes::project(Lanes::load(&gradient_x_[at]), factor, t, fixed_slope_x, fixed_constant_x), mask);
+      const auto gy = Lanes::mask(
+          Lanes::project(Lanes::load(&gradient_y_[at]), factor, t, fixed_slope_y, fixed_constant_y), mask);
+      Lanes::store(&gradient_x_[at], gx);
+      Lanes::store(&gradient_y_[at], gy);
+      sum_x = Lanes::addProducts(sum_x, t, gx);
+      sum_y = Lanes::addProducts(sum_y, t, gy);
+    }
+  }
+  offset_x_ = Lanes::total(sum_x) * (1 << kSampleBits);
+  offset_y_ = Lanes::total(sum_y) * (1 << kSampleBits);
+}
+
+template <typename Lanes>
+bool PatchTemplate<Lanes>::align(const PyramidLevel& level, Eigen::Vector2d& centre,
+                                 const AlignmentLimits& limits) const {
+  if (smallest_eigenvalue_ <= 0) return false;
+  const std::size_t stride = level.stride();
+  const double unit = 1.0 / (shape_.gradient_scale << kSampleBits);
+  for (int iteration = 0; iteration < limits.iterations; ++iteration) {
+    if (!isNear(level, centre)) return false;
+    const SamplePlace place(level, centre, shape_.half);
+    auto sum_x = Lanes::zero(), sum_y = Lanes::zero();
+    const uint8_t* row = place.corner;
+    std::size_t at = 0;
+    for (int i = 0; i < shape_.side; ++i, row += stride) {
+      for (int lane = 0; lane < shape_.lanes; ++lane, at += 8) {
+        const auto sample = Lanes::sample(row + 8 * lane, row + stride + 8 * lane, place.weights);
+        sum_x = Lanes::addProducts(sum_x, sample, Lanes::load(&gradient_x_[at]));
+        sum_y = Lanes::addProducts(sum_y, sample, Lanes::load(&gradient_y_[at]));
+      }
+    }
+    const double bx = unit * static_cast<double>(Lanes::total(sum_x) - offset_x_);
+    const double by = unit * static_cast<double>(Lanes::total(sum_y) - offset_y_);
+    const Eigen::Vector2d step(inverse_xx_ * bx + inverse_xy_ * by, inverse_xy_ * bx + inverse_yy_ * by);
+    centre -= step;
+    if (step.squaredNorm() < limits.epsilon_px * limits.epsilon_px) return isNear(level, centre);
+  }
+  return isNear(level, centre);
+}
+
+template <typename Lanes>
+double PatchTemplate<Lanes>::residual(const PyramidLevel& level, const Eigen::Vector2d& centre) const {
+  const std::size_t stride = level.stride();
+  const SamplePlace place(level, centre, shape_.half);
+  const auto one = Lanes::spread(1);
+  const auto scale = Lanes::spread(1 << kSampleBits);
+  const int pixels = shape_.side * shape_.side;
+  const auto visit = [&](const auto& use) {
+    const uint8_t* row = place.corner;
+    std::size_t at = 0;
+    for (int i = 0; i < shape_.side; ++i, row += stride) {
+      for (int lane = 0; lane < shape_.lanes; ++lane, at += 8) {
+        use(Lanes::sample(row + 8 * lane, row + stride + 8 * lane, place.weights), at,
+            Lanes::load(&mask_[static_cast<std::size_t>(8 * lane)]));
+      }
+    }
+  };
+  auto sum = Lanes::zero();
+  visit([&](const auto& sample, std::size_t, const auto& mask) {
+    sum = Lanes::addProducts(sum, Lanes::mask(sample, mask), one);
+  });
+  const double mean = static_cast<double>(Lanes::total(sum)) / pixels;
+  const auto brightness =
+      Lanes::spread(static_cast<int16_t>(std::lround(mean - mean_grey_ * (1 << kSampleBits))));
+  auto absolute = Lanes::zero();
+  visit([&](const auto& sample, std::size_t at, const auto& mask) {
+    const auto expected = Lanes::multiply(Lanes::load(&grey_[at]), scale);
+    const auto difference = Lanes::subtract(Lanes::subtract(sample, expected), brightness);
+    absolute = Lanes::addProducts(absolute, Lanes::mask(Lanes::magnitude(difference), mask), one);
+  });
+  return static_cast<double>(Lanes::total(absolute)) / (pixels << kSampleBits);
+}
+
+template class PatchTemplate<PortableLanes>;
+#if defined(__SSE2__)
+template class PatchTemplate<Sse2Lanes>;
+#endif
+
+}  // namespace redbee

@@ -1,0 +1,160 @@
+#include "visual/point_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/homography.hpp"
+#include "visual/patch_alignment.hpp"
+#include "visual/pyramid.hpp"
+
+namespace redbee {
+namespace {
+
+/// px: shorter side of the smallest level.
+constexpr int kMinSide = 24;
+/// Level whose whole picture is shifted when no guess is given (an eighth of the size), and how far, in its
+/// pixels.
+constexpr int kShiftLevel = 3;
+constexpr int kShiftReach = 8;
+
+using Template = PatchTemplate<NativeLanes>;
+
+bool isFinite(const Eigen::Vector2d& p) { return p.allFinite(); }
+
+}  // namespace
+
+class PointTracker::Implementation {
+ public:
+  explicit Implementation(const TrackerParameters& parameters)
+      : parameters_(parameters), shape_(parameters.window_px), forward_(shape_), backward_(shape_) {
+    if (parameters.grid_px < 1 || parameters.levels < 1 || parameters.iterations < 1) {
+      throw std::invalid_argument("the tracker's grid, levels and iterations must be positive");
+    }
+  }
+
+  PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
+    if (grey.empty() || grey.type() != CV_8UC1) {
+      throw std::invalid_argument("the tracker takes 8-bit pictures of one channel");
+    }
+    current_.build(grey, std::max(parameters_.levels, kShiftLevel + 1), shape_.margin(), kMinSide);
+    PointTracks tracks;
+    if (hasPrevious()) tracks = track(guess);
+    std::swap(previous_, current_);
+    return tracks;
+  }
+
+  int texturedPoints(const cv::Mat& grey) {
+    current_.build(grey, 1, shape_.margin(), kMinSide);
+    int textured = 0;
+    forEachGridPoint(current_[0], [&](int x, int y) {
+      forward_.take(current_[0], x, y);
+      textured += forward_.smallestEigenvalue() >= parameters_.min_eigenvalue ? 1 : 0;
+    });
+    return textured;
+  }
+
+  void reset() { previous_.clear(); }
+
+ private:
+  bool hasPrevious() const {
+    return !previous_.empty() && previous_[0].width == current_[0].width &&
+           previous_[0].height == current_[0].height;
+  }
+
+  /// Grid points whose patch and gradients lie wholly in the picture.
+  template <typename Visitor>
+  void forEachGridPoint(const PyramidLevel& level, const Visitor& visit) const {
+    const int step = parameters_.grid_px;
+    const int edge = shape_.half + 1;
+    for (int y = step / 2; y < level.height - edge; y += step) {
+      for (int x = step / 2; x < level.width - edge; x += step) {
+        if (x >= edge && y >= edge) visit(x, y);
+      }
+    }
+  }
+
+  PointTracks track(const std::optional<Eigen::Matrix3d>& guess) {
+    const Eigen::Vector2d shift = guess ? Eigen::Vector2d::Zero() : coarseShift();
+    PointTracks tracks;
+    forEachGridPoint(previous_[0], [&](int x, int y) {
+      ++tracks.sampled;
+      const Eigen::Vector2d start(x, y);
+      Eigen::Vector2d found = guess ? transfer(*guess, start) : Eigen::Vector2d(start + shift);
+      if (!follow(x, y, found)) return;
+      tracks.previous.emplace_back(static_cast<float>(x), static_cast<float>(y));
+      tracks.current.emplace_back(static_cast<float>(found.x()), static_cast<float>(found.y()));
+    });
+    return tracks;
+  }
+
+  Eigen::Vector2d coarseShift() const {
+    const int level = std::min(kShiftLevel, previous_.size() - 1);
+    const cv::Point shift = bestShift(previous_[level], current_[level], kShiftReach);
+    return Eigen::Vector2d(shift.x, shift.y) * (1 << level);
+  }
+
+  bool follow(int x, int y, Eigen::Vector2d& found) {
+    forward_.take(previous_[0], x, y);
+    if (forward_.smallestEigenvalue() < parameters_.min_eigenvalue || !isFinite(found)) return false;
+    if (!descend(x, y, found)) return false;
+    return isInside(found) && returns(x, y, found) &&
+           forward_.residual(current_[0], found) <= parameters_.max_residual;
+  }
+
+  /// From the coarsest level to the picture; levels on which the patch has no texture or runs away are passed
+  /// over.
+  bool descend(int x, int y, Eigen::Vector2d& found) {
+    const Eigen::Vector2d start(x, y);
+    const AlignmentLimits limits{parameters_.iterations, parameters_.epsilon_px};
+    for (int level = std::min(parameters_.levels, previous_.size()) - 1; level > 0; --level) {
+      const double scale = 1 << level;
+      const Eigen::Vector2d at = (start / scale).array().round();
+      Eigen::Vector2d there = at + (found - start) / scale;
+      coarse_.take(previous_[level], static_cast<int>(at.x()), static_cast<int>(at.y()));
+      if (coarse_.smallestEigenvalue() < parameters_.min_eigenvalue) continue;
+      if (coarse_.align(current_[level], there, limits)) found = start + (there - at) * scale;
+    }
+    return forward_.align(current_[0], found, limits);
+  }
+
+  /// Forward and backward agree. The way back begins at the whole pixel next to `found`, where the template
+  /// needs no interpolation, and is asked for the same displacement.
+  bool returns(int x, int y, const Eigen::Vector2d& found) {
+    const Eigen::Vector2d displacement = found - Eigen::Vector2d(x, y);
+    const Eigen::Vector2d nearest = found.array().round();
+    backward_.take(current_[0], static_cast<int>(nearest.x()), static_cast<int>(nearest.y()));
+    if (backward_.smallestEigenvalue() < parameters_.min_eigenvalue) return false;
+    const Eigen::Vector2d expected = nearest - displacement;
+    Eigen::Vector2d back = expected;
+    if (!backward_.align(previous_[0], back, {parameters_.iterations, parameters_.epsilon_px})) return false;
+    return (back - expected).norm() <= parameters_.max_forward_backward_px;
+  }
+
+  /// The patch lies wholly in the current picture.
+  bool isInside(const Eigen::Vector2d& p) const {
+    const double edge = shape_.half + 1;
+    return p.x() >= edge && p.y() >= edge && p.x() <= current_[0].width - 1 - edge &&
+           p.y() <= current_[0].height - 1 - edge;
+  }
+
+  TrackerParameters parameters_;
+  PatchShape shape_;
+  Template forward_, backward_;
+  Template coarse_{shape_};
+  Pyramid previous_, current_;
+};
+
+PointTracker::PointTracker(const TrackerParameters& parameters)
+    : implementation_(std::make_unique<Implementation>(parameters)) {}
+PointTracker::~PointTracker() = default;
+
+PointTracks PointTracker::advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
+  return implementation_->advance(grey, guess);
+}
+
+int PointTracker::texturedPoints(const cv::Mat& grey) { return implementation_->texturedPoints(grey); }
+
+void PointTracker::reset() { implementation_->reset(); }
+
+}  // namespace redbee

@@ -1,0 +1,40 @@
+// A grey picture at halved sizes, each level with a margin so that a patch may hang over the edge.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace redbee {
+
+/// One level: pixel (x, y) of level l lies at (x, y) * 2^l of the picture.
+struct PyramidLevel {
+  cv::Mat padded;  ///< 8-bit, margin on all sides (mirrored)
+  int margin = 0;  ///< px
+  int width = 0;   ///< px, without the margin
+  int height = 0;  ///< px, without the margin
+
+  /// Address of a pixel; -margin <= x < width + margin, y alike.
+  const uint8_t* at(int x, int y) const { return padded.ptr(y + margin) + x + margin; }
+  std::size_t stride() const { return padded.step[0]; }
+};
+
+class Pyramid {
+ public:
+  /// `grey`: 8-bit, one channel. Levels whose shorter side would fall below `min_side` px are left out.
+  void build(const cv::Mat& grey, int levels, int margin, int min_side);
+
+  bool empty() const { return levels_.empty(); }
+  int size() const { return static_cast<int>(levels_.size()); }
+  const PyramidLevel& operator[](int level) const { return levels_[static_cast<std::size_t>(level)]; }
+  void clear() { levels_.clear(); }
+
+ private:
+  std::vector<PyramidLevel> levels_;
+};
+
+/// Shift [px of this level] that brings `from` onto `to` best as a whole: smallest mean absolute difference
+/// over all whole-pixel shifts up to `reach`, the pictures' mean brightness taken out.
+cv::Point bestShift(const PyramidLevel& from, const PyramidLevel& to, int reach);
+
+}  // namespace redbee

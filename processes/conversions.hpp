@@ -1,0 +1,63 @@
+// Between messages and the libraries' types.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "visual/point_tracker.hpp"
+
+namespace redbee {
+
+using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using RowMajor8d = Eigen::Matrix<double, 8, 8, Eigen::RowMajor>;
+
+inline Eigen::Matrix3d matrix3(const double (&entries)[9]) { return Eigen::Map<const RowMajor3d>(entries); }
+inline Eigen::Matrix<double, 8, 8> matrix8(const double (&entries)[64]) { return Eigen::Map<const RowMajor8d>(entries); }
+inline Eigen::Vector3d vector3(const double (&entries)[3]) { return Eigen::Map<const Eigen::Vector3d>(entries); }
+
+inline void fill(double (&entries)[9], const Eigen::Matrix3d& M) { Eigen::Map<RowMajor3d> rows(entries); rows = M; }
+inline void fill(double (&entries)[64], const Eigen::Matrix<double, 8, 8>& M) {
+  Eigen::Map<RowMajor8d> rows(entries);
+  rows = M;
+}
+inline void fill(double (&entries)[3], const Eigen::Vector3d& v) { Eigen::Map<Eigen::Vector3d> rows(entries); rows = v; }
+inline void fill(double (&entries)[8], const Eigen::Matrix<double, 8, 1>& v) {
+  Eigen::Map<Eigen::Matrix<double, 8, 1>> rows(entries);
+  rows = v;
+}
+
+/// For messages that carry the four coordinate arrays of sample points.
+template <typename Message>
+void fillTracks(Message& message, const PointTracks& tracks) {
+  message.n = static_cast<int32_t>(tracks.current.size());
+  for (auto* array : {&message.x_previous, &message.y_previous, &message.x, &message.y}) {
+    array->resize(tracks.current.size());
+  }
+  for (size_t i = 0; i < tracks.current.size(); ++i) {
+    message.x_previous[i] = tracks.previous[i].x;
+    message.y_previous[i] = tracks.previous[i].y;
+    message.x[i] = tracks.current[i].x;
+    message.y[i] = tracks.current[i].y;
+  }
+}
+
+template <typename Message>
+PointTracks tracksOf(const Message& message) {
+  PointTracks tracks;
+  tracks.previous.reserve(message.x.size());
+  tracks.current.reserve(message.x.size());
+  for (size_t i = 0; i < message.x.size(); ++i) {
+    tracks.previous.emplace_back(message.x_previous[i], message.y_previous[i]);
+    tracks.current.emplace_back(message.x[i], message.y[i]);
+  }
+  return tracks;
+}
+
+/// True where every number that a homography message promises is finite.
+template <typename Message>
+bool finiteHomography(const Message& message) {
+  return matrix3(message.H).allFinite() && matrix8(message.covariance).allFinite() && message.H[8] != 0;
+}
+
+}  // namespace redbee

@@ -1,0 +1,184 @@
+#include "processes/homography_fusion/node.hpp"
+
+#include "processes/conversions.hpp"
+#include "processes/work_timer.hpp"
+#include "redbee/ins_t.hpp"
+#include "visual/homography_estimation.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int kQueue = 64;
+constexpr int kImuQueue = 4000;
+constexpr size_t kMaxPending = 64;
+constexpr int8_t kVisualGood = 0;
+
+int64_t microseconds(double seconds) { return static_cast<int64_t>(seconds * 1e6); }
+
+}  // namespace
+
+HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& configuration)
+    : bus_(bus),
+      configuration_(configuration),
+      health_("redbee-homography-fusion", configurationHash(configuration)),
+      fusion_(configuration.camera.width, configuration.camera.height, configuration.fusion),
+      inertial_(microseconds(configuration.waits.fusion_s), configuration.has_imu),
+      visual_(microseconds(configuration.waits.fusion_s), true) {
+  const auto damaged = [this] { health_.noteDamaged(); };
+  const auto& channels = configuration_.channels;
+  bus_.subscribe<inertial_homography_t>(channels.inertial_homography, kQueue,
+                                        [this](const inertial_homography_t& m) { takeInertial(m); }, damaged);
+  bus_.subscribe<visual_homography_t>(channels.visual_homography, kQueue,
+                                      [this](const visual_homography_t& m) { takeVisual(m); }, damaged);
+  if (configuration_.has_imu) {
+    bus_.subscribe<ins_t>(channels.imu, kImuQueue,
+                          [this](const ins_t& m) { newest_utime_ = std::max(newest_utime_, m.utime); }, damaged);
+  }
+}
+
+void HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
+  health_.noteSequence(configuration_.channels.inertial_homography, message.sequence);
+  if (!finiteHomography(message) && message.valid != 0) {
+    health_.noteDamaged();
+    return;
+  }
+  expect(message.utime);
+  inertial_.put(message.utime, message);
+}
+
+void HomographyFusionNode::takeVisual(const visual_homography_t& message) {
+  health_.noteInput(message.utime);
+  health_.noteSequence(configuration_.channels.visual_homography, message.sequence);
+  if (!finiteHomography(message) && message.status == kVisualGood) {
+    health_.noteDamaged();
+    return;
+  }
+  expect(message.utime);
+  visual_.put(message.utime, message);
+}
+
+void HomographyFusionNode::expect(int64_t utime) {
+  newest_utime_ = std::max(newest_utime_, utime);
+  if (pending_.count(utime) > 0) return;
+  const bool is_companion_of_last = order_.last() == utime;
+  if (is_companion_of_last) return;  // came after its frame was given up
+  const int64_t newest_frame = pending_.empty() ? order_.last().value_or(utime) : pending_.rbegin()->first;
+  if (newest_frame - utime > FrameOrder::kSetBack) restart();
+  pending_.emplace(utime, WorkTimer());
+  if (pending_.size() > kMaxPending) {
+    pending_.erase(pending_.begin());
+    health_.noteSkipped();
+  }
+}
+
+void HomographyFusionNode::restart() {
+  pending_.clear();
+  inertial_.clear();
+  visual_.clear();
+  newest_utime_ = 0;
+}
+
+bool HomographyFusionNode::ready(int64_t utime) {
+  if (finishing_) return true;
+  const int64_t before = inertial_.givenUp() + visual_.givenUp();
+  const auto inertial = inertial_.ask(utime, newest_utime_);
+  const auto visual = visual_.ask(utime, newest_utime_);
+  health_.noteLate(inertial_.givenUp() + visual_.givenUp() - before);
+  return inertial != CompanionBuffer<inertial_homography_t>::Answer::kWait &&
+         visual != CompanionBuffer<visual_homography_t>::Answer::kWait;
+}
+
+void HomographyFusionNode::process() {
+  while (!pending_.empty() && ready(pending_.begin()->first)) {
+    const auto [utime, since_arrival] = *pending_.begin();
+    pending_.erase(pending_.begin());
+    const auto verdict = order_.judge(utime);
+    if (verdict == FrameOrder::Verdict::kDiscard) {
+      health_.noteSkipped();
+      continue;
+    }
+    if (verdict == FrameOrder::Verdict::kRestart) {
+      fusion_ = HomographyFusion(configuration_.camera.width, configuration_.camera.height, configuration_.fusion);
+    }
+    fuse(utime, since_arrival);
+  }
+}
+
+void HomographyFusionNode::finish() {
+  finishing_ = true;
+  process();
+  finishing_ = false;
+}
+
+void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
+  const WorkTimer timer;
+  const inertial_homography_t* inertial = inertial_.find(utime);
+  const visual_homography_t* visual = visual_.find(utime);
+  std::optional<InertialInput> inertial_input;
+  if (inertial != nullptr && inertial->valid != 0) {
+    inertial_input = InertialInput{inertial->utime_previous, matrix3(inertial->H), matrix8(inertial->covariance)};
+  }
+  std::optional<VisualInput> visual_input;
+  if (visual != nullptr && visual->status == kVisualGood) {
+    visual_input = VisualInput{visual->utime_previous, matrix3(visual->H), matrix8(visual->covariance),
+                               visual->inliers, visual->outliers};
+  }
+  const FusedHomography fused = fusion_.step(utime, inertial_input, visual_input);
+  publish(fused, inertial, visual);
+  inertial_.forgetUpTo(utime);
+  visual_.forgetUpTo(utime);
+  noteDone(health_, utime, since_arrival, timer);
+  const bool good = fused.source == FusionSource::kFused || (!configuration_.has_imu && fused.source == FusionSource::kVisual);
+  health_.setState(good ? HealthState::kGood : HealthState::kDegraded,
+                 good ? "" : std::string("homography from: ") + toString(fused.source));
+}
+
+void HomographyFusionNode::publish(const FusedHomography& fused, const inertial_homography_t* inertial,
+                                   const visual_homography_t* visual) {
+  fused_homography_t message{};
+  message.utime = fused.utime;
+  message.utime_previous = fused.utime_previous;
+  message.sequence = sequence_++;
+  message.source = static_cast<int8_t>(fused.source);
+  message.epoch = fused.epoch;
+  message.utime_anchor = fused.utime_anchor;
+  message.width = configuration_.camera.width;
+  message.height = configuration_.camera.height;
+  fill(message.H, fused.H_step);
+  fill(message.covariance, fused.covariance_step);
+  fill(message.H_anchor, fused.H_anchor);
+  fill(message.covariance_anchor, fused.covariance_anchor);
+  message.has_innovation = fused.has_innovation ? 1 : 0;
+  if (fused.has_innovation) {
+    fill(message.innovation, fused.innovation);
+    fill(message.innovation_covariance, fused.innovation_covariance);
+    message.test_ratio = fused.test_ratio;
+  }
+  if (inertial != nullptr && inertial->valid != 0 && inertial->utime_previous == fused.utime_previous) {
+    message.has_motion = 1;
+    fill(message.R, matrix3(inertial->R));
+    fill(message.t, vector3(inertial->t));
+    fill(message.normal, vector3(inertial->normal));
+    message.plane_distance = inertial->plane_distance;
+  }
+  if (visual != nullptr && visual->utime_previous == fused.utime_previous) {
+    const PointTracks tracks = tracksOf(*visual);
+    fillTracks(message, tracks);
+    if (fused.visual_accepted) {
+      message.has_observation = 1;
+      fill(message.H_observed, matrix3(visual->H));
+      fill(message.covariance_observed, matrix8(visual->covariance));
+    }
+    if (fused.source != FusionSource::kNone) {
+      const auto front = estimateFrontPlane(tracks, fused.H_step, message.width, message.height, configuration_.front);
+      if (front) {
+        message.has_front = 1;
+        fill(message.H_front, front->H);
+        message.front_inliers = front->inliers;
+      }
+    }
+  }
+  bus_.publish(configuration_.channels.fused_homography, message);
+}
+
+}  // namespace redbee

@@ -1,0 +1,153 @@
+#include "processes/imu_integration/node.hpp"
+
+#include "processes/conversions.hpp"
+#include "processes/frame_intake.hpp"
+#include "processes/work_timer.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int kFrameQueue = 64;
+constexpr int kImuQueue = 4000;
+constexpr size_t kMaxPendingFrames = 256;
+
+int64_t microseconds(double seconds) { return static_cast<int64_t>(seconds * 1e6); }
+
+}  // namespace
+
+ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configuration)
+    : bus_(bus),
+      configuration_(configuration),
+      health_("redbee-imu-integration", configurationHash(configuration)),
+      camera_(configuration.camera),
+      filter_(camera_, configuration.inertial),
+      feedback_(microseconds(configuration.waits.inertial_s), true) {
+  const auto damaged = [this] { health_.noteDamaged(); };
+  const auto& channels = configuration_.channels;
+  bus_.subscribe<image_t>(channels.camera, kFrameQueue, [this](const image_t& m) { takeFrame(m); }, damaged);
+  bus_.subscribe<ins_t>(channels.imu, kImuQueue, [this](const ins_t& m) { takeImu(m); }, damaged);
+  if (configuration_.has_altimeter) {
+    bus_.subscribe<altimeter_t>(channels.altimeter, kImuQueue, [this](const altimeter_t& m) { takeAltitude(m); }, damaged);
+  }
+  bus_.subscribe<fused_homography_t>(channels.fused_homography, kFrameQueue,
+                                     [this](const fused_homography_t& m) { takeFused(m); }, damaged);
+}
+
+void ImuIntegrationNode::takeFrame(const image_t& message) {
+  if (!acceptFrame(order_, health_, message.utime, [this] { restart(); })) return;
+  noteTime(message.utime);
+  pending_.push_back({message.utime, {}});
+  if (pending_.size() > kMaxPendingFrames) {
+    pending_.pop_front();
+    health_.noteSkipped();
+  }
+}
+
+void ImuIntegrationNode::takeImu(const ins_t& message) {
+  if (!filter_.addImu({message.utime, vector3(message.gyro), vector3(message.accel)})) {
+    health_.noteDamaged();
+    return;
+  }
+  imu_alive_ = true;
+  noteTime(message.utime);
+}
+
+void ImuIntegrationNode::takeAltitude(const altimeter_t& message) {
+  if (!filter_.addAltitude({message.utime, message.height, message.sigma})) health_.noteDamaged();
+}
+
+void ImuIntegrationNode::takeFused(const fused_homography_t& message) {
+  health_.noteSequence(configuration_.channels.fused_homography, message.sequence);
+  feedback_.put(message.utime, message);
+}
+
+void ImuIntegrationNode::restart() {
+  pending_.clear();
+  feedback_.clear();
+  filter_ = InertialFilter(camera_, configuration_.inertial);
+  newest_utime_ = 0;
+  last_frame_utime_.reset();
+}
+
+bool ImuIntegrationNode::readyFor(int64_t frame_utime) {
+  if (finishing_) return true;
+  const int64_t patience = microseconds(configuration_.waits.inertial_s);
+  if (imu_alive_ && !filter_.covers(frame_utime)) {
+    if (newest_utime_ - frame_utime <= patience) return false;
+    imu_alive_ = false;
+  }
+  if (!last_frame_utime_) return true;
+  const int64_t before = feedback_.givenUp();
+  const auto answer = feedback_.ask(*last_frame_utime_, newest_utime_);
+  health_.noteLate(feedback_.givenUp() - before);
+  return answer != CompanionBuffer<fused_homography_t>::Answer::kWait;
+}
+
+void ImuIntegrationNode::applyFeedback() {
+  feedback_test_ratio_ = 0;
+  if (!last_frame_utime_) return;
+  const fused_homography_t* fused = feedback_.find(*last_frame_utime_);
+  if (fused == nullptr || fused->has_observation == 0) return;
+  const HomographyObservation observation{fused->utime_previous, fused->utime, matrix3(fused->H_observed),
+                                          matrix8(fused->covariance_observed)};
+  if (!observation.H.allFinite() || !observation.covariance.allFinite()) {
+    health_.noteDamaged();
+    return;
+  }
+  feedback_test_ratio_ = filter_.correct(observation).test_ratio;
+}
+
+void ImuIntegrationNode::process() {
+  while (!pending_.empty() && readyFor(pending_.front().utime)) {
+    const Frame frame = pending_.front();
+    pending_.pop_front();
+    integrate(frame);
+  }
+}
+
+void ImuIntegrationNode::finish() {
+  finishing_ = true;
+  process();
+  finishing_ = false;
+}
+
+void ImuIntegrationNode::integrate(const Frame& frame) {
+  const WorkTimer timer;
+  applyFeedback();
+  if (last_frame_utime_) feedback_.forgetUpTo(*last_frame_utime_);
+  const InertialHomography result = filter_.advanceTo(frame.utime);
+  last_frame_utime_ = frame.utime;
+
+  inertial_homography_t message{};
+  message.utime = frame.utime;
+  message.utime_previous = result.utime_previous;
+  message.sequence = sequence_++;
+  message.status = static_cast<int8_t>(result.status);
+  message.valid = result.valid ? 1 : 0;
+  message.width = configuration_.camera.width;
+  message.height = configuration_.camera.height;
+  fill(message.H, result.H);
+  fill(message.covariance, result.covariance);
+  fill(message.R, result.motion.R_ba);
+  fill(message.t, result.motion.t_ba);
+  fill(message.normal, result.motion.m_a);
+  message.plane_distance = result.motion.h_a;
+  fill(message.rotation_covariance, result.rotation_covariance);
+  fill(message.down, result.direction_of_gravity);
+  message.camera_height = result.height_m;
+  message.camera_height_sigma = result.height_sigma_m;
+  if (const auto state = filter_.state()) {
+    fill(message.gyro_bias, state->gyro_bias);
+    fill(message.accel_bias, state->accel_bias);
+  }
+  message.feedback_test_ratio = feedback_test_ratio_;
+  bus_.publish(configuration_.channels.inertial_homography, message);
+  noteDone(health_, frame.utime, frame.since_arrival, timer);
+  if (result.valid && result.status == InertialStatus::kGood) {
+    health_.setState(HealthState::kGood, "");
+  } else {
+    health_.setState(HealthState::kDegraded, toString(result.status));
+  }
+}
+
+}  // namespace redbee

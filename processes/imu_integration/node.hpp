@@ -1,0 +1,62 @@
+// CAMERA (its times), IMU, ALTIMETER and FUSED_HOMOGRAPHY in; INERTIAL_HOMOGRAPHY out.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "inertial/inertial_filter.hpp"
+#include "messaging/companion_buffer.hpp"
+#include "messaging/configuration.hpp"
+#include "messaging/frame_order.hpp"
+#include "messaging/node.hpp"
+#include "processes/work_timer.hpp"
+#include "redbee/altimeter_t.hpp"
+#include "redbee/fused_homography_t.hpp"
+#include "redbee/image_t.hpp"
+#include "redbee/inertial_homography_t.hpp"
+#include "redbee/ins_t.hpp"
+
+namespace redbee {
+
+/// One message per frame, as soon as the IMU's samples reach its exposure and the fusion has answered for the frame before.
+class ImuIntegrationNode : public Node {
+ public:
+  ImuIntegrationNode(Bus& bus, const Configuration& configuration);
+  void process() override;
+  void finish() override;
+  HealthMonitor& health() override { return health_; }
+
+ private:
+  struct Frame {
+    int64_t utime;
+    WorkTimer since_arrival;
+  };
+
+  void takeFrame(const image_t& message);
+  void takeImu(const ins_t& message);
+  void takeAltitude(const altimeter_t& message);
+  void takeFused(const fused_homography_t& message);
+  bool readyFor(int64_t frame_utime);
+  void applyFeedback();
+  void integrate(const Frame& frame);
+  void restart();
+  void noteTime(int64_t utime) { newest_utime_ = std::max(newest_utime_, utime); }
+
+  Bus& bus_;
+  Configuration configuration_;
+  HealthMonitor health_;
+  Camera camera_;
+  InertialFilter filter_;
+  FrameOrder order_;
+  std::deque<Frame> pending_;
+  CompanionBuffer<fused_homography_t> feedback_;
+  int64_t newest_utime_ = 0;
+  std::optional<int64_t> last_frame_utime_;
+  double feedback_test_ratio_ = 0;
+  bool imu_alive_ = true;
+  bool finishing_ = false;
+  int32_t sequence_ = 0;
+};
+
+}  // namespace redbee

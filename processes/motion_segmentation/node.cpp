@@ -1,0 +1,203 @@
+#include "processes/motion_segmentation/node.hpp"
+
+#include <Eigen/LU>
+
+#include "flight/overlay.hpp"
+#include "messaging/picture.hpp"
+#include "processes/conversions.hpp"
+#include "processes/frame_intake.hpp"
+#include "processes/work_timer.hpp"
+#include "redbee/detections_t.hpp"
+#include "redbee/foreground_t.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int kFrameQueue = 64;
+constexpr int kOverlayQuality = 80;
+
+detections_t detectionsMessage(const SegmentationOutput& output) {
+  detections_t message{};
+  message.utime = output.utime;
+  message.status = static_cast<int8_t>(output.status);
+  message.n = static_cast<int32_t>(output.detections.size());
+  for (const Detection& detection : output.detections) {
+    detection_t d{};
+    d.id = detection.id;
+    d.x = detection.box.x;
+    d.y = detection.box.y;
+    d.width = detection.box.width;
+    d.height = detection.box.height;
+    d.area = detection.area_px;
+    d.score = detection.score;
+    d.seen = detection.seen ? 1 : 0;
+    message.detections.push_back(d);
+  }
+  return message;
+}
+
+/// Box on the raw grid around a box on the ideal grid.
+cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
+  const cv::Rect picture(0, 0, camera.intrinsics().width, camera.intrinsics().height);
+  Eigen::Vector2d low(picture.width, picture.height);
+  Eigen::Vector2d high(0, 0);
+  for (int i = 0; i <= 4; ++i) {
+    for (const Eigen::Vector2d& edge : {Eigen::Vector2d(i / 4.0, 0), Eigen::Vector2d(i / 4.0, 1),
+                                        Eigen::Vector2d(0, i / 4.0), Eigen::Vector2d(1, i / 4.0)}) {
+      const Eigen::Vector2d raw =
+          camera.distort({box.x + edge.x() * (box.width - 1), box.y + edge.y() * (box.height - 1)});
+      low = low.cwiseMin(raw);
+      high = high.cwiseMax(raw);
+    }
+  }
+  const cv::Point top_left(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
+  const cv::Point bottom_right(static_cast<int>(std::ceil(high.x())) + 1, static_cast<int>(std::ceil(high.y())) + 1);
+  return cv::Rect(top_left, bottom_right) & picture;
+}
+
+}  // namespace
+
+MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration)
+    : bus_(bus),
+      configuration_(configuration),
+      health_("redbee-motion-segmentation", configurationHash(configuration)),
+      camera_(configuration.camera),
+      rectifier_(camera_),
+      segmenter_(configuration.segmentation),
+      fused_(static_cast<int64_t>(configuration.waits.segmentation_s * 1e6), true) {
+  const auto damaged = [this] { health_.noteDamaged(); };
+  const auto& channels = configuration_.channels;
+  bus_.subscribe<image_t>(channels.camera, kFrameQueue, [this](const image_t& m) { takeFrame(m); }, damaged);
+  bus_.subscribe<fused_homography_t>(
+      channels.fused_homography, kFrameQueue,
+      [this](const fused_homography_t& m) {
+        health_.noteSequence(configuration_.channels.fused_homography, m.sequence);
+        if (finiteHomography(m)) {
+          fused_.put(m.utime, m);
+        } else {
+          health_.noteDamaged();
+        }
+      },
+      damaged);
+}
+
+void MotionSegmentationNode::takeFrame(const image_t& message) {
+  if (!acceptFrame(order_, health_, message.utime, [this] { restart(); })) return;
+  newest_utime_ = std::max(newest_utime_, message.utime);
+  pending_.push_back({message, {}});
+  while (static_cast<int>(pending_.size()) > configuration_.waits.max_backlog) {
+    pending_.pop_front();
+    health_.noteSkipped();
+  }
+}
+
+void MotionSegmentationNode::restart() {
+  pending_.clear();
+  fused_.clear();
+  last_.reset();
+  newest_utime_ = 0;
+}
+
+void MotionSegmentationNode::process() {
+  while (!pending_.empty()) {
+    const int64_t before = fused_.givenUp();
+    const auto answer = fused_.ask(pending_.front().content.utime, newest_utime_);
+    health_.noteLate(fused_.givenUp() - before);
+    if (answer == CompanionBuffer<fused_homography_t>::Answer::kWait && !finishing_) return;
+    const Arrived<image_t> frame = std::move(pending_.front());
+    pending_.pop_front();
+    segment(frame);
+  }
+}
+
+void MotionSegmentationNode::finish() {
+  finishing_ = true;
+  process();
+  finishing_ = false;
+}
+
+SegmentationInput MotionSegmentationNode::inputFor(const image_t& message, const cv::Mat& ideal) const {
+  SegmentationInput input;
+  input.utime = message.utime;
+  input.utime_previous = last_ ? last_->utime : message.utime;
+  input.grey = ideal;
+  input.K = camera_.K();
+  const fused_homography_t* fused = fused_.find(message.utime);
+  if (fused == nullptr || !last_ || fused->source == 0) return input;
+  if (fused->utime_previous == last_->utime) {
+    input.ground = matrix3(fused->H);
+    input.tracks = tracksOf(*fused);
+    if (fused->has_front != 0) input.front = matrix3(fused->H_front);
+    if (fused->has_motion != 0) {
+      input.motion = PlaneMotion{matrix3(fused->R), vector3(fused->t), vector3(fused->normal), fused->plane_distance};
+    }
+  } else if (fused->epoch == last_->epoch) {
+    // A frame between was missed: the anchor bridges it (method.md, "Fusion").
+    input.ground = normaliseHomography(matrix3(fused->H_anchor) * last_->H_anchor.inverse());
+  }
+  return input;
+}
+
+void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
+  const WorkTimer timer;
+  const image_t& message = frame.content;
+  cv::Mat grey = decodeGrey(message).value_or(cv::Mat());
+  if (grey.cols != configuration_.camera.width || grey.rows != configuration_.camera.height) {
+    if (grey.empty()) health_.noteDamaged();
+    grey = cv::Mat::zeros(configuration_.camera.height, configuration_.camera.width, CV_8U);
+  }
+  const SegmentationInput input = inputFor(message, rectifier_.toIdeal(grey));
+  publish(message, input, segmenter_.step(input));
+  if (const fused_homography_t* fused = fused_.find(message.utime)) {
+    last_ = Last{message.utime, fused->epoch, matrix3(fused->H_anchor)};
+  } else {
+    last_ = Last{message.utime, -1, Eigen::Matrix3d::Identity()};
+  }
+  fused_.forgetUpTo(message.utime);
+  noteDone(health_, message.utime, frame.since, timer);
+}
+
+void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output) {
+  output.probability = rectifier_.toRaw(output.probability);
+  output.mask = rectifier_.toRaw(output.mask);
+  output.unknown = rectifier_.toRaw(output.unknown);
+  if (camera_.isDistorted()) {
+    for (Detection& detection : output.detections) detection.box = rawBox(camera_, detection.box);
+  }
+  foreground_t foreground{};
+  foreground.utime = output.utime;
+  foreground.utime_previous = input.utime_previous;
+  foreground.sequence = sequence_;
+  foreground.status = static_cast<int8_t>(output.status);
+  foreground.width = output.mask.cols;
+  foreground.height = output.mask.rows;
+  foreground.probability = encodePng(output.probability);
+  foreground.mask = encodePng(output.mask);
+  foreground.unknown = encodePng(output.unknown);
+  foreground.probability_size = static_cast<int32_t>(foreground.probability.size());
+  foreground.mask_size = static_cast<int32_t>(foreground.mask.size());
+  foreground.unknown_size = static_cast<int32_t>(foreground.unknown.size());
+  bus_.publish(configuration_.channels.foreground, foreground);
+
+  detections_t detections = detectionsMessage(output);
+  detections.sequence = sequence_++;
+  bus_.publish(configuration_.channels.detections, detections);
+  publishOverlay(message, output);
+  const bool good = output.status == SegmentationStatus::kGood;
+  health_.setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(output.status));
+}
+
+void MotionSegmentationNode::publishOverlay(const image_t& message, const SegmentationOutput& output) {
+  const int period = configuration_.overlay_period_frames;
+  if (period == 0 || ++frames_since_overlay_ < period) return;
+  frames_since_overlay_ = 0;
+  if (const auto picture = decodeColour(message); picture && picture->size() == output.mask.size()) {
+    OverlayStatus status;
+    status.utime = message.utime;
+    status.message = output.status == SegmentationStatus::kGood ? "" : toString(output.status);
+    const cv::Mat drawn = drawOverlay(*picture, output.mask, output.detections, status);
+    bus_.publish(configuration_.channels.overlay, jpegMessage(message.utime, drawn, kOverlayQuality));
+  }
+}
+
+}  // namespace redbee

@@ -1,0 +1,59 @@
+// CAMERA and FUSED_HOMOGRAPHY in; FOREGROUND, DETECTIONS and OVERLAY out.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "messaging/companion_buffer.hpp"
+#include "messaging/configuration.hpp"
+#include "messaging/frame_order.hpp"
+#include "messaging/node.hpp"
+#include "processes/work_timer.hpp"
+#include "redbee/fused_homography_t.hpp"
+#include "redbee/image_t.hpp"
+#include "segmentation/motion_segmenter.hpp"
+#include "visual/rectifier.hpp"
+
+namespace redbee {
+
+/// One message of each kind per frame. Maps and boxes are on the raw picture's grid.
+class MotionSegmentationNode : public Node {
+ public:
+  MotionSegmentationNode(Bus& bus, const Configuration& configuration);
+  void process() override;
+  void finish() override;
+  HealthMonitor& health() override { return health_; }
+
+ private:
+  /// The last frame that was segmented, and where it lay in its epoch.
+  struct Last {
+    int64_t utime;
+    int32_t epoch;
+    Eigen::Matrix3d H_anchor;
+  };
+
+  void takeFrame(const image_t& message);
+  void segment(const Arrived<image_t>& frame);
+  SegmentationInput inputFor(const image_t& message, const cv::Mat& ideal) const;
+  void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
+  void publishOverlay(const image_t& message, const SegmentationOutput& output);
+  void restart();
+
+  Bus& bus_;
+  Configuration configuration_;
+  HealthMonitor health_;
+  Camera camera_;
+  Rectifier rectifier_;
+  MotionSegmenter segmenter_;
+  FrameOrder order_;
+  std::deque<Arrived<image_t>> pending_;
+  CompanionBuffer<fused_homography_t> fused_;
+  std::optional<Last> last_;
+  int64_t newest_utime_ = 0;
+  bool finishing_ = false;
+  int32_t sequence_ = 0;
+  int frames_since_overlay_ = 0;
+};
+
+}  // namespace redbee

@@ -1,0 +1,108 @@
+#include "processes/redbee/calibration_log.hpp"
+
+#include <cstdio>
+#include <string>
+
+#include "flight/input_error.hpp"
+#include "flight/log.hpp"
+#include "flight/progress.hpp"
+#include "messaging/codec.hpp"
+#include "messaging/picture.hpp"
+#include "redbee/altimeter_t.hpp"
+#include "redbee/image_t.hpp"
+#include "redbee/ins_t.hpp"
+#include "visual/point_tracker.hpp"
+#include "visual/rectifier.hpp"
+
+namespace redbee {
+namespace {
+
+template <typename Message>
+bool decodes(const LogEvent& event, Message& message) {
+  return decodeMessage(event.data.data(), static_cast<int>(event.data.size()), message);
+}
+
+class LogIntake {
+ public:
+  LogIntake(const std::filesystem::path& log, const Configuration& configuration, calibration::CalibrationInput& input)
+      : log_(log),
+        configuration_(configuration),
+        input_(input),
+        rectifier_(Camera(configuration.camera)),
+        tracker_(configuration.visual.tracker) {}
+
+  void take(const LogEvent& event) {
+    const Channels& channels = configuration_.channels;
+    if (event.channel == channels.imu) return takeImu(event);
+    if (event.channel == channels.altimeter && configuration_.has_altimeter) return takeAltitude(event);
+    if (event.channel == channels.camera) return takePicture(event);
+  }
+
+  void finish() const {
+    if (input_.frames.empty()) throw InputError(log_, "holds no picture on " + configuration_.channels.camera);
+    if (input_.imu.empty()) throw InputError(log_, "holds no IMU sample on " + configuration_.channels.imu);
+    if (damaged_ > 0) std::fprintf(stderr, "warning: %s: %d damaged messages skipped\n", log_.c_str(), damaged_);
+  }
+
+ private:
+  void takeImu(const LogEvent& event) {
+    ins_t message;
+    if (!decodes(event, message)) return noteDamaged();
+    input_.imu.push_back({message.utime, {message.gyro[0], message.gyro[1], message.gyro[2]},
+                          {message.accel[0], message.accel[1], message.accel[2]}});
+  }
+
+  void takeAltitude(const LogEvent& event) {
+    altimeter_t message;
+    if (!decodes(event, message)) return noteDamaged();
+    input_.altimeter.push_back({message.utime, message.height, message.sigma});
+  }
+
+  void takePicture(const LogEvent& event) {
+    image_t message;
+    if (!decodes(event, message)) return noteDamaged();
+    const auto grey = decodeGrey(message);
+    if (!grey) return noteDamaged();
+    if (grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
+      throw InputError(log_, "event " + std::to_string(event.number) + ": picture of " + std::to_string(grey->cols) + "x" +
+                                 std::to_string(grey->rows) + ", configured are " +
+                                 std::to_string(configuration_.camera.width) + "x" +
+                                 std::to_string(configuration_.camera.height));
+    }
+    const int64_t previous = input_.frames.empty() ? message.utime : input_.frames.back();
+    // A picture that comes twice or late would be tracked backwards.
+    if (!input_.frames.empty() && message.utime <= previous) return;
+    PointTracks points = tracker_.advance(rectifier_.toIdeal(*grey), std::nullopt);
+    input_.frames.push_back(message.utime);
+    const double gap_s = static_cast<double>(message.utime - previous) * 1e-6;
+    if (points.current.empty() || gap_s > configuration_.visual.max_frame_gap_s) return;
+    input_.ground.push_back({previous, message.utime, std::move(points)});
+  }
+
+  void noteDamaged() { ++damaged_; }
+
+  std::filesystem::path log_;
+  const Configuration& configuration_;
+  calibration::CalibrationInput& input_;
+  Rectifier rectifier_;
+  PointTracker tracker_;
+  int damaged_ = 0;
+};
+
+}  // namespace
+
+void readCalibrationLog(const std::filesystem::path& log, const Configuration& configuration, bool quiet,
+                        calibration::CalibrationInput& input) {
+  LogReader reader(log);
+  LogIntake intake(log, configuration, input);
+  Progress progress("tracking in " + log.filename().string(), "MB", quiet);
+  while (const auto event = reader.next()) {
+    intake.take(*event);
+    progress.update(reader.position() >> 20, reader.size() >> 20);
+  }
+  progress.finish();
+  if (!reader.complaint().empty()) std::fprintf(stderr, "warning: %s\n", reader.complaint().c_str());
+  intake.finish();
+}
+
+}  // namespace redbee

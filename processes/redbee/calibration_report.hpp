@@ -1,0 +1,14 @@
+// report.html of `redbee calibrate`: verdicts and pictures on one page that stands alone.
+#pragma once
+
+#include <string>
+
+#include "calibration/calibration.hpp"
+#include "processes/redbee/calibration_files.hpp"
+
+namespace redbee {
+
+std::string calibrationReport(const calibration::CalibrationInput& input, const calibration::CalibrationResult& result,
+                              const CalibrationSubject& subject);
+
+}  // namespace redbee

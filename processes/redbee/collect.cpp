@@ -1,0 +1,25 @@
+#include "processes/redbee/collect.hpp"
+
+#include <chrono>
+
+#include "messaging/node.hpp"
+#include "processes/redbee/collector.hpp"
+#include "processes/work_timer.hpp"
+
+namespace redbee {
+
+int64_t runCollect(const CollectOptions& options) {
+  const Configuration configuration = loadConfiguration(options.configuration);
+  const auto bus = makeLcmBus(options.url);
+  ResultCollector collector(*bus, configuration.channels, options.out);
+  const std::atomic<bool>& stop = stopOnSignals();
+  const WorkTimer timer;
+  while (!stop) bus->handle(std::chrono::milliseconds(50));
+  while (bus->handle(std::chrono::milliseconds(50)) > 0) {
+  }
+  constexpr int64_t kSumOfProcesses = 0;
+  collector.writeTables(timer.milliseconds() / 1000, kSumOfProcesses);
+  return collector.frames();
+}
+
+}  // namespace redbee

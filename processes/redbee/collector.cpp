@@ -1,0 +1,135 @@
+#include "processes/redbee/collector.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "flight/atomic_file.hpp"
+#include "flight/input_error.hpp"
+#include "flight/results.hpp"
+#include "processes/conversions.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int kQueue = 256;
+
+std::string pictureName(int64_t utime) { return std::to_string(utime) + ".png"; }
+
+std::string_view bytesOf(const std::vector<uint8_t>& data) {
+  return {reinterpret_cast<const char*>(data.data()), data.size()};
+}
+
+Detection detectionOf(const detection_t& message) {
+  Detection detection;
+  detection.id = message.id;
+  detection.box = {message.x, message.y, message.width, message.height};
+  detection.area_px = message.area;
+  detection.score = message.score;
+  detection.seen = message.seen != 0;
+  return detection;
+}
+
+nlohmann::json stageJson(const process_health_t& health) {
+  return {{"median_ms", health.work_median}, {"p99_ms", health.work_p99},   {"mean_ms", health.work_mean},
+          {"frames", health.published},      {"skipped", health.skipped},   {"lost", health.lost},
+          {"damaged", health.damaged},       {"given_up", health.late},     {"resident_bytes", health.resident},
+          {"state", health.state},           {"message", health.message}};
+}
+
+}  // namespace
+
+ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesystem::path folder)
+    : folder_(std::move(folder)) {
+  for (const char* kind : {"probability", "mask"}) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_ / kind, error);
+    if (error) throw InputError(folder_ / kind, error.message());
+  }
+  const auto damaged = [this] { ++damaged_; };
+  bus.subscribe<foreground_t>(channels.foreground, kQueue, [this](const foreground_t& m) { takeForeground(m); }, damaged);
+  bus.subscribe<detections_t>(channels.detections, kQueue, [this](const detections_t& m) { detections_[m.utime] = m; },
+                              damaged);
+  bus.subscribe<fused_homography_t>(channels.fused_homography, kQueue,
+                                    [this](const fused_homography_t& m) { takeFused(m); }, damaged);
+  bus.subscribe<process_health_t>(channels.health, kQueue,
+                                  [this](const process_health_t& m) { health_[m.process] = m; }, damaged);
+}
+
+void ResultCollector::takeForeground(const foreground_t& message) {
+  foreground_sequence_.note(message.sequence);
+  status_[message.utime] = message.status;
+  try {
+    writeAtomically(folder_ / "probability" / pictureName(message.utime), bytesOf(message.probability));
+    writeAtomically(folder_ / "mask" / pictureName(message.utime), bytesOf(message.mask));
+  } catch (const InputError& error) {
+    if (first_failure_.empty()) first_failure_ = error.what();
+  }
+}
+
+void ResultCollector::takeFused(const fused_homography_t& message) {
+  fused_sequence_.note(message.sequence);
+  fused_homography_t& kept = homographies_[message.utime] = message;
+  kept.n = 0;
+  for (auto* array : {&kept.x_previous, &kept.y_previous, &kept.x, &kept.y}) std::vector<float>().swap(*array);
+}
+
+void ResultCollector::writeDetections() const {
+  DetectionsCsv csv(folder_ / "detections.csv");
+  int64_t frame = 0;
+  for (const auto& [utime, status] : status_) {
+    const auto found = detections_.find(utime);
+    if (found != detections_.end()) {
+      for (const detection_t& detection : found->second.detections) csv.write(frame, utime, detectionOf(detection));
+    }
+    ++frame;
+  }
+  csv.close();
+}
+
+void ResultCollector::writeHomographies() const {
+  HomographyCsv csv(folder_ / "homography.csv");
+  for (const auto& [utime, fused] : homographies_) {
+    std::optional<Eigen::Matrix3d> ground;
+    std::optional<Eigen::Matrix3d> front;
+    if (fused.source != 0) ground = matrix3(fused.H);
+    if (fused.has_front != 0) front = matrix3(fused.H_front);
+    csv.write(utime, fused.epoch, ground, front, toString(static_cast<FusionSource>(fused.source)));
+  }
+  csv.close();
+}
+
+void ResultCollector::writeTables(double wall_s, int64_t peak_resident_bytes) const {
+  if (!first_failure_.empty()) throw InputError(first_failure_);
+  writeDetections();
+  writeHomographies();
+  nlohmann::json stages;
+  double slowest_ms = 0;
+  int64_t lost = foreground_sequence_.lost() + fused_sequence_.lost() + damaged_;
+  int64_t skipped = 0;
+  int64_t given_up = 0;
+  int64_t resident = 0;
+  for (const auto& [process, health] : health_) {
+    stages[process] = stageJson(health);
+    slowest_ms = std::max(slowest_ms, health.work_mean);
+    lost += health.lost + health.damaged;
+    skipped += health.skipped;
+    given_up += health.late;
+    resident += health.resident;
+  }
+  const int64_t good = std::count_if(status_.begin(), status_.end(), [](const auto& s) { return s.second == 0; });
+  const auto per_second = [](double milliseconds) { return milliseconds > 0 ? 1000 / milliseconds : 0; };
+  writeJson(folder_ / "summary.json",
+            {{"version", REDBEE_VERSION},
+             {"frames", frames()},
+             {"frames_good", good},
+             {"fps", per_second(slowest_ms)},  // frames over wall time of the slowest stage, decoding included
+             {"wall_s", wall_s},
+             {"lost", lost},
+             {"skipped", skipped},
+             {"given_up", given_up},
+             {"stages", stages},
+             {"peak_rss_bytes", peak_resident_bytes > 0 ? peak_resident_bytes : resident}});
+}
+
+}  // namespace redbee

@@ -1,0 +1,117 @@
+#include "processes/redbee/detect.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include "flight/input_error.hpp"
+#include "flight/log.hpp"
+#include "flight/progress.hpp"
+#include "processes/homography_fusion/node.hpp"
+#include "processes/imu_integration/node.hpp"
+#include "processes/motion_segmentation/node.hpp"
+#include "processes/redbee/collector.hpp"
+#include "processes/redbee/peak_memory.hpp"
+#include "processes/visual_homography/node.hpp"
+
+namespace redbee {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Holds events back to the log's own pace, `rate` times as fast.
+class Pace {
+ public:
+  explicit Pace(double rate) : rate_(rate) {}
+
+  void wait(int64_t utime) {
+    if (rate_ <= 0) return;
+    if (!started_) first_utime_ = utime;
+    started_ = true;
+    std::this_thread::sleep_until(
+        start_ + std::chrono::microseconds(static_cast<int64_t>(static_cast<double>(utime - first_utime_) / rate_)));
+  }
+
+ private:
+  double rate_;
+  bool started_ = false;
+  int64_t first_utime_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+Configuration configurationFor(const DetectOptions& options) {
+  Configuration configuration = loadConfiguration(options.configuration);
+  if (options.method != "redbee" && !applyPreset(configuration, options.method)) {
+    throw InputError("--method " + options.method + ": unknown; known are redbee, default and paper");
+  }
+  for (const std::string& assignment : options.settings) {
+    const size_t equals = assignment.find('=');
+    if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected key=value");
+    applySetting(configuration, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  return configuration;
+}
+
+bool isInput(const Channels& channels, const std::string& channel) {
+  return channel == channels.camera || channel == channels.imu || channel == channels.altimeter;
+}
+
+}  // namespace
+
+InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration)
+    : bus_(bus), health_channel_(configuration.channels.health) {
+  if (configuration.has_imu) nodes_.push_back(std::make_unique<ImuIntegrationNode>(bus, configuration));
+  nodes_.push_back(std::make_unique<VisualHomographyNode>(bus, configuration));
+  nodes_.push_back(std::make_unique<HomographyFusionNode>(bus, configuration));
+  nodes_.push_back(std::make_unique<MotionSegmentationNode>(bus, configuration));
+}
+
+void InProcessStack::settle() {
+  do {
+    for (const auto& node : nodes_) node->process();
+  } while (bus_.handle(std::chrono::milliseconds(0)) > 0);
+}
+
+void InProcessStack::finish() {
+  settle();
+  for (const auto& node : nodes_) {
+    node->finish();
+    settle();
+  }
+}
+
+void InProcessStack::publishHealth() {
+  for (const auto& node : nodes_) bus_.publish(health_channel_, node->health().nextMessage());
+  settle();
+}
+
+int64_t runDetect(const DetectOptions& options) {
+  const Configuration configuration = configurationFor(options);
+  LogReader log(options.log);
+  const auto bus = makeLcmBus("memq://");
+  ResultCollector collector(*bus, configuration.channels, options.out);
+  InProcessStack stack(*bus, configuration);
+  Progress progress("detecting in " + options.log.filename().string(), "MB", options.quiet);
+  Pace pace(options.rate);
+  const auto start = Clock::now();
+  int64_t pictures = 0;
+  while (const auto event = log.next()) {
+    if (!isInput(configuration.channels, event->channel)) continue;
+    pace.wait(event->utime);
+    bus->publish(event->channel, event->data);
+    stack.settle();
+    pictures += event->channel == configuration.channels.camera ? 1 : 0;
+    progress.update(log.position() >> 20, log.size() >> 20);
+  }
+  if (pictures == 0) {
+    throw InputError(options.log, "holds no message on " + configuration.channels.camera);
+  }
+  stack.finish();
+  const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+  stack.publishHealth();
+  progress.finish();
+  if (!log.complaint().empty()) std::fprintf(stderr, "warning: %s\n", log.complaint().c_str());
+  collector.writeTables(wall_s, peakResidentBytes());
+  return collector.frames();
+}
+
+}  // namespace redbee

@@ -1,0 +1,31 @@
+// redbee doctor: what stands between this machine and a running stack, and the exact mend of each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace redbee {
+
+struct Finding {
+  bool good = false;
+  std::string what;  ///< one line
+  std::string mend;  ///< the command or the step that puts it right; empty where nothing is wrong
+};
+
+struct DoctorOptions {
+  std::string url;
+  std::string camera_channel;
+  std::string imu_channel;
+  double listen_s = 2.0;
+};
+
+Finding findReceiveBuffer(const std::string& url);
+/// Sends a message to ourselves on `url`.
+Finding findMulticast(const std::string& url);
+Finding findSpy();
+std::vector<Finding> findSensors(const DoctorOptions& options);
+
+/// Prints every finding; number of those that are not good.
+int runDoctor(const DoctorOptions& options);
+
+}  // namespace redbee

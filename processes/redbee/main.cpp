@@ -1,0 +1,3 @@
+#include "processes/redbee/commands.hpp"
+
+int main(int argc, char** argv) { return redbee::runTool(argc, argv); }

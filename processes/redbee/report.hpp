@@ -1,0 +1,19 @@
+// redbee report: one page of figures and pictures about a run.
+#pragma once
+
+#include <filesystem>
+
+namespace redbee {
+
+struct ReportOptions {
+  std::filesystem::path log;
+  std::filesystem::path configuration;
+  std::filesystem::path results;  ///< of detect or collect
+  std::filesystem::path truth;    ///< folder of truth masks; empty: no measures
+  std::filesystem::path page;     ///< the HTML file to write; it stands alone
+};
+
+/// Prints one screen of figures too. Throws InputError on what cannot be read or written.
+void writeReport(const ReportOptions& options);
+
+}  // namespace redbee

@@ -1,0 +1,41 @@
+#include "processes/run_process.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "messaging/receive_buffer.hpp"
+
+namespace redbee {
+
+int runProcess(int argc, char** argv, const std::string& name, const NodeFactory& factory) {
+  CLI::App app("REDBEE " REDBEE_VERSION ", " + name, name);
+  std::string configuration_file;
+  std::string url = kDefaultLcmUrl;
+  app.add_option("--config", configuration_file, "the vehicle's YAML file")->required();
+  app.add_option("--lcm-url", url, "where the messages are")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  // One process of several on a small computer: its neighbours need the other cores.
+  cv::setNumThreads(1);
+  try {
+    const Configuration configuration = loadConfiguration(configuration_file);
+    const auto bus = makeLcmBus(url);
+    const auto node = factory(*bus, configuration);
+    spdlog::info("{}: configuration {} ({}), {}", name, configuration_file, configurationHash(configuration), url);
+    runNode(*bus, *node, configuration.channels.health, stopOnSignals());
+    return 0;
+  } catch (const ConfigurationError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
+    return 1;
+  }
+}
+
+}  // namespace redbee

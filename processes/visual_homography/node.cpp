@@ -1,0 +1,149 @@
+#include "processes/visual_homography/node.hpp"
+
+#include "messaging/picture.hpp"
+#include "processes/conversions.hpp"
+#include "processes/frame_intake.hpp"
+#include "processes/work_timer.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int kFrameQueue = 64;
+constexpr int8_t kPictureDoesNotFit = 4;
+
+}  // namespace
+
+VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& configuration)
+    : bus_(bus),
+      configuration_(configuration),
+      health_("redbee-visual-homography", configurationHash(configuration)),
+      camera_(configuration.camera),
+      rectifier_(camera_),
+      estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual)),
+      inertial_(static_cast<int64_t>(configuration.waits.visual_s * 1e6), configuration.has_imu) {
+  const auto damaged = [this] { health_.noteDamaged(); };
+  const auto& channels = configuration_.channels;
+  bus_.subscribe<image_t>(channels.camera, kFrameQueue, [this](const image_t& m) { takeFrame(m); }, damaged);
+  bus_.subscribe<inertial_homography_t>(channels.inertial_homography, kFrameQueue,
+                                        [this](const inertial_homography_t& m) { takeInertial(m); }, damaged);
+}
+
+void VisualHomographyNode::takeFrame(const image_t& message) {
+  if (!acceptFrame(order_, health_, message.utime, [this] { restart(); })) return;
+  newest_utime_ = std::max(newest_utime_, message.utime);
+  pending_.push_back({message, {}});
+  while (static_cast<int>(pending_.size()) > configuration_.waits.max_backlog) {
+    pending_.pop_front();
+    health_.noteSkipped();
+  }
+}
+
+void VisualHomographyNode::takeInertial(const inertial_homography_t& message) {
+  health_.noteSequence(configuration_.channels.inertial_homography, message.sequence);
+  if (!finiteHomography(message)) {
+    health_.noteDamaged();
+    return;
+  }
+  inertial_.put(message.utime, message);
+}
+
+void VisualHomographyNode::restart() {
+  pending_.clear();
+  inertial_.clear();
+  estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual);
+  newest_utime_ = 0;
+}
+
+std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t utime) const {
+  const auto from = estimator_->previousTime();
+  if (!from) return std::nullopt;
+  const ImageScaling scaling(configuration_.camera.width, configuration_.camera.height);
+  std::optional<HomographyPrediction> chain;
+  for (int64_t at = utime; at > *from;) {
+    const inertial_homography_t* link = inertial_.find(at);
+    if (link == nullptr || link->valid == 0 || link->utime_previous >= at) return std::nullopt;
+    const HomographyPrediction step{matrix3(link->H), matrix8(link->covariance)};
+    if (!chain) {
+      chain = step;
+    } else {
+      const auto J = composeJacobians(scaling.scale(chain->H), scaling.scale(step.H));
+      chain->covariance = J.by_left * chain->covariance * J.by_left.transpose() +
+                          J.by_right * step.covariance * J.by_right.transpose();
+      chain->H = normaliseHomography(chain->H * step.H);
+    }
+    at = link->utime_previous;
+    if (at < *from) return std::nullopt;
+  }
+  return chain;
+}
+
+void VisualHomographyNode::process() {
+  while (!pending_.empty()) {
+    const int64_t utime = pending_.front().content.utime;
+    const int64_t before = inertial_.givenUp();
+    const auto answer = inertial_.ask(utime, newest_utime_);
+    health_.noteLate(inertial_.givenUp() - before);
+    if (answer == CompanionBuffer<inertial_homography_t>::Answer::kWait && !finishing_) return;
+    const Arrived<image_t> frame = std::move(pending_.front());
+    pending_.pop_front();
+    track(frame);
+  }
+}
+
+void VisualHomographyNode::finish() {
+  finishing_ = true;
+  process();
+  finishing_ = false;
+}
+
+void VisualHomographyNode::track(const Arrived<image_t>& frame) {
+  const WorkTimer timer;
+  const image_t& message = frame.content;
+  const auto grey = decodeGrey(message);
+  if (!grey || grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
+    if (!grey) health_.noteDamaged();
+    visual_homography_t refusal{};
+    refusal.utime = message.utime;
+    refusal.utime_previous = estimator_->previousTime().value_or(message.utime);
+    refusal.sequence = sequence_++;
+    refusal.status = kPictureDoesNotFit;
+    refusal.width = configuration_.camera.width;
+    refusal.height = configuration_.camera.height;
+    bus_.publish(configuration_.channels.visual_homography, refusal);
+    noteDone(health_, message.utime, frame.since, timer);
+    health_.setState(HealthState::kDegraded, "picture is " + std::to_string(message.width) + "x" +
+                                               std::to_string(message.height) + " or damaged; configured are " +
+                                               std::to_string(configuration_.camera.width) + "x" +
+                                               std::to_string(configuration_.camera.height));
+    return;
+  }
+  publish(estimator_->step(message.utime, rectifier_.toIdeal(*grey), prediction(message.utime)));
+  inertial_.forgetUpTo(message.utime);
+  noteDone(health_, message.utime, frame.since, timer);
+}
+
+void VisualHomographyNode::publish(const VisualHomography& result) {
+  visual_homography_t message{};
+  message.utime = result.utime;
+  message.utime_previous = result.utime_previous;
+  message.sequence = sequence_++;
+  message.status = static_cast<int8_t>(result.status);
+  message.width = configuration_.camera.width;
+  message.height = configuration_.camera.height;
+  message.sampled = result.tracks.sampled;
+  fillTracks(message, result.tracks);
+  message.inlier.assign(result.tracks.current.size(), 0);
+  if (result.ground) {
+    fill(message.H, result.ground->H);
+    fill(message.covariance, result.ground->covariance);
+    message.inliers = result.ground->inliers;
+    message.outliers = result.ground->outliers;
+    message.rms = result.ground->rms_px;
+    message.inlier.assign(result.ground->inlier.begin(), result.ground->inlier.end());
+  }
+  bus_.publish(configuration_.channels.visual_homography, message);
+  const bool good = result.status == VisualStatus::kGood;
+  health_.setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(result.status));
+}
+
+}  // namespace redbee

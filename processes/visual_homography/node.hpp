@@ -1,0 +1,53 @@
+// CAMERA and INERTIAL_HOMOGRAPHY in; VISUAL_HOMOGRAPHY out.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "messaging/companion_buffer.hpp"
+#include "messaging/configuration.hpp"
+#include "messaging/frame_order.hpp"
+#include "messaging/node.hpp"
+#include "processes/work_timer.hpp"
+#include "redbee/image_t.hpp"
+#include "redbee/inertial_homography_t.hpp"
+#include "redbee/visual_homography_t.hpp"
+#include "visual/rectifier.hpp"
+#include "visual/visual_homography.hpp"
+
+namespace redbee {
+
+/// One message per frame. The inertial homography of the frame is waited for while its publisher is alive.
+class VisualHomographyNode : public Node {
+ public:
+  VisualHomographyNode(Bus& bus, const Configuration& configuration);
+  void process() override;
+  void finish() override;
+  HealthMonitor& health() override { return health_; }
+
+ private:
+  void takeFrame(const image_t& message);
+  void takeInertial(const inertial_homography_t& message);
+  /// The inertial messages from the frame that is tracked from up to this one, composed; nothing where one is missing.
+  std::optional<HomographyPrediction> prediction(int64_t utime) const;
+  void track(const Arrived<image_t>& frame);
+  void publish(const VisualHomography& result);
+  void restart();
+
+  Bus& bus_;
+  Configuration configuration_;
+  HealthMonitor health_;
+  Camera camera_;
+  Rectifier rectifier_;
+  std::unique_ptr<VisualHomographyEstimator> estimator_;
+  FrameOrder order_;
+  std::deque<Arrived<image_t>> pending_;
+  CompanionBuffer<inertial_homography_t> inertial_;
+  int64_t newest_utime_ = 0;
+  bool finishing_ = false;
+  int32_t sequence_ = 0;
+};
+
+}  // namespace redbee

@@ -1,0 +1,115 @@
+// The bundled flight, replayed: homographies, areas and detections of every frame against the file in the repo, so that any change of the
+// output shows in the diff of a commit. REDBEE_UPDATE_GOLDEN=1 writes the file anew.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "flight/csv.hpp"
+#include "geometry/homography.hpp"
+#include "processes/redbee/detect.hpp"
+
+namespace redbee {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Row {
+  int64_t utime = 0;
+  int area = 0;
+  int detections = 0;
+  Eigen::Matrix3d H = Eigen::Matrix3d::Identity();
+};
+using Rows = std::map<int64_t, Row>;
+
+fs::path source() { return REDBEE_SOURCE_DIR; }
+fs::path goldenFile() { return source() / "tests" / "golden" / "park1.csv"; }
+
+Rows rowsOf(const fs::path& results) {
+  Rows rows;
+  for (const auto& entry : fs::directory_iterator(results / "mask")) {
+    Row row;
+    row.utime = std::stoll(entry.path().stem().string());
+    row.area = cv::countNonZero(cv::imread(entry.path().string(), cv::IMREAD_GRAYSCALE));
+    rows[row.utime] = row;
+  }
+  CsvReader homographies(results / "homography.csv");
+  homographies.next(0);
+  while (homographies.next(0)) {
+    Row& row = rows[homographies.integer(0)];
+    if (homographies.fields()[2].empty()) continue;
+    for (int i = 0; i < 9; ++i) row.H(i / 3, i % 3) = homographies.number(static_cast<size_t>(2 + i));
+  }
+  CsvReader detections(results / "detections.csv");
+  detections.next(11);
+  while (detections.next(11)) ++rows[detections.integer(10)].detections;
+  return rows;
+}
+
+void write(const fs::path& file, const Rows& rows) {
+  std::ofstream out(file);
+  out << "# utime [us], mask area [px], detections, ground homography (9): the bundled flight through the default configuration\n";
+  for (const auto& [utime, row] : rows) {
+    out << utime << ',' << row.area << ',' << row.detections;
+    for (int i = 0; i < 9; ++i) {
+      std::ostringstream entry;
+      entry.precision(i == 2 || i == 5 ? 5 : 7);
+      entry << row.H(i / 3, i % 3);
+      out << ',' << entry.str();
+    }
+    out << '\n';
+  }
+}
+
+Rows read(const fs::path& file) {
+  Rows rows;
+  CsvReader csv(file);
+  while (csv.next(12)) {
+    Row row;
+    row.utime = csv.integer(0);
+    row.area = static_cast<int>(csv.integer(1));
+    row.detections = static_cast<int>(csv.integer(2));
+    for (int i = 0; i < 9; ++i) row.H(i / 3, i % 3) = csv.number(static_cast<size_t>(3 + i));
+    rows[row.utime] = row;
+  }
+  return rows;
+}
+
+TEST(Golden, TheBundledFlightGivesWhatItGave) {
+  const fs::path results = fs::temp_directory_path() / ("redbee-golden-" + std::to_string(::getpid()));
+  DetectOptions options;
+  options.log = source() / "logs" / "park1.lcm";
+  options.configuration = source() / "config" / "park1.yaml";
+  options.out = results;
+  options.quiet = true;
+  runDetect(options);
+  const Rows rows = rowsOf(results);
+  fs::remove_all(results);
+  if (std::getenv("REDBEE_UPDATE_GOLDEN") != nullptr) write(goldenFile(), rows);
+
+  const Rows golden = read(goldenFile());
+  ASSERT_EQ(rows.size(), golden.size());
+  // Processors round differently, and a pixel at a threshold may fall either way; the output may not.
+  int other_counts = 0;
+  int64_t area = 0;
+  int64_t area_changes = 0;
+  for (const auto& [utime, expected] : golden) {
+    ASSERT_EQ(rows.count(utime), 1u) << utime;
+    const Row& row = rows.at(utime);
+    EXPECT_LT(meanTransferError(row.H, expected.H, 640, 480), 0.02) << utime;
+    other_counts += row.detections != expected.detections ? 1 : 0;
+    area += expected.area;
+    area_changes += std::abs(row.area - expected.area);
+  }
+  EXPECT_LE(other_counts, static_cast<int>(golden.size()) / 50);
+  EXPECT_LE(area_changes, area / 50) << "run with REDBEE_UPDATE_GOLDEN=1 if the change is meant, and commit the file";
+}
+
+}  // namespace
+}  // namespace redbee

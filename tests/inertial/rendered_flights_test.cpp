@@ -1,0 +1,125 @@
+// The filter on the rendered flights, whose IMU has bias, noise and a vibrating airframe: exact homographies
+// with pixel noise come back to it, and its own are held against the exact ones.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "inertial/inertial_filter.hpp"
+#include "tests/inertial/simulated_flight.hpp"
+
+namespace redbee {
+namespace {
+
+using namespace testing;
+namespace fs = std::filesystem;
+
+fs::path sharedFolder() {
+  const char* named = std::getenv("REDBEE_SHARED");
+  return named ? fs::path(named) : fs::path(REDBEE_SOURCE_DIR).parent_path() / "shared";
+}
+
+/// Rows of numbers; the first column is a time in ns and comes back in us.
+struct Row {
+  int64_t utime;
+  std::vector<double> values;
+};
+std::vector<Row> readTable(const fs::path& path) {
+  std::ifstream file(path);
+  std::vector<Row> rows;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream cells(line);
+    std::string cell;
+    std::getline(cells, cell, ',');
+    Row row{(std::stoll(cell) + 500) / 1000, {}};
+    while (std::getline(cells, cell, ',')) row.values.push_back(std::stod(cell));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Numbers after `key`, wherever they stand in the file; `count` of them.
+std::vector<double> numbersAfter(const fs::path& path, const std::string& key, std::size_t count) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  std::string all = text.str();
+  all.erase(0, all.find(key) + key.size());
+  for (char& c : all) {
+    if (c == '[' || c == ']' || c == ',') c = ' ';
+  }
+  std::istringstream stream(all);
+  std::vector<double> numbers;
+  for (double x = 0; numbers.size() < count && stream >> x;) numbers.push_back(x);
+  return numbers;
+}
+
+InertialParameters trueParameters(const fs::path& clip) {
+  const std::vector<double> T = numbersAfter(clip / "groundtruth.yaml", "data:", 16);
+  InertialParameters parameters;
+  Eigen::Matrix3d R_IC;
+  R_IC << T[0], T[1], T[2], T[4], T[5], T[6], T[8], T[9], T[10];
+  parameters.extrinsics.R_CI = R_IC.transpose();
+  parameters.extrinsics.p_IC = {T[3], T[7], T[11]};
+  parameters.extrinsics.timeshift_s = numbersAfter(clip / "groundtruth.yaml", "time_offset_s:", 1)[0];
+  parameters.noise = consumerNoise();
+  return parameters;
+}
+
+class RenderedFlight : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(RenderedFlight, HomographyFedBackStaysBelowThreeTenthsOfAPixel) {
+  const fs::path clip = sharedFolder() / "flights" / "rendered" / GetParam();
+  if (!fs::exists(clip / "groundtruth.yaml")) GTEST_SKIP() << clip << " is not there";
+
+  InertialParameters parameters = trueParameters(clip);
+  const std::vector<Row> heights = readTable(clip / "mav0/altimeter0/data.csv");
+  parameters.extrinsics.start_height_m = heights.front().values[0];
+  InertialFilter filter(testCamera(), parameters);
+  for (const Row& row : readTable(clip / "mav0/imu0/data.csv")) {
+    const std::vector<double>& x = row.values;
+    filter.addImu({row.utime, {x[0], x[1], x[2]}, {x[3], x[4], x[5]}});
+  }
+  for (const Row& row : heights) filter.addAltitude({row.utime, row.values[0], 0.05});
+
+  std::mt19937 random(1);
+  constexpr int kSettled = 24;  // frames: a second in which velocity becomes known
+  double sum = 0;
+  double normalised = 0;
+  int count = 0;
+  int refused = 0;
+  int frame = 0;
+  for (const Row& row : readTable(clip / "labels/homography.csv")) {
+    const InertialHomography result = filter.advanceTo(row.utime);
+    if (frame++ == 0) continue;
+    ASSERT_TRUE(result.valid) << frame;
+    Eigen::Matrix3d exact;
+    exact << row.values[1], row.values[2], row.values[3], row.values[4], row.values[5], row.values[6],
+        row.values[7], row.values[8], row.values[9];
+    if (frame > kSettled) {
+      sum += meanTransferError(result.H, exact, kWidth, kHeight);
+      normalised += normalisedErrorSquared(result.H, result.covariance, exact);
+      ++count;
+    }
+    HomographyObservation observation = noisyHomography(exact, 0.3, random);
+    observation.utime_previous = result.utime_previous;
+    observation.utime = result.utime;
+    refused += !filter.correct(observation).applied;
+  }
+  std::cout << GetParam() << ": mean transfer error " << sum / count << " px, normalised error squared "
+            << normalised / count << " (8 expected), " << refused << " corrections refused\n";
+  RecordProperty("transfer_error_px", std::to_string(sum / count));
+  EXPECT_LT(sum / count, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Clips, RenderedFlight,
+                         ::testing::Values("park1", "park2", "campus1", "grove1", "grove2"),
+                         [](const auto& clip) { return std::string(clip.param); });
+
+}  // namespace
+}  // namespace redbee

@@ -1,0 +1,98 @@
+#include "messaging/node.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include "messaging/codec.hpp"
+
+namespace redbee {
+namespace {
+
+/// Keeps what is published and hands out nothing.
+class RecordingBus : public Bus {
+ public:
+  using Bus::publish;
+  void publish(const std::string& channel, const std::vector<uint8_t>& data) override {
+    EXPECT_EQ(channel, "HEALTH");
+    process_health_t message;
+    ASSERT_TRUE(decodeMessage(data.data(), static_cast<int>(data.size()), message));
+    health.push_back(message);
+  }
+  void subscribe(const std::string&, int, Handler) override {}
+  int handle(std::chrono::milliseconds) override { return 0; }
+
+  std::vector<process_health_t> health;
+};
+
+/// Does one thing per call of process(), then sets the stop flag.
+class ScriptedNode : public Node {
+ public:
+  explicit ScriptedNode(std::vector<std::function<void(HealthMonitor&)>> script)
+      : script_(std::move(script)) {}
+  void process() override {
+    const size_t step = step_++;
+    stop = step + 1 >= script_.size();
+    script_[step](health_);
+  }
+  void finish() override {}
+  HealthMonitor& health() override { return health_; }
+
+  std::atomic<bool> stop{false};
+
+ private:
+  std::vector<std::function<void(HealthMonitor&)>> script_;
+  size_t step_ = 0;
+  HealthMonitor health_{"scripted", "hash"};
+};
+
+std::vector<int> statesOf(const RecordingBus& bus) {
+  std::vector<int> states;
+  for (const auto& message : bus.health) states.push_back(message.state);
+  return states;
+}
+
+TEST(RunNode, publishesHealthAtTheStartAtChangesAndAtTheEnd) {
+  RecordingBus bus;
+  ScriptedNode node({[](HealthMonitor&) {}, [](HealthMonitor& h) { h.setState(HealthState::kGood); },
+                     [](HealthMonitor&) {},
+                     [](HealthMonitor& h) { h.setState(HealthState::kDegraded, "no IMU"); }});
+  runNode(bus, node, "HEALTH", node.stop);
+  EXPECT_THAT(statesOf(bus), ::testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(bus.health[2].message, "no IMU");
+}
+
+TEST(RunNode, goesOnAfterAFrameThatThrew) {
+  RecordingBus bus;
+  bool reached = false;
+  ScriptedNode node({[](HealthMonitor&) { throw std::runtime_error("singular matrix"); },
+                     [&](HealthMonitor&) { reached = true; }});
+  runNode(bus, node, "HEALTH", node.stop);
+  EXPECT_TRUE(reached);
+  EXPECT_EQ(bus.health.front().state, 2);
+  EXPECT_THAT(bus.health.front().message, ::testing::HasSubstr("singular matrix"));
+}
+
+TEST(RunNode, doesNothingWhenStoppedBefore) {
+  RecordingBus bus;
+  ScriptedNode node({[](HealthMonitor&) { FAIL() << "processed after the stop"; }});
+  node.stop = true;
+  runNode(bus, node, "HEALTH", node.stop);
+  EXPECT_THAT(statesOf(bus), ::testing::ElementsAre(3));
+}
+
+TEST(StopOnSignals, terminationSetsTheFlag) {
+  const auto& stop = stopOnSignals();
+  EXPECT_FALSE(stop);
+  std::raise(SIGTERM);
+  EXPECT_TRUE(stop);
+  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGINT, SIG_DFL);
+}
+
+}  // namespace
+}  // namespace redbee

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "geometry/so3.hpp"
+#include "segmentation/flow_entropy.hpp"
+#include "segmentation/foreground_probability.hpp"
+#include "segmentation/parallax_segment.hpp"
+#include "segmentation/photometric_test.hpp"
+
+namespace redbee {
+namespace {
+
+const Eigen::Matrix3d kStill = Eigen::Matrix3d::Identity();
+
+TEST(FlowEntropy, OfAHistogram) {
+  EXPECT_DOUBLE_EQ(histogramEntropy({7, 0, 0, 0}), 0);
+  EXPECT_DOUBLE_EQ(histogramEntropy({3, 3, 3, 3}), 2);
+  EXPECT_DOUBLE_EQ(histogramEntropy({0, 0}), 0);
+}
+
+PointTracks cellOf(double flow_px, bool coherent) {
+  PointTracks tracks;
+  for (int i = 0; i < 16; ++i) {
+    const double angle = coherent ? 0.1 : 2 * M_PI * (i + 0.5) / 16;
+    const cv::Point2f before(static_cast<float>(8 + 16 * (i % 4)), static_cast<float>(8 + 16 * (i / 4)));
+    tracks.previous.push_back(before);
+    tracks.current.emplace_back(before.x + static_cast<float>(flow_px * std::cos(angle)),
+                                before.y + static_cast<float>(flow_px * std::sin(angle)));
+  }
+  return tracks;
+}
+
+TEST(FlowEntropy, OrderedFlowScoresOneAndDisorderedFlowLittle) {
+  const SegmentationParameters parameters;
+  const cv::Size picture(64, 64);
+  EXPECT_FLOAT_EQ(flowOrder(cellOf(2, true), kStill, picture, parameters).at<float>(30, 30), 1);
+  const double flattest = parameters.entropy_floor / std::log2(parameters.entropy_bins);
+  EXPECT_LT(flowOrder(cellOf(2, false), kStill, picture, parameters).at<float>(30, 30), 1.1 * flattest);
+}
+
+TEST(FlowEntropy, FlowBelowTheNoiseHasNoDirection) {
+  const SegmentationParameters parameters;
+  const float order =
+      flowOrder(cellOf(0.5 * parameters.flow_noise_px, true), kStill, {64, 64}, parameters).at<float>(30, 30);
+  EXPECT_FLOAT_EQ(order, static_cast<float>(parameters.entropy_floor / std::log2(parameters.entropy_bins)));
+}
+
+TEST(FlowEntropy, CellWithoutTracksSaysNothing) {
+  EXPECT_FLOAT_EQ(flowOrder(cellOf(2, false), kStill, {128, 64}, {}).at<float>(30, 100), 1);
+}
+
+TEST(ForegroundProbability, FollowsTheEquations) {
+  const SegmentationParameters p;
+  ForegroundProbability probability(p);
+  const cv::Mat foreground = cv::Mat::ones(20, 20, CV_32F);
+  const cv::Mat order(20, 20, CV_32F, cv::Scalar(0.5));
+  double temporal = 0, spatial = 0, entropy = 0;
+  for (int k = 0; k < 3; ++k) {
+    temporal = (1 - p.alpha) * temporal + p.alpha;
+    spatial = (1 - p.beta) * spatial + p.beta;
+    entropy = (1 - p.gamma) * entropy + p.gamma * 0.5;
+    EXPECT_NEAR(probability.update(foreground, order).at<float>(10, 10), temporal * spatial * entropy, 1e-5);
+  }
+}
+
+TEST(ForegroundProbability, MapsTravelWithTheGround) {
+  ForegroundProbability probability({});
+  cv::Mat foreground = cv::Mat::zeros(40, 40, CV_32F);
+  foreground(cv::Rect(10, 10, 10, 10)).setTo(1);
+  probability.update(foreground, {});
+  Eigen::Matrix3d pan = kStill;
+  pan(0, 2) = 7;
+  probability.carry(pan);
+  cv::Mat moved = cv::Mat::zeros(40, 40, CV_32F);
+  const cv::Mat after = probability.update(moved, {});
+  EXPECT_GT(after.at<float>(15, 22), 0);
+  EXPECT_EQ(after.at<float>(15, 11), 0);
+}
+
+class Parallax : public ::testing::Test {
+ protected:
+  Parallax() {
+    K_ << 500, 0, 320, 0, 500, 240, 0, 0, 1;
+    const Eigen::Vector3d down = Eigen::Vector3d(0, std::cos(0.6), std::sin(0.6));
+    motion_ = {expSO3({0.01, -0.02, 0.005}), {0.1, -0.02, 0.15}, down, 6.0};
+  }
+  Eigen::Vector2d project(const Eigen::Vector3d& X) const { return (K_ * X).hnormalized(); }
+
+  ParallaxSegment::Verdict judge(const Eigen::Vector2d& before, const Eigen::Vector2d& now) const {
+    const Eigen::Vector2d ground = transfer(planeHomography(K_, motion_), before);
+    const Eigen::Vector2d flow = now - ground;
+    return ParallaxSegment(motion_, K_, {})
+        .judge({static_cast<float>(ground.x()), static_cast<float>(ground.y())},
+               {static_cast<float>(flow.x()), static_cast<float>(flow.y())});
+  }
+
+  Eigen::Matrix3d K_;
+  PlaneMotion motion_;
+};
+
+TEST_F(Parallax, StaticPointsAtAnyDepthBeforeTheGroundAreExplained) {
+  for (const double share : {0.3, 0.5, 0.8, 1.0}) {
+    const Eigen::Vector3d ray = K_.inverse() * Eigen::Vector3d(150, 300, 1);
+    const Eigen::Vector3d X = share * motion_.h_a / motion_.m_a.dot(ray) * ray;
+    const Eigen::Vector2d now = project(motion_.R_ba * X + motion_.t_ba);
+    EXPECT_LT(judge({150, 300}, now).sigmas_squared, 0.01) << "at " << share << " of the way to the ground";
+  }
+}
+
+TEST_F(Parallax, MotionAcrossTheLineOrBelowTheGroundIsNot) {
+  const Eigen::Vector3d ray = K_.inverse() * Eigen::Vector3d(150, 300, 1);
+  const Eigen::Vector3d X = motion_.h_a / motion_.m_a.dot(ray) * ray;
+  const Eigen::Vector2d ground = project(motion_.R_ba * X + motion_.t_ba);
+  const Eigen::Vector2d nearer = project(motion_.R_ba * (0.5 * X) + motion_.t_ba);
+  const Eigen::Vector2d along = (nearer - ground).normalized();
+  const Eigen::Vector2d across(-along.y(), along.x());
+  EXPECT_GT(judge({150, 300}, ground + 3 * across).sigmas_squared, 30);
+  EXPECT_GT(judge({150, 300}, ground - 3 * along).sigmas_squared, 20);
+}
+
+TEST(PhotometricTest, WithoutTextureFlowMeansNothing) {
+  const SegmentationParameters parameters;
+  const cv::Mat flat(40, 40, CV_8U, cv::Scalar(90));
+  EXPECT_EQ(cv::countNonZero(photometricWeight(flat, flat, flat, parameters)), 0);
+}
+
+TEST(PhotometricTest, WeighsWhatOnlyMotionExplains) {
+  const SegmentationParameters parameters;
+  const cv::Mat picture(40, 40, CV_8U, cv::Scalar(90));
+  cv::Mat as_static = picture.clone();
+  as_static(cv::Rect(10, 10, 20, 20)).setTo(150);
+  const cv::Mat weight = photometricWeight(picture, as_static, picture, parameters);
+  EXPECT_GT(weight.at<float>(20, 20), 0.9);
+  EXPECT_EQ(weight.at<float>(2, 2), 0);
+  EXPECT_EQ(cv::countNonZero(photometricWeight(picture, as_static, as_static, parameters)), 0);
+}
+
+}  // namespace
+}  // namespace redbee

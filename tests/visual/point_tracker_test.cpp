@@ -1,0 +1,142 @@
+#include "visual/point_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "synthetic.hpp"
+#include "visual/patch_alignment.hpp"
+
+namespace redbee {
+namespace {
+
+using testing::Canvas;
+using testing::groundHomography;
+using testing::kHeight;
+using testing::kWidth;
+
+struct Accuracy {
+  double median_px = 0;
+  double share = 0;  ///< tracked within 1 px, of the grid points that stay in view
+};
+
+Accuracy accuracyOf(const PointTracks& tracks, const Eigen::Matrix3d& H) {
+  int in_view = 0;
+  for (int y = 8; y < kHeight; y += 16) {
+    for (int x = 8; x < kWidth; x += 16) {
+      const Eigen::Vector2d to = transfer(H, Eigen::Vector2d(x, y));
+      in_view += to.x() > 8 && to.y() > 8 && to.x() < kWidth - 9 && to.y() < kHeight - 9 ? 1 : 0;
+    }
+  }
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < tracks.previous.size(); ++i) {
+    const Eigen::Vector2d expected = transfer(H, Eigen::Vector2d(tracks.previous[i].x, tracks.previous[i].y));
+    errors.push_back((expected - Eigen::Vector2d(tracks.current[i].x, tracks.current[i].y)).norm());
+  }
+  std::sort(errors.begin(), errors.end());
+  const auto within = std::count_if(errors.begin(), errors.end(), [](double e) { return e < 1.0; });
+  return {errors.empty() ? INFINITY : errors[errors.size() / 2], static_cast<double>(within) / in_view};
+}
+
+Accuracy trackOnce(const Eigen::Matrix3d& H, const std::optional<Eigen::Matrix3d>& guess, double gain = 1,
+                   double offset = 0) {
+  const Canvas canvas(3);
+  PointTracker tracker({});
+  EXPECT_TRUE(tracker.advance(canvas.view(Eigen::Matrix3d::Identity(), 1.5, 1), {}).previous.empty());
+  cv::Mat second;
+  canvas.view(H, 1.5, 2).convertTo(second, CV_8U, gain, offset);
+  return accuracyOf(tracker.advance(second, guess), H);
+}
+
+TEST(PointTracker, FollowsTwentyPixelsAndFifteenDegreesASecondFromAGuess) {
+  const Eigen::Matrix3d H = groundHomography({15, 0, 15}, {10, 0, 2});
+  const double motion = meanTransferError(H, Eigen::Matrix3d::Identity(), kWidth, kHeight);
+  Eigen::Matrix3d guess = H;
+  guess(0, 2) += 1.5;
+  guess(1, 2) -= 1.0;
+  const Accuracy a = trackOnce(H, guess);
+  std::cout << "motion " << motion << " px; median error " << a.median_px << " px, share tracked " << a.share
+            << "\n";
+  EXPECT_GT(motion, 20);
+  EXPECT_LT(a.median_px, 0.1);
+  EXPECT_GT(a.share, 0.9);
+}
+
+TEST(PointTracker, FollowsTwentyPixelsWithoutAGuess) {
+  Eigen::Matrix3d H = Eigen::Matrix3d::Identity();
+  H(0, 2) = 17.3;
+  H(1, 2) = -11.6;
+  const Accuracy a = trackOnce(H, {});
+  std::cout << "median error " << a.median_px << " px, share tracked " << a.share << "\n";
+  EXPECT_LT(a.median_px, 0.1);
+  EXPECT_GT(a.share, 0.9);
+}
+
+TEST(PointTracker, IsBlindToExposure) {
+  const Eigen::Matrix3d H = groundHomography({3, -4, 2}, {1, 0, 2});
+  const Accuracy a = trackOnce(H, {}, 0.8, 30);
+  std::cout << "median error " << a.median_px << " px, share tracked " << a.share << "\n";
+  EXPECT_LT(a.median_px, 0.1);
+  EXPECT_GT(a.share, 0.9);
+}
+
+TEST(PointTracker, SurvivesRaggedPictures) {
+  PointTracker tracker({});
+  EXPECT_THROW(tracker.advance({}, {}), std::invalid_argument);
+  EXPECT_THROW(tracker.advance(cv::Mat(40, 40, CV_8UC3, cv::Scalar::all(0)), {}), std::invalid_argument);
+  for (const int side : {1, 2, 7, 20, 33}) {
+    const cv::Mat tiny(side, side, CV_8U, cv::Scalar(90));
+    EXPECT_TRUE(tracker.advance(tiny, {}).previous.empty());
+    EXPECT_TRUE(tracker.advance(tiny, {}).previous.empty());
+  }
+  const cv::Mat view = Canvas(4).view(Eigen::Matrix3d::Identity(), 1, 1);
+  EXPECT_TRUE(tracker.advance(view, {}).previous.empty()) << "a change of size starts anew";
+  EXPECT_GT(tracker.advance(view, {}).previous.size(), 900U);
+  // A guess that is not a number finds nothing and does no harm.
+  const Eigen::Matrix3d nonsense = Eigen::Matrix3d::Constant(NAN);
+  EXPECT_TRUE(tracker.advance(view, nonsense).previous.empty());
+}
+
+TEST(PointTracker, APartOfALargerPictureEndsAtItsOwnEdge) {
+  const cv::Mat large = Canvas(5).view(Eigen::Matrix3d::Identity(), 1, 1);
+  const cv::Mat part = large(cv::Rect(100, 60, 320, 240));
+  PointTracker of_part({}), of_copy({});
+  of_part.advance(part, {});
+  of_copy.advance(part.clone(), {});
+  const PointTracks a = of_part.advance(part, {});
+  const PointTracks b = of_copy.advance(part.clone(), {});
+  EXPECT_EQ(a.previous, b.previous);
+  EXPECT_EQ(a.current, b.current);
+}
+
+TEST(PatchTemplate, PortableAndNativeAgreeToTheBit) {
+  const Canvas canvas(6);
+  for (const int window : {5, 13, 21, 31}) {
+    const PatchShape shape(window);
+    Pyramid before, after;
+    before.build(canvas.view(Eigen::Matrix3d::Identity(), 2, 1), 1, shape.margin(), 8);
+    after.build(canvas.view(groundHomography({4, 4, 4}, {1, 0, 1}), 2, 2), 1, shape.margin(), 8);
+    PatchTemplate<PortableLanes> portable(shape);
+    PatchTemplate<NativeLanes> native(shape);
+    for (int x = 3; x < kWidth; x += 37) {
+      portable.take(before[0], x, x % kHeight);
+      native.take(before[0], x, x % kHeight);
+      Eigen::Vector2d a(x + 0.3, x % kHeight + 1.7), b = a;
+      EXPECT_EQ(portable.residual(after[0], a), native.residual(after[0], b));
+      EXPECT_EQ(portable.align(after[0], a, {8, 0.01}), native.align(after[0], b, {8, 0.01}));
+      EXPECT_EQ(a, b);
+      EXPECT_EQ(portable.smallestEigenvalue(), native.smallestEigenvalue());
+    }
+  }
+}
+
+TEST(PatchShape, RefusesWindowsItCannotHold) {
+  EXPECT_THROW(PatchShape(12), std::invalid_argument);
+  EXPECT_THROW(PatchShape(1), std::invalid_argument);
+  EXPECT_THROW(PatchShape(33), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace redbee
