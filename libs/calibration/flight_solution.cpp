@@ -1,21 +1,47 @@
 #include "calibration/flight_solution.hpp"
 
 #include <algorithm>
+#include <set>
+
+#include "calibration/ground_fit.hpp"
 
 namespace redbee::calibration {
 namespace {
 
-/// Homographies found again near what the solution predicts: the ground, where another plane had more points.
-std::vector<GroundHomography> foundAgain(const FlightSolution& solution, const Recording& recording,
+/// While the ground is being told from other surfaces it is taken to be level.
+constexpr double kLevelSigma_rad = 0.001;
+constexpr int kSelectionRounds = 2;
+constexpr int kScaleRounds = 2;
+
+/// A homography over several frames has as much noise as one between neighbours, and as little bias from what stands on the ground; but it
+/// shows the whole motion. Those between neighbours that lie inside one are left out.
+std::vector<GroundHomography> withoutCovered(const std::vector<GroundHomography>& all) {
+  std::set<size_t> covered;
+  for (const GroundHomography& ground : all) {
+    for (size_t k = ground.a; ground.b > ground.a + 1 && k < ground.b; ++k) covered.insert(k);
+  }
+  std::vector<GroundHomography> kept;
+  for (const GroundHomography& ground : all) {
+    if (ground.b > ground.a + 1 || covered.count(ground.a) == 0) kept.push_back(ground);
+  }
+  return kept;
+}
+
+/// Homographies of the ground among the points, near what the solution predicts.
+std::vector<GroundHomography> groundNear(const FlightSolution& solution, const Recording& recording,
                                          const CalibrationInput& input) {
   std::vector<GroundHomography> ground;
   for (const IndexedMatch& match : recording.matches) {
-    const Eigen::Matrix3d prediction = predictedHomography(solution.state, solution.input, match.a, match.b);
-    if (!prediction.allFinite()) continue;
-    auto found = groundHomography(match, input.camera, input.ransac, prediction);
-    if (found) ground.push_back(*found);
+    GroundPrediction prediction;
+    prediction.motion = predictedMotion(solution.state, match.a, match.b);
+    prediction.translation_sigma *= static_cast<double>(match.b - match.a);
+    auto found = fitGround(*match.points, input.camera, prediction);
+    if (!found) continue;
+    found->a = match.a;
+    found->b = match.b;
+    ground.push_back(*found);
   }
-  return ground;
+  return withoutCovered(ground);
 }
 
 bool solveOnce(FlightSolution& solution) {
@@ -36,6 +62,20 @@ void rescale(JointInput& input, const JointAnalysis& analysis) {
   const double imu = analysis.imu.chi2 / std::max(analysis.imu.redundancy, 1.0);
   input.vision_variance_scale = std::clamp(input.vision_variance_scale * vision, 0.01, 1e4);
   input.imu_variance_scale = std::clamp(input.imu_variance_scale * imu, 1.0, 1e6);
+}
+
+/// Solves over level ground and takes the points near that solution, in turn.
+bool selectGround(FlightSolution& solution, const Recording& recording, const CalibrationInput& input) {
+  const double tilt_sigma_rad = solution.input.priors.tilt_sigma_rad;
+  solution.input.priors.tilt_sigma_rad = kLevelSigma_rad;
+  for (int round = 0; round < kSelectionRounds; ++round) {
+    if (!solveOnce(solution)) return false;
+    auto ground = groundNear(solution, recording, input);
+    // A solution so wrong that it finds no ground must not lose what there was.
+    if (10 * ground.size() > recording.ground.size()) solution.input.ground = std::move(ground);
+  }
+  solution.input.priors.tilt_sigma_rad = tilt_sigma_rad;
+  return true;
 }
 
 JointInput jointInput(const Recording& recording, const CalibrationInput& input, const JointPriors& priors) {
@@ -66,17 +106,13 @@ FlightSolution solveFlight(const Recording& recording, const CalibrationInput& i
     own.height_m = start_height ? start_height->height_m : cameraHeight(solution.state, 0);
     own.height_sigma_m = start_height ? start_height->sigma_m : own.height_m;
   }
+  if (!recording.matches.empty() && !selectGround(solution, recording, input)) return solution;
   if (!solveOnce(solution)) return solution;
 
-  constexpr int kScaleRounds = 2;
   for (int round = 0; round <= kScaleRounds; ++round) {
-    if (round == 0 && !recording.hasTarget()) {
-      auto ground = foundAgain(solution, recording, input);
-      // A solution so wrong that it finds no ground must not lose what there was.
-      if (2 * ground.size() > solution.input.ground.size()) solution.input.ground = std::move(ground);
-    }
-    if (!solveOnce(solution)) return solution;
     JointProblem problem(solution.input, solution.state);
+    if (!problem.solve()) return solution;
+    absorbTimeshiftStep(solution.state, solution.input);
     solution.analysis = problem.analyse();
     if (!solution.analysis.valid) return solution;
     if (round < kScaleRounds) rescale(solution.input, solution.analysis);

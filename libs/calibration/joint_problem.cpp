@@ -213,15 +213,17 @@ void absorbTimeshiftStep(JointState& state, const JointInput& input) {
   state.timeshift_step_s = 0;
 }
 
-Eigen::Matrix3d predictedHomography(const JointState& state, const JointInput& input, size_t a, size_t b) {
+PlaneMotion predictedMotion(const JointState& state, size_t a, size_t b) {
   const auto R_CG = [&](const FrameState& f) { return (state.q_CI * f.q_GI.conjugate()).toRotationMatrix(); };
   const auto p_GC = [&](const FrameState& f) -> Eigen::Vector3d { return f.p_GI + f.q_GI * state.p_IC; };
   const FrameState& fa = state.frames[a];
   const FrameState& fb = state.frames[b];
   const Eigen::Vector3d n = state.groundNormal();
-  const PlaneMotion motion{R_CG(fb) * R_CG(fa).transpose(), R_CG(fb) * (p_GC(fa) - p_GC(fb)), -R_CG(fa) * n,
-                           n.dot(p_GC(fa))};
-  return planeHomography(input.camera->K(), motion);
+  return {R_CG(fb) * R_CG(fa).transpose(), R_CG(fb) * (p_GC(fa) - p_GC(fb)), -R_CG(fa) * n, n.dot(p_GC(fa))};
+}
+
+Eigen::Matrix3d predictedHomography(const JointState& state, const JointInput& input, size_t a, size_t b) {
+  return planeHomography(input.camera->K(), predictedMotion(state, a, b));
 }
 
 }  // namespace redbee::calibration

@@ -135,7 +135,9 @@ class JointProblem {
 double cameraHeight(const JointState& state, size_t frame);
 /// Adds the time shift's step to the states and sets it to zero, so that the IMU can be summed up anew.
 void absorbTimeshiftStep(JointState& state, const JointInput& input);
-/// Ground homography between two frames that a state predicts, ideal pixels, h33 = 1.
+/// Motion of the camera over the ground between two frames that a state predicts.
+PlaneMotion predictedMotion(const JointState& state, size_t a, size_t b);
+/// Its homography, ideal pixels, h33 = 1.
 Eigen::Matrix3d predictedHomography(const JointState& state, const JointInput& input, size_t a, size_t b);
 
 }  // namespace redbee::calibration

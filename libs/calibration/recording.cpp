@@ -16,8 +16,6 @@ constexpr double kMaxImuGap_s = 0.1;
 constexpr double kMargin_s = 0.05;
 constexpr size_t kMinFrames = 48;
 constexpr size_t kMinMeasurements = 30;
-/// px around the prediction in which the ground is looked for.
-constexpr double kPredictionSigma_px = 1.0;
 
 std::vector<int64_t> sortedUnique(std::vector<int64_t> times) {
   std::sort(times.begin(), times.end());
@@ -52,13 +50,24 @@ std::vector<HeightObservation> heightsOf(const std::vector<AltitudeSample>& alti
   return heights;
 }
 
+/// The plane with most points; the joint solution finds the ground anew (ground_fit.hpp).
+std::optional<GroundHomography> firstHomography(const IndexedMatch& match, const CalibrationInput& input) {
+  const auto estimate = estimateHomography(*match.points, input.camera.width, input.camera.height, input.ransac);
+  if (!estimate) return std::nullopt;
+  GroundHomography ground{match.a, match.b, estimate->H, estimate->covariance.inverse(), estimate->inliers,
+                          estimate->rms_px};
+  ground.information = 0.5 * (ground.information + ground.information.transpose()).eval();
+  if (!ground.information.allFinite()) return std::nullopt;
+  return ground;
+}
+
 void addGround(Recording& recording, const CalibrationInput& input, const std::map<int64_t, size_t>& index) {
   for (const GroundMatch& match : input.ground) {
     const auto a = index.find(match.utime_a);
     const auto b = index.find(match.utime_b);
     if (a == index.end() || b == index.end() || a->second >= b->second) continue;
     recording.matches.push_back({a->second, b->second, &match.points});
-    auto ground = groundHomography(recording.matches.back(), input.camera, input.ransac, std::nullopt);
+    auto ground = firstHomography(recording.matches.back(), input);
     if (ground) recording.ground.push_back(*ground);
   }
 }
@@ -83,22 +92,6 @@ void requireEnough(const Recording& recording, const CalibrationInput& input, si
 }
 
 }  // namespace
-
-std::optional<GroundHomography> groundHomography(const IndexedMatch& match, const CameraIntrinsics& camera,
-                                                 const RansacParameters& ransac,
-                                                 const std::optional<Eigen::Matrix3d>& prediction) {
-  const double sigma = kPredictionSigma_px / ImageScaling(camera.width, camera.height).unit_px;
-  const auto estimate =
-      prediction ? estimateHomographyNear(*match.points, camera.width, camera.height, *prediction,
-                                          sigma * sigma * Matrix8d::Identity(), ransac)
-                 : estimateHomography(*match.points, camera.width, camera.height, ransac);
-  if (!estimate) return std::nullopt;
-  GroundHomography ground{match.a, match.b, estimate->H, estimate->covariance.inverse(), estimate->inliers,
-                          estimate->rms_px};
-  ground.information = 0.5 * (ground.information + ground.information.transpose()).eval();
-  if (!ground.information.allFinite()) return std::nullopt;
-  return ground;
-}
 
 Recording prepareRecording(const CalibrationInput& input) {
   const std::vector<int64_t> frames = sortedUnique(input.frames);

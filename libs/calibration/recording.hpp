@@ -39,9 +39,5 @@ Recording prepareRecording(const CalibrationInput& input);
 Recording partOf(const Recording& whole, size_t begin, size_t end);
 /// The camera's rotation between frames, for alignRotations.
 std::vector<RotationObservation> rotationsOf(const Recording& recording);
-/// Homography with information of a match; nothing where no plane is found. `prediction`: take the plane near this one.
-std::optional<GroundHomography> groundHomography(const IndexedMatch& match, const CameraIntrinsics& camera,
-                                                 const RansacParameters& ransac,
-                                                 const std::optional<Eigen::Matrix3d>& prediction);
 
 }  // namespace redbee::calibration

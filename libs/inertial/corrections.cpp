@@ -88,7 +88,8 @@ void AltitudeCorrection::correct(NavigationState& state, const AltitudeSample& s
 VisionCorrection::VisionCorrection(const InertialParameters& parameters)
     : gate_(chiSquareQuantile(parameters.innovation_gate_probability, 8)),
       start_velocity_sigma_(parameters.start_velocity_sigma),
-      tilt_sigma_(parameters.gravity_sigma / parameters.gravity) {}
+      tilt_sigma_(parameters.gravity_sigma / parameters.gravity),
+      feedback_correlation_frames_(parameters.feedback_correlation_frames) {}
 
 CorrectionReport VisionCorrection::correct(NavigationState& state, const HomographyObservation& observation,
                                            const Camera& camera, const Eigen::Vector3d& p_IC) {
@@ -98,7 +99,7 @@ CorrectionReport VisionCorrection::correct(NavigationState& state, const Homogra
   const HomographyMeasurement z =
       homographyMeasurement(state, motion, motionJacobians(state, motion, p_IC), K_scaled);
   const Vector8d innovation = toVector(scaling.scale(observation.H)) - z.predicted;
-  const Matrix8d R = observation.covariance + z.second_order_covariance;
+  const Matrix8d R = feedback_correlation_frames_ * observation.covariance + z.second_order_covariance;
   const Matrix8d S = z.linear_covariance + R;
   const Eigen::LDLT<Matrix8d> factors(S);
   if (!innovation.allFinite() || factors.info() != Eigen::Success || !factors.isPositive()) return {};

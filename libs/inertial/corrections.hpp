@@ -53,6 +53,7 @@ class VisionCorrection {
   double gate_;
   double start_velocity_sigma_;
   double tilt_sigma_;
+  double feedback_correlation_frames_;
   std::optional<int64_t> applied_utime_;
   int refused_in_a_row_ = 0;
   double widening_ = 1;

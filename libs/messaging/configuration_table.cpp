@@ -102,6 +102,7 @@ Settings inertialSettings() {
       setting("inertial.gravity_correlation_s", MEMBER(inertial.gravity_correlation_s), positive),
       setting("inertial.max_imu_gap_s", MEMBER(inertial.max_imu_gap_s), positive),
       setting("inertial.max_frame_gap_s", MEMBER(inertial.max_frame_gap_s), positive),
+      setting("inertial.feedback_correlation_frames", MEMBER(inertial.feedback_correlation_frames), positive),
       setting("inertial.innovation_gate_probability", MEMBER(inertial.innovation_gate_probability),
               probability),
   };
@@ -160,6 +161,7 @@ Settings fusionSettings() {
       setting("fusion.gate_probability", MEMBER(fusion.gate_probability), probability),
       setting("fusion.max_gated_in_a_row", MEMBER(fusion.max_gated_in_a_row), positive),
       setting("fusion.min_overlap", MEMBER(fusion.min_overlap), share),
+      setting("fusion.visual_inflation", MEMBER(fusion.visual_inflation), positive),
       setting("fusion.process_inflation", MEMBER(fusion.process_inflation), positive),
   };
 }

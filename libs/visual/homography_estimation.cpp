@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -214,6 +215,30 @@ double rmsOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vect
   return count > 0 ? std::sqrt(sum / count) : 0.0;
 }
 
+/// How much larger the covariance is than independent errors would make it: the sum over blocks of the squared sum of a
+/// block's residuals, against the sum of squared residuals (the "design effect" of clustered samples). One where residuals are
+/// independent; the number of pairs in a block where a block errs as one, as relief does that was taken for the plane.
+double correlationOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vector<uint8_t>& inlier) {
+  constexpr int kBlocks = 6;  // to a side of the picture's width
+  constexpr int kParameters = 8;
+  std::map<std::pair<int, int>, Eigen::Vector2d> sums;
+  double squares = 0;
+  for (std::size_t i = 0; i < inlier.size(); ++i) {
+    if (!inlier[i]) continue;
+    const Eigen::Vector2d residual = pairs.current(i) - transfer(H, pairs.previous(i));
+    // Scaled coordinates run from -1 to 1 over the width.
+    const auto block = [](float x) { return static_cast<int>(std::floor((x + 1) * kBlocks / 2)); };
+    sums.try_emplace({block(pairs.ax[i]), block(pairs.ay[i])}, Eigen::Vector2d::Zero()).first->second += residual;
+    squares += residual.squaredNorm();
+  }
+  double block_squares = 0;
+  for (const auto& [block, sum] : sums) block_squares += sum.squaredNorm();
+  // The fit has taken its eight parameters out of the blocks' 2 n means.
+  const double freedom = 2.0 * static_cast<double>(sums.size());
+  const double taken = freedom > 2 * kParameters ? freedom / (freedom - kParameters) : 2.0;
+  return squares > 0 ? taken * block_squares / squares : 1.0;
+}
+
 /// kFromStart: the pairs near the starting plane and no others are fitted. A fit that chose its own pairs
 /// anew could slide from the predicted ground to a larger plane nearby.
 enum class Selection { kFollowsFit, kFromStart };
@@ -241,8 +266,8 @@ std::optional<HomographyEstimate> conclude(const PointTracks& tracks, const Scal
     knee = std::clamp(1.5 * std::sqrt(fit->variance), 0.1 * threshold, 0.5 * threshold);
   }
   const double floor = kSigmaFloorPx / scaling.unit_px;
-  estimate.covariance =
-      kCorrelationInflation * std::max(fit->variance, floor * floor) * fit->inverse_information;
+  const double inflation = std::max(kCorrelationInflation, correlationOf(pairs, H, estimate.inlier));
+  estimate.covariance = inflation * std::max(fit->variance, floor * floor) * fit->inverse_information;
   estimate.H = scaling.unscale(H);
   estimate.inliers = flagInliers(pairs, H, threshold, estimate.inlier);
   for (std::size_t i = 0; i < allowed.size(); ++i) {

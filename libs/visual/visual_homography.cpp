@@ -8,6 +8,11 @@
 namespace redbee {
 namespace {
 
+/// Share of all tracks that a plane must explain to be believed against the prediction, and how many times more than the
+/// predicted plane.
+constexpr double kContradiction = 0.6;
+constexpr double kOverwhelming = 2.0;
+
 /// Mean squared gradient [grey levels^2] of the half-size picture in the direction that has least of it:
 /// noise counts little at half size, and a picture blurred along one direction only is blurred.
 double sharpnessOf(const cv::Mat& grey) {
@@ -61,16 +66,17 @@ bool VisualHomographyEstimator::isBlind(const cv::Mat& grey, double sharpness) {
 
 std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
     const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const {
-  if (prediction) {
-    auto near = estimateHomographyNear(tracks, size_.width, size_.height, prediction->H,
-                                       prediction->covariance, parameters_.ransac);
-    if (near) return near;
-  }
   RansacParameters ransac = parameters_.ransac;
+  if (!prediction) return estimateHomography(tracks, size_.width, size_.height, ransac);
+  auto near = estimateHomographyNear(tracks, size_.width, size_.height, prediction->H, prediction->covariance, ransac);
+  const auto all = static_cast<double>(tracks.previous.size());
+  if (near && near->inliers >= kContradiction * all) return near;
   // A plane that contradicts the prediction is believed only when it explains most of the picture: then it is
-  // the prediction that has gone wrong.
-  if (prediction) ransac.min_inlier_share = std::max(ransac.min_inlier_share, 0.6);
-  return estimateHomography(tracks, size_.width, size_.height, ransac);
+  // the prediction that has gone wrong, and the few points near it are chance.
+  ransac.min_inlier_share = std::max(ransac.min_inlier_share, kContradiction);
+  auto largest = estimateHomography(tracks, size_.width, size_.height, ransac);
+  if (near && (!largest || largest->inliers < kOverwhelming * near->inliers)) return near;
+  return largest;
 }
 
 VisualHomography VisualHomographyEstimator::step(int64_t utime, const cv::Mat& grey,

@@ -164,10 +164,12 @@ void HomographyFusionNode::publish(const FusedHomography& fused, const inertial_
   if (visual != nullptr && visual->utime_previous == fused.utime_previous) {
     const PointTracks tracks = tracksOf(*visual);
     fillTracks(message, tracks);
-    if (fused.visual_accepted) {
+    if (visual->status == kVisualGood) {
+      // Refused or not: the inertial filter judges for itself, or a filter gone wrong would never be told.
       message.has_observation = 1;
       fill(message.H_observed, matrix3(visual->H));
-      fill(message.covariance_observed, matrix8(visual->covariance));
+      const double ratio = 1.0 + static_cast<double>(visual->outliers) / std::max(1, visual->inliers);
+      fill(message.covariance_observed, configuration_.fusion.visual_inflation * ratio * matrix8(visual->covariance));
     }
     if (fused.source != FusionSource::kNone) {
       const auto front = estimateFrontPlane(tracks, fused.H_step, message.width, message.height, configuration_.front);

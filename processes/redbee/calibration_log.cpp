@@ -1,7 +1,9 @@
 #include "processes/redbee/calibration_log.hpp"
 
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "flight/input_error.hpp"
 #include "flight/log.hpp"
@@ -11,6 +13,7 @@
 #include "redbee/altimeter_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
+#include "visual/homography_estimation.hpp"
 #include "visual/point_tracker.hpp"
 #include "visual/rectifier.hpp"
 
@@ -22,6 +25,61 @@ bool decodes(const LogEvent& event, Message& message) {
   return decodeMessage(event.data.data(), static_cast<int>(event.data.size()), message);
 }
 
+/// Follows points over several frames at once, where the picture moves slowly: a facade's parallax then outgrows the tracking noise, and the
+/// rotation too. Frames in between only carry the starting guess along.
+class LongBaseline {
+ public:
+  explicit LongBaseline(const Configuration& configuration)
+      : configuration_(configuration), tracker_(configuration.visual.tracker) {}
+
+  /// `points`: from the previous frame to this one. The match that ends at this frame, where one does.
+  std::optional<calibration::GroundMatch> advance(int64_t utime, const cv::Mat& ideal, const PointTracks& points) {
+    ++frames_;
+    const CameraIntrinsics& camera = configuration_.camera;
+    const auto step = estimateHomography(points, camera.width, camera.height, configuration_.visual.ransac);
+    if (!step || begin_utime_ == 0) {
+      tracker_.advance(ideal, std::nullopt);
+      begin(utime);
+      return std::nullopt;
+    }
+    chain_ = normaliseHomography(step->H * chain_);
+    if (motion() < kEnoughMotion_px && frames_ < kMostFrames) return std::nullopt;
+    const int64_t from = begin_utime_;
+    const bool worthwhile = frames_ >= kFewestFrames;
+    PointTracks tracks = tracker_.advance(ideal, chain_);
+    begin(utime);
+    if (!worthwhile || tracks.current.empty()) return std::nullopt;
+    return calibration::GroundMatch{from, utime, std::move(tracks)};
+  }
+
+ private:
+  static constexpr double kEnoughMotion_px = 40;
+  static constexpr int kMostFrames = 12;
+  static constexpr int kFewestFrames = 3;
+
+  void begin(int64_t utime) {
+    begin_utime_ = utime;
+    chain_.setIdentity();
+    frames_ = 0;
+  }
+  /// Mean over points half-way to the corners [px].
+  double motion() const {
+    const double w = configuration_.camera.width, h = configuration_.camera.height;
+    double sum = 0;
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.25 * w, 0.25 * h), Eigen::Vector2d(0.75 * w, 0.25 * h),
+                                     Eigen::Vector2d(0.25 * w, 0.75 * h), Eigen::Vector2d(0.75 * w, 0.75 * h)}) {
+      sum += (transfer(chain_, p) - p).norm() / 4;
+    }
+    return sum;
+  }
+
+  const Configuration& configuration_;
+  PointTracker tracker_;
+  Eigen::Matrix3d chain_ = Eigen::Matrix3d::Identity();  ///< from the frame that the match begins at
+  int64_t begin_utime_ = 0;
+  int frames_ = 0;
+};
+
 class LogIntake {
  public:
   LogIntake(const std::filesystem::path& log, const Configuration& configuration, calibration::CalibrationInput& input)
@@ -29,7 +87,8 @@ class LogIntake {
         configuration_(configuration),
         input_(input),
         rectifier_(Camera(configuration.camera)),
-        tracker_(configuration.visual.tracker) {}
+        tracker_(configuration.visual.tracker),
+        long_baseline_(configuration) {}
 
   void take(const LogEvent& event) {
     const Channels& channels = configuration_.channels;
@@ -72,7 +131,9 @@ class LogIntake {
     const int64_t previous = input_.frames.empty() ? message.utime : input_.frames.back();
     // A picture that comes twice or late would be tracked backwards.
     if (!input_.frames.empty() && message.utime <= previous) return;
-    PointTracks points = tracker_.advance(rectifier_.toIdeal(*grey), std::nullopt);
+    const cv::Mat ideal = rectifier_.toIdeal(*grey);
+    PointTracks points = tracker_.advance(ideal, std::nullopt);
+    if (auto match = long_baseline_.advance(message.utime, ideal, points)) input_.ground.push_back(std::move(*match));
     input_.frames.push_back(message.utime);
     const double gap_s = static_cast<double>(message.utime - previous) * 1e-6;
     if (points.current.empty() || gap_s > configuration_.visual.max_frame_gap_s) return;
@@ -86,6 +147,7 @@ class LogIntake {
   calibration::CalibrationInput& input_;
   Rectifier rectifier_;
   PointTracker tracker_;
+  LongBaseline long_baseline_;
   int damaged_ = 0;
 };
 

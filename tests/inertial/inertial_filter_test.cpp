@@ -33,6 +33,7 @@ struct Flight {
     p.extrinsics = extrinsics;
     p.noise = consumerNoise();
     p.start_velocity_sigma = 2;
+    p.feedback_correlation_frames = 1;  // the simulated corrections err independently
     return p;
   }
 

@@ -1,0 +1,30 @@
+// The ground's homography among points of which many may lie on other things: facades, bushes, people.
+//
+// A homography fitted to whatever agrees with it bends towards surfaces that stand on the ground and move almost like it. Here the points
+// are first fitted under a prediction that knows the camera's rotation and the vertical, and little of the translation:
+//
+//     min  sum_i rho(x_b - H(h) x_a) + (h - h_0)' P^-1 (h - h_0)      P = J_R J_R' s_R^2 + J_t J_t' s_t^2 + J_m J_m' s_m^2
+//
+// with rho after Geman and McClure, its scale shrinking (graduated non-convexity). The points within reach of that fit are the ground's; they
+// alone, without the prediction, then give the measured homography.
+#pragma once
+
+#include <optional>
+
+#include "calibration/joint_problem.hpp"
+#include "visual/point_tracker.hpp"
+
+namespace redbee::calibration {
+
+struct GroundPrediction {
+  PlaneMotion motion;
+  double rotation_sigma_rad = 0.0005;
+  double translation_sigma = 0.005;  ///< heights
+  double normal_sigma_rad = 0.01;
+};
+
+/// Frame indices are not filled. Nothing where too few points lie on the predicted plane or they do not spread over the picture.
+std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& camera,
+                                          const GroundPrediction& prediction);
+
+}  // namespace redbee::calibration
