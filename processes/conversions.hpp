@@ -13,15 +13,25 @@ using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor8d = Eigen::Matrix<double, 8, 8, Eigen::RowMajor>;
 
 inline Eigen::Matrix3d matrix3(const double (&entries)[9]) { return Eigen::Map<const RowMajor3d>(entries); }
-inline Eigen::Matrix<double, 8, 8> matrix8(const double (&entries)[64]) { return Eigen::Map<const RowMajor8d>(entries); }
-inline Eigen::Vector3d vector3(const double (&entries)[3]) { return Eigen::Map<const Eigen::Vector3d>(entries); }
+inline Eigen::Matrix<double, 8, 8> matrix8(const double (&entries)[64]) {
+  return Eigen::Map<const RowMajor8d>(entries);
+}
+inline Eigen::Vector3d vector3(const double (&entries)[3]) {
+  return Eigen::Map<const Eigen::Vector3d>(entries);
+}
 
-inline void fill(double (&entries)[9], const Eigen::Matrix3d& M) { Eigen::Map<RowMajor3d> rows(entries); rows = M; }
+inline void fill(double (&entries)[9], const Eigen::Matrix3d& M) {
+  Eigen::Map<RowMajor3d> rows(entries);
+  rows = M;
+}
 inline void fill(double (&entries)[64], const Eigen::Matrix<double, 8, 8>& M) {
   Eigen::Map<RowMajor8d> rows(entries);
   rows = M;
 }
-inline void fill(double (&entries)[3], const Eigen::Vector3d& v) { Eigen::Map<Eigen::Vector3d> rows(entries); rows = v; }
+inline void fill(double (&entries)[3], const Eigen::Vector3d& v) {
+  Eigen::Map<Eigen::Vector3d> rows(entries);
+  rows = v;
+}
 inline void fill(double (&entries)[8], const Eigen::Matrix<double, 8, 1>& v) {
   Eigen::Map<Eigen::Matrix<double, 8, 1>> rows(entries);
   rows = v;

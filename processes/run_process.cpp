@@ -18,7 +18,9 @@ int runProcess(int argc, char** argv, const std::string& name, const NodeFactory
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "%s: %s (--help tells the use)\n", name.c_str(), error.what());
+    return 2;
   }
   // One process of several on a small computer: its neighbours need the other cores.
   cv::setNumThreads(1);
@@ -26,7 +28,8 @@ int runProcess(int argc, char** argv, const std::string& name, const NodeFactory
     const Configuration configuration = loadConfiguration(configuration_file);
     const auto bus = makeLcmBus(url);
     const auto node = factory(*bus, configuration);
-    spdlog::info("{}: configuration {} ({}), {}", name, configuration_file, configurationHash(configuration), url);
+    spdlog::info("{}: configuration {} ({}), {}", name, configuration_file, configurationHash(configuration),
+                 url);
     runNode(*bus, *node, configuration.channels.health, stopOnSignals());
     return 0;
   } catch (const ConfigurationError& error) {

@@ -50,8 +50,10 @@ std::string statusLine(const OverlayStatus& status) {
   int used = std::snprintf(text, sizeof text, "%.3f s", static_cast<double>(status.utime) / 1e6);
   if (status.fps > 0)
     used += std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %.1f fps", status.fps);
-  std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %s  epoch %d", status.source.c_str(),
-                status.epoch);
+  if (!status.source.empty()) {
+    std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %s  epoch %d", status.source.c_str(),
+                  status.epoch);
+  }
   return std::string(text) + (status.message.empty() ? "" : "  " + status.message);
 }
 

@@ -7,7 +7,8 @@
 namespace redbee {
 namespace {
 
-Eigen::Vector2d applyDistortion(const std::array<double, 5>& d, const Eigen::Vector2d& x, Eigen::Matrix2d* J) {
+Eigen::Vector2d applyDistortion(const std::array<double, 5>& d, const Eigen::Vector2d& x,
+                                Eigen::Matrix2d* J) {
   const auto [k1, k2, p1, p2, k3] = d;
   const double r2 = x.squaredNorm();
   const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
@@ -31,7 +32,8 @@ Camera::Camera(const CameraIntrinsics& intrinsics) : intrinsics_(intrinsics) {
 }
 
 bool Camera::isDistorted() const {
-  return std::any_of(intrinsics_.distortion.begin(), intrinsics_.distortion.end(), [](double k) { return k != 0; });
+  return std::any_of(intrinsics_.distortion.begin(), intrinsics_.distortion.end(),
+                     [](double k) { return k != 0; });
 }
 
 Eigen::Vector2d Camera::distort(const Eigen::Vector2d& ideal) const {

@@ -18,8 +18,8 @@ struct CameraIntrinsics {
   std::array<double, 5> distortion{};
 };
 
-/// "Raw" pixels are those of the picture as recorded; "ideal" pixels are those that a camera with the same K and no
-/// distortion would have recorded. Homographies hold between ideal pixels.
+/// "Raw" pixels are those of the picture as recorded; "ideal" pixels are those that a camera with the same K
+/// and no distortion would have recorded. Homographies hold between ideal pixels.
 class Camera {
  public:
   explicit Camera(const CameraIntrinsics& intrinsics);

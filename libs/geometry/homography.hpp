@@ -1,11 +1,11 @@
 // Plane homographies between two camera frames, and the derivatives that the filters need.
 //
-// A homography H_ba takes pixels of frame a to pixels of frame b: x_b ~ H_ba x_a. It is kept scaled to h33 = 1, and
-// its eight free entries are stacked row by row: h11 h12 h13 h21 h22 h23 h31 h32.
+// A homography H_ba takes pixels of frame a to pixels of frame b: x_b ~ H_ba x_a. It is kept scaled to h33 =
+// 1, and its eight free entries are stacked row by row: h11 h12 h13 h21 h22 h23 h31 h32.
 //
-// In pixels these entries span six orders of magnitude. Covariances are therefore always those of the *scaled*
-// homography T H T^-1 (Hartley), with T = ImageScaling(width, height).T: the picture's centre at the origin, half its
-// width as the unit. One such unit of h13 or h23 is width / 2 pixels.
+// In pixels these entries span six orders of magnitude. Covariances are therefore always those of the
+// *scaled* homography T H T^-1 (Hartley), with T = ImageScaling(width, height).T: the picture's centre at the
+// origin, half its width as the unit. One such unit of h13 or h23 is width / 2 pixels.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,7 +42,8 @@ Eigen::Matrix<double, 2, 8> transferJacobian(const Eigen::Matrix3d& H, const Eig
 /// d transfer(H, x) / d x.
 Eigen::Matrix2d transferJacobianPoint(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
 
-/// d toVector(A B) / d toVector(A) and / d toVector(B), for A and B with h33 = 1; the division by (A B)_33 included.
+/// d toVector(A B) / d toVector(A) and / d toVector(B), for A and B with h33 = 1; the division by (A B)_33
+/// included.
 struct ComposeJacobians {
   Matrix8d by_left;
   Matrix8d by_right;
@@ -54,7 +55,8 @@ Matrix8d inverseJacobian(const Eigen::Matrix3d& H);
 Eigen::Matrix<double, 8, 9> projectionJacobian(const Eigen::Matrix3d& M);
 
 /// Relative pose of two camera frames a, b over a plane.
-/// Plane in frame a: m_a' X = h_a, m_a the unit normal from the camera towards the plane, h_a > 0 its distance [m].
+/// Plane in frame a: m_a' X = h_a, m_a the unit normal from the camera towards the plane, h_a > 0 its
+/// distance [m].
 struct PlaneMotion {
   Eigen::Matrix3d R_ba;  ///< turns coordinates in a into coordinates in b
   Eigen::Vector3d t_ba;  ///< X_b = R_ba X_a + t_ba [m]
@@ -65,8 +67,8 @@ struct PlaneMotion {
 /// K (R + t m' / h) K^-1, h33 = 1 (method.md's form of the paper's equation 1).
 Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion);
 
-/// Derivative of toVector(planeHomography(K, motion)) by a left rotation of R_ba (R <- exp(d) R) [rad], by t_ba [m], by a
-/// left rotation of m_a (m <- exp(d) m) [rad] and by h_a [m].
+/// Derivative of toVector(planeHomography(K, motion)) by a left rotation of R_ba (R <- exp(d) R) [rad], by
+/// t_ba [m], by a left rotation of m_a (m <- exp(d) m) [rad] and by h_a [m].
 struct PlaneHomographyJacobians {
   Eigen::Matrix<double, 8, 3> by_rotation;
   Eigen::Matrix<double, 8, 3> by_translation;
@@ -75,8 +77,8 @@ struct PlaneHomographyJacobians {
 };
 PlaneHomographyJacobians planeHomographyJacobians(const Eigen::Matrix3d& K, const PlaneMotion& motion);
 
-/// Mean distance [px] between where A and B take the points of a 16-px grid over the picture. Points that either sends
-/// to infinity or behind the camera are left out; infinity where none is left.
+/// Mean distance [px] between where A and B take the points of a 16-px grid over the picture. Points that
+/// either sends to infinity or behind the camera are left out; infinity where none is left.
 double meanTransferError(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B, int width, int height);
 
 }  // namespace redbee

@@ -215,9 +215,10 @@ double rmsOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vect
   return count > 0 ? std::sqrt(sum / count) : 0.0;
 }
 
-/// How much larger the covariance is than independent errors would make it: the sum over blocks of the squared sum of a
-/// block's residuals, against the sum of squared residuals (the "design effect" of clustered samples). One where residuals are
-/// independent; the number of pairs in a block where a block errs as one, as relief does that was taken for the plane.
+/// How much larger the covariance is than independent errors would make it: the sum over blocks of the
+/// squared sum of a block's residuals, against the sum of squared residuals (the "design effect" of clustered
+/// samples). One where residuals are independent; the number of pairs in a block where a block errs as one,
+/// as relief does that was taken for the plane.
 double correlationOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vector<uint8_t>& inlier) {
   constexpr int kBlocks = 6;  // to a side of the picture's width
   constexpr int kParameters = 8;
@@ -228,7 +229,8 @@ double correlationOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const s
     const Eigen::Vector2d residual = pairs.current(i) - transfer(H, pairs.previous(i));
     // Scaled coordinates run from -1 to 1 over the width.
     const auto block = [](float x) { return static_cast<int>(std::floor((x + 1) * kBlocks / 2)); };
-    sums.try_emplace({block(pairs.ax[i]), block(pairs.ay[i])}, Eigen::Vector2d::Zero()).first->second += residual;
+    sums.try_emplace({block(pairs.ax[i]), block(pairs.ay[i])}, Eigen::Vector2d::Zero()).first->second +=
+        residual;
     squares += residual.squaredNorm();
   }
   double block_squares = 0;

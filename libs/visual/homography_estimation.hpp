@@ -25,8 +25,9 @@ struct RansacParameters {
 /// Neighbouring patches overlap, share noise and bias (interpolation, compression, relief), and so err
 /// together; what the fit has swallowed of that does not show in its residuals. The covariance of independent
 /// errors is enlarged by this factor: about right (median normalised error at most that of chi-square with 8
-/// degrees of freedom) for rendered flights over flat ground. Where relief makes whole blocks of residuals err as one, the factor is
-/// measured and larger. What the fit has swallowed of a facade taken for ground, no residual shows.
+/// degrees of freedom) for rendered flights over flat ground. Where relief makes whole blocks of residuals
+/// err as one, the factor is measured and larger. What the fit has swallowed of a facade taken for ground, no
+/// residual shows.
 inline constexpr double kCorrelationInflation = 6.0;
 
 struct HomographyEstimate {

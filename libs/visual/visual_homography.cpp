@@ -8,8 +8,8 @@
 namespace redbee {
 namespace {
 
-/// Share of all tracks that a plane must explain to be believed against the prediction, and how many times more than the
-/// predicted plane.
+/// Share of all tracks that a plane must explain to be believed against the prediction, and how many times
+/// more than the predicted plane.
 constexpr double kContradiction = 0.6;
 constexpr double kOverwhelming = 2.0;
 
@@ -68,7 +68,8 @@ std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
     const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const {
   RansacParameters ransac = parameters_.ransac;
   if (!prediction) return estimateHomography(tracks, size_.width, size_.height, ransac);
-  auto near = estimateHomographyNear(tracks, size_.width, size_.height, prediction->H, prediction->covariance, ransac);
+  auto near = estimateHomographyNear(tracks, size_.width, size_.height, prediction->H, prediction->covariance,
+                                     ransac);
   const auto all = static_cast<double>(tracks.previous.size());
   if (near && near->inliers >= kContradiction * all) return near;
   // A plane that contradicts the prediction is believed only when it explains most of the picture: then it is

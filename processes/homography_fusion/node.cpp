@@ -26,13 +26,15 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
       visual_(microseconds(configuration.waits.fusion_s), true) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
-  bus_.subscribe<inertial_homography_t>(channels.inertial_homography, kQueue,
-                                        [this](const inertial_homography_t& m) { takeInertial(m); }, damaged);
-  bus_.subscribe<visual_homography_t>(channels.visual_homography, kQueue,
-                                      [this](const visual_homography_t& m) { takeVisual(m); }, damaged);
+  bus_.subscribe<inertial_homography_t>(
+      channels.inertial_homography, kQueue, [this](const inertial_homography_t& m) { takeInertial(m); },
+      damaged);
+  bus_.subscribe<visual_homography_t>(
+      channels.visual_homography, kQueue, [this](const visual_homography_t& m) { takeVisual(m); }, damaged);
   if (configuration_.has_imu) {
-    bus_.subscribe<ins_t>(channels.imu, kImuQueue,
-                          [this](const ins_t& m) { newest_utime_ = std::max(newest_utime_, m.utime); }, damaged);
+    bus_.subscribe<ins_t>(
+        channels.imu, kImuQueue, [this](const ins_t& m) { newest_utime_ = std::max(newest_utime_, m.utime); },
+        damaged);
   }
 }
 
@@ -98,7 +100,8 @@ void HomographyFusionNode::process() {
       continue;
     }
     if (verdict == FrameOrder::Verdict::kRestart) {
-      fusion_ = HomographyFusion(configuration_.camera.width, configuration_.camera.height, configuration_.fusion);
+      fusion_ =
+          HomographyFusion(configuration_.camera.width, configuration_.camera.height, configuration_.fusion);
     }
     fuse(utime, since_arrival);
   }
@@ -116,7 +119,8 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
   const visual_homography_t* visual = visual_.find(utime);
   std::optional<InertialInput> inertial_input;
   if (inertial != nullptr && inertial->valid != 0) {
-    inertial_input = InertialInput{inertial->utime_previous, matrix3(inertial->H), matrix8(inertial->covariance)};
+    inertial_input =
+        InertialInput{inertial->utime_previous, matrix3(inertial->H), matrix8(inertial->covariance)};
   }
   std::optional<VisualInput> visual_input;
   if (visual != nullptr && visual->status == kVisualGood) {
@@ -128,9 +132,10 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
   inertial_.forgetUpTo(utime);
   visual_.forgetUpTo(utime);
   noteDone(health_, utime, since_arrival, timer);
-  const bool good = fused.source == FusionSource::kFused || (!configuration_.has_imu && fused.source == FusionSource::kVisual);
+  const bool good = fused.source == FusionSource::kFused ||
+                    (!configuration_.has_imu && fused.source == FusionSource::kVisual);
   health_.setState(good ? HealthState::kGood : HealthState::kDegraded,
-                 good ? "" : std::string("homography from: ") + toString(fused.source));
+                   good ? "" : std::string("homography from: ") + toString(fused.source));
 }
 
 void HomographyFusionNode::publish(const FusedHomography& fused, const inertial_homography_t* inertial,
@@ -169,10 +174,12 @@ void HomographyFusionNode::publish(const FusedHomography& fused, const inertial_
       message.has_observation = 1;
       fill(message.H_observed, matrix3(visual->H));
       const double ratio = 1.0 + static_cast<double>(visual->outliers) / std::max(1, visual->inliers);
-      fill(message.covariance_observed, configuration_.fusion.visual_inflation * ratio * matrix8(visual->covariance));
+      fill(message.covariance_observed,
+           configuration_.fusion.visual_inflation * ratio * matrix8(visual->covariance));
     }
     if (fused.source != FusionSource::kNone) {
-      const auto front = estimateFrontPlane(tracks, fused.H_step, message.width, message.height, configuration_.front);
+      const auto front =
+          estimateFrontPlane(tracks, fused.H_step, message.width, message.height, configuration_.front);
       if (front) {
         message.has_front = 1;
         fill(message.H_front, front->H);

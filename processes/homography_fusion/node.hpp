@@ -1,4 +1,5 @@
-// INERTIAL_HOMOGRAPHY and VISUAL_HOMOGRAPHY in; FUSED_HOMOGRAPHY out. IMU is listened to for the passing of time only.
+// INERTIAL_HOMOGRAPHY and VISUAL_HOMOGRAPHY in; FUSED_HOMOGRAPHY out. IMU is listened to for the passing of
+// time only.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,8 @@ class HomographyFusionNode : public Node {
   void expect(int64_t utime);
   bool ready(int64_t utime);
   void fuse(int64_t utime, const WorkTimer& since_arrival);
-  void publish(const FusedHomography& fused, const inertial_homography_t* inertial, const visual_homography_t* visual);
+  void publish(const FusedHomography& fused, const inertial_homography_t* inertial,
+               const visual_homography_t* visual);
   void restart();
 
   Bus& bus_;

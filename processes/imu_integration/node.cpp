@@ -24,13 +24,16 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
       feedback_(microseconds(configuration.waits.inertial_s), true) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
-  bus_.subscribe<image_t>(channels.camera, kFrameQueue, [this](const image_t& m) { takeFrame(m); }, damaged);
-  bus_.subscribe<ins_t>(channels.imu, kImuQueue, [this](const ins_t& m) { takeImu(m); }, damaged);
+  bus_.subscribe<image_t>(
+      channels.camera, kFrameQueue, [this](const image_t& m) { takeFrame(m); }, damaged);
+  bus_.subscribe<ins_t>(
+      channels.imu, kImuQueue, [this](const ins_t& m) { takeImu(m); }, damaged);
   if (configuration_.has_altimeter) {
-    bus_.subscribe<altimeter_t>(channels.altimeter, kImuQueue, [this](const altimeter_t& m) { takeAltitude(m); }, damaged);
+    bus_.subscribe<altimeter_t>(
+        channels.altimeter, kImuQueue, [this](const altimeter_t& m) { takeAltitude(m); }, damaged);
   }
-  bus_.subscribe<fused_homography_t>(channels.fused_homography, kFrameQueue,
-                                     [this](const fused_homography_t& m) { takeFused(m); }, damaged);
+  bus_.subscribe<fused_homography_t>(
+      channels.fused_homography, kFrameQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged);
 }
 
 void ImuIntegrationNode::takeFrame(const image_t& message) {

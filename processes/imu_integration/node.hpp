@@ -19,7 +19,8 @@
 
 namespace redbee {
 
-/// One message per frame, as soon as the IMU's samples reach its exposure and the fusion has answered for the frame before.
+/// One message per frame, as soon as the IMU's samples reach its exposure and the fusion has answered for the
+/// frame before.
 class ImuIntegrationNode : public Node {
  public:
   ImuIntegrationNode(Bus& bus, const Configuration& configuration);

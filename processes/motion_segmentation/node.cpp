@@ -5,7 +5,6 @@
 #include "flight/overlay.hpp"
 #include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
-#include "processes/frame_intake.hpp"
 #include "processes/work_timer.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
@@ -51,7 +50,8 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
     }
   }
   const cv::Point top_left(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
-  const cv::Point bottom_right(static_cast<int>(std::ceil(high.x())) + 1, static_cast<int>(std::ceil(high.y())) + 1);
+  const cv::Point bottom_right(static_cast<int>(std::ceil(high.x())) + 1,
+                               static_cast<int>(std::ceil(high.y())) + 1);
   return cv::Rect(top_left, bottom_right) & picture;
 }
 
@@ -64,10 +64,13 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
       camera_(configuration.camera),
       rectifier_(camera_),
       segmenter_(configuration.segmentation),
+      pictures_(configuration.waits.max_backlog),
       fused_(static_cast<int64_t>(configuration.waits.segmentation_s * 1e6), true) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
-  bus_.subscribe<image_t>(channels.camera, kFrameQueue, [this](const image_t& m) { takeFrame(m); }, damaged);
+  bus_.subscribe<image_t>(
+      channels.camera, kFrameQueue,
+      [this](const image_t& m) { pictures_.take(m, health_, [this] { restart(); }); }, damaged);
   bus_.subscribe<fused_homography_t>(
       channels.fused_homography, kFrameQueue,
       [this](const fused_homography_t& m) {
@@ -81,39 +84,17 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
       damaged);
 }
 
-void MotionSegmentationNode::takeFrame(const image_t& message) {
-  if (!acceptFrame(order_, health_, message.utime, [this] { restart(); })) return;
-  newest_utime_ = std::max(newest_utime_, message.utime);
-  pending_.push_back({message, {}});
-  while (static_cast<int>(pending_.size()) > configuration_.waits.max_backlog) {
-    pending_.pop_front();
-    health_.noteSkipped();
-  }
-}
-
 void MotionSegmentationNode::restart() {
-  pending_.clear();
   fused_.clear();
   last_.reset();
-  newest_utime_ = 0;
 }
 
 void MotionSegmentationNode::process() {
-  while (!pending_.empty()) {
-    const int64_t before = fused_.givenUp();
-    const auto answer = fused_.ask(pending_.front().content.utime, newest_utime_);
-    health_.noteLate(fused_.givenUp() - before);
-    if (answer == CompanionBuffer<fused_homography_t>::Answer::kWait && !finishing_) return;
-    const Arrived<image_t> frame = std::move(pending_.front());
-    pending_.pop_front();
-    segment(frame);
-  }
+  pictures_.workOff(fused_, health_, [this](const Arrived<image_t>& frame) { segment(frame); });
 }
 
 void MotionSegmentationNode::finish() {
-  finishing_ = true;
-  process();
-  finishing_ = false;
+  pictures_.workOffAll([this](const Arrived<image_t>& frame) { segment(frame); });
 }
 
 SegmentationInput MotionSegmentationNode::inputFor(const image_t& message, const cv::Mat& ideal) const {
@@ -129,7 +110,8 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message, const
     input.tracks = tracksOf(*fused);
     if (fused->has_front != 0) input.front = matrix3(fused->H_front);
     if (fused->has_motion != 0) {
-      input.motion = PlaneMotion{matrix3(fused->R), vector3(fused->t), vector3(fused->normal), fused->plane_distance};
+      input.motion =
+          PlaneMotion{matrix3(fused->R), vector3(fused->t), vector3(fused->normal), fused->plane_distance};
     }
   } else if (fused->epoch == last_->epoch) {
     // A frame between was missed: the anchor bridges it (method.md, "Fusion").
@@ -157,7 +139,8 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   noteDone(health_, message.utime, frame.since, timer);
 }
 
-void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output) {
+void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input,
+                                     SegmentationOutput output) {
   output.probability = rectifier_.toRaw(output.probability);
   output.mask = rectifier_.toRaw(output.mask);
   output.unknown = rectifier_.toRaw(output.unknown);

@@ -2,14 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
-#include "messaging/frame_order.hpp"
 #include "messaging/node.hpp"
-#include "processes/work_timer.hpp"
+#include "processes/picture_queue.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "segmentation/motion_segmenter.hpp"
@@ -33,7 +31,6 @@ class MotionSegmentationNode : public Node {
     Eigen::Matrix3d H_anchor;
   };
 
-  void takeFrame(const image_t& message);
   void segment(const Arrived<image_t>& frame);
   SegmentationInput inputFor(const image_t& message, const cv::Mat& ideal) const;
   void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
@@ -46,12 +43,9 @@ class MotionSegmentationNode : public Node {
   Camera camera_;
   Rectifier rectifier_;
   MotionSegmenter segmenter_;
-  FrameOrder order_;
-  std::deque<Arrived<image_t>> pending_;
+  PictureQueue pictures_;
   CompanionBuffer<fused_homography_t> fused_;
   std::optional<Last> last_;
-  int64_t newest_utime_ = 0;
-  bool finishing_ = false;
   int32_t sequence_ = 0;
   int frames_since_overlay_ = 0;
 };

@@ -1,8 +1,7 @@
 #include "processes/redbee/calibrate.hpp"
 
-#include <csignal>
-
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -70,7 +69,8 @@ std::string sourceOf(const CalibrateOptions& options) {
   return (options.log.empty() ? options.target_corners : options.log).string();
 }
 
-void readSource(const CalibrateOptions& options, const Configuration& configuration, CalibrationInput& input) {
+void readSource(const CalibrateOptions& options, const Configuration& configuration,
+                CalibrationInput& input) {
   if (!options.log.empty()) {
     readCalibrationLog(options.log, configuration, options.quiet, input);
     if (options.no_altimeter) input.altimeter.clear();
@@ -97,7 +97,8 @@ int runCalibrate(const CalibrateOptions& options) {
   const Configuration configuration = loadConfiguration(options.configuration);
   CalibrationInput input = inputFrom(configuration);
   readSource(options, configuration, input);
-  if (options.height_m) input.start_height = calibration::MeasuredHeight{*options.height_m, options.height_sigma_m};
+  if (options.height_m)
+    input.start_height = calibration::MeasuredHeight{*options.height_m, options.height_sigma_m};
 
   CalibrationResult result;
   {
@@ -124,16 +125,25 @@ int runCalibrate(const CalibrateOptions& options) {
 
 void addCalibrateCommand(CLI::App& app) {
   auto options = std::make_shared<CalibrateOptions>();
-  auto* command = app.add_subcommand("calibrate", "camera-IMU rotation, time shift and plane height from a recording");
-  auto* log = command->add_option("--log", options->log, "a flight over flat ground, half a minute with turns about all axes");
-  auto* corners = command->add_option("--target-corners", options->target_corners,
-                                      "instead of a flight: corners of a target with 3-D points, CSV or CSV.gz");
+  auto* command =
+      app.add_subcommand("calibrate", "camera-IMU rotation, time shift and plane height from a recording");
+  auto* log = command->add_option("--log", options->log,
+                                  "a flight over flat ground, half a minute with turns about all axes");
+  auto* corners =
+      command->add_option("--target-corners", options->target_corners,
+                          "instead of a flight: corners of a target with 3-D points, CSV or CSV.gz");
   corners->excludes(log);
-  command->add_option("--imu", options->imu, "IMU samples beside the corners, CSV")->needs(corners)->excludes(log);
-  command->add_option("--config", options->configuration, "the vehicle's YAML file; its extrinsics are the nominal ones")
+  command->add_option("--imu", options->imu, "IMU samples beside the corners, CSV")
+      ->needs(corners)
+      ->excludes(log);
+  command
+      ->add_option("--config", options->configuration,
+                   "the vehicle's YAML file; its extrinsics are the nominal ones")
       ->required();
   command->add_option("--out", options->out, "folder for the results")->required();
-  auto* height = command->add_option("--height", options->height_m, "m, camera above the ground at the first frame, measured")
+  auto* height = command
+                     ->add_option("--height", options->height_m,
+                                  "m, camera above the ground at the first frame, measured")
                      ->check(CLI::PositiveNumber);
   command->add_option("--height-sigma", options->height_sigma_m, "m, its standard deviation")
       ->check(CLI::PositiveNumber)

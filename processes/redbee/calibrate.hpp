@@ -1,4 +1,5 @@
-// redbee calibrate: camera-IMU rotation, time shift and plane height from a recorded flight, or from a recording of a known target.
+// redbee calibrate: camera-IMU rotation, time shift and plane height from a recorded flight, or from a
+// recording of a known target.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +12,21 @@ class App;
 namespace redbee {
 
 struct CalibrateOptions {
-  std::filesystem::path log;             ///< LCM log with pictures and IMU; or the next two
-  std::filesystem::path target_corners;  ///< CSV of a target's corners, plain or .gz (calibration_target_csv.hpp)
-  std::filesystem::path imu;             ///< CSV of the IMU beside it
-  std::filesystem::path configuration;   ///< the vehicle's YAML; its extrinsics are the nominal ones
-  std::filesystem::path out;             ///< folder
-  std::optional<double> height_m;        ///< camera above the ground at the first frame, measured by hand
+  std::filesystem::path log;  ///< LCM log with pictures and IMU; or the next two
+  std::filesystem::path
+      target_corners;         ///< CSV of a target's corners, plain or .gz (calibration_target_csv.hpp)
+  std::filesystem::path imu;  ///< CSV of the IMU beside it
+  std::filesystem::path configuration;  ///< the vehicle's YAML; its extrinsics are the nominal ones
+  std::filesystem::path out;            ///< folder
+  std::optional<double> height_m;       ///< camera above the ground at the first frame, measured by hand
   double height_sigma_m = 0.02;
-  bool no_altimeter = false;             ///< leave a recorded altimeter out
+  bool no_altimeter = false;  ///< leave a recorded altimeter out
   bool quiet = false;
 };
 
-/// Writes camchain-imucam.yaml, imu.yaml, calibration.yaml, verdict.json and report.html, all or none of them, and prints the verdicts.
-/// 0. Throws InputError or ConfigurationError, one line each, on bad input and where nothing can be calibrated.
+/// Writes camchain-imucam.yaml, imu.yaml, calibration.yaml, verdict.json and report.html, all or none of
+/// them, and prints the verdicts. 0. Throws InputError or ConfigurationError, one line each, on bad input and
+/// where nothing can be calibrated.
 int runCalibrate(const CalibrateOptions& options);
 
 void addCalibrateCommand(CLI::App& app);

@@ -67,8 +67,8 @@ std::string verdictComment(const CalibrationResult& result, const char* name) {
 
 double imuRate(const CalibrationInput& input) {
   if (input.imu.size() < 2) return 0;
-  const auto [first, last] = std::minmax_element(input.imu.begin(), input.imu.end(),
-                                                 [](const auto& a, const auto& b) { return a.utime < b.utime; });
+  const auto [first, last] = std::minmax_element(
+      input.imu.begin(), input.imu.end(), [](const auto& a, const auto& b) { return a.utime < b.utime; });
   return 1e6 * static_cast<double>(input.imu.size() - 1) / static_cast<double>(last->utime - first->utime);
 }
 
@@ -97,7 +97,8 @@ std::string imuSection(const CalibrationInput& input, const CalibrationResult& r
 
 }  // namespace
 
-std::string kalibrCamchain(const CalibrationInput& input, const CalibrationResult& result, const CalibrationSubject& subject) {
+std::string kalibrCamchain(const CalibrationInput& input, const CalibrationResult& result,
+                           const CalibrationSubject& subject) {
   const CameraIntrinsics& camera = input.camera;
   const InertialExtrinsics& kept = result.values.kept;
   const Eigen::Matrix3d R_IC = kept.R_CI.transpose();
@@ -108,21 +109,24 @@ std::string kalibrCamchain(const CalibrationInput& input, const CalibrationResul
        << "  distortion_coeffs: "
        << list(std::vector<double>(camera.distortion.begin(), camera.distortion.begin() + 4)) << "\n"
        << "  distortion_model: radtan\n";
-  if (camera.distortion[4] != 0) text << "  # Kalibr's model has no k3; this camera's is " << exact(camera.distortion[4]) << "\n";
+  if (camera.distortion[4] != 0)
+    text << "  # Kalibr's model has no k3; this camera's is " << exact(camera.distortion[4]) << "\n";
   text << "  intrinsics: " << list(std::vector<double>{camera.fx, camera.fy, camera.cx, camera.cy}) << "\n"
        << "  resolution: [" << camera.width << ", " << camera.height << "]\n"
        << "  rostopic: /cam0/image_raw\n"
        << "  # x_cam = T_cam_imu x_imu\n  T_cam_imu:\n"
-       << transformRows(kept.R_CI, -kept.R_CI * kept.p_IC, "  ") << "  # The other way, x_imu = T_imu_cam x_cam:\n"
+       << transformRows(kept.R_CI, -kept.R_CI * kept.p_IC, "  ")
+       << "  # The other way, x_imu = T_imu_cam x_cam:\n"
        << transformRows(R_IC, kept.p_IC, "  #   ") << "  # t_imu = t_cam + timeshift_cam_imu [s]\n"
        << "  timeshift_cam_imu: " << exact(kept.timeshift_s) << "\n";
   return text.str();
 }
 
-std::string kalibrImu(const CalibrationInput& input, const CalibrationResult& result, const CalibrationSubject& subject) {
+std::string kalibrImu(const CalibrationInput& input, const CalibrationResult& result,
+                      const CalibrationSubject& subject) {
   std::ostringstream text;
-  text << origin(subject) << "# Noise densities as configured; the residuals ask for " << brief(result.imu_sigma_scale)
-       << " times as much.\n"
+  text << origin(subject) << "# Noise densities as configured; the residuals ask for "
+       << brief(result.imu_sigma_scale) << " times as much.\n"
        << "accelerometer_noise_density: " << exact(input.noise.accel_noise_density) << "  # m/s^2/sqrt(Hz)\n"
        << "accelerometer_random_walk: " << exact(input.noise.accel_random_walk) << "  # m/s^3/sqrt(Hz)\n"
        << "gyroscope_noise_density: " << exact(input.noise.gyro_noise_density) << "  # rad/s/sqrt(Hz)\n"
@@ -134,16 +138,19 @@ std::string kalibrImu(const CalibrationInput& input, const CalibrationResult& re
   return text.str();
 }
 
-std::string onlineCalibration(const CalibrationInput& input, const CalibrationResult& result, const CalibrationSubject& subject) {
+std::string onlineCalibration(const CalibrationInput& input, const CalibrationResult& result,
+                              const CalibrationSubject& subject) {
   std::ostringstream text;
-  text << origin(subject) << "# Include it after the vehicle's own file:  include: [vehicle.yaml, calibration.yaml]\n#\n";
+  text << origin(subject)
+       << "# Include it after the vehicle's own file:  include: [vehicle.yaml, calibration.yaml]\n#\n";
   for (const ParameterReport& report : result.parameters) text << verdictComment(result, report.name.c_str());
   text << "# What was refused is not here, so that the vehicle's own value stays.\n";
   text << cameraSection(result);
   if (isKept(result, "plane.height_m")) {
-    text << "plane:  # of this recording's first frame; remove it for flights that start elsewhere\n  height_m: "
-         << exact(result.values.kept.start_height_m) << "\n  height_sigma_m: "
-         << exact(std::max(result.values.kept.start_height_sigma_m, 1e-3)) << "\n";
+    text << "plane:  # of this recording's first frame; remove it for flights that start elsewhere\n  "
+            "height_m: "
+         << exact(result.values.kept.start_height_m)
+         << "\n  height_sigma_m: " << exact(std::max(result.values.kept.start_height_sigma_m, 1e-3)) << "\n";
   }
   // No estimate is better than what vibration and the model leave open.
   constexpr double kRotationFloor_deg = 0.02;
@@ -164,6 +171,9 @@ std::string verdictJson(const CalibrationResult& result, const CalibrationSubjec
   json["points_rms_px"] = result.points_rms_px;
   json["vision_sigma_scale"] = result.vision_sigma_scale;
   json["imu_sigma_scale"] = result.imu_sigma_scale;
+  json["misfit_sigma_scale"] = result.misfit_sigma_scale;
+  json["halves_sigma_scale"] = result.halves_sigma_scale;
+  json["frames_spanned"] = result.frames_spanned;
   for (const ParameterReport& report : result.parameters) {
     auto& entry = json["parameters"][report.name];
     entry["status"] = toString(report.verdict);
@@ -176,14 +186,16 @@ std::string verdictJson(const CalibrationResult& result, const CalibrationSubjec
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = result.values.estimated.R_CI;
   json["R_CI"] = std::vector<double>(R.data(), R.data() + 9);
   const calibration::Excitation& excitation = result.excitation;
-  json["excitation"]["rotation_rad_s"] = std::vector<double>(excitation.rotation.data(), excitation.rotation.data() + 3);
+  json["excitation"]["rotation_rad_s"] =
+      std::vector<double>(excitation.rotation.data(), excitation.rotation.data() + 3);
   json["excitation"]["rate_correlation"] = excitation.rotation_correlation;
   json["excitation"]["acceleration_m_s2"] = excitation.acceleration;
   std::vector<double> singular_values;
   for (int i = 2; i >= 0; --i) singular_values.push_back(1.0 / excitation.rotation_sigmas(i));
   json["R_CI_singular_values_1_rad"] = singular_values;
   for (const calibration::SplitHalfEntry& entry : result.split_half) {
-    json["split_half"][entry.name] = {{"difference", entry.difference}, {"sigma", entry.sigma}, {"unit", entry.unit}};
+    json["split_half"][entry.name] = {
+        {"difference", entry.difference}, {"sigma", entry.sigma}, {"unit", entry.unit}};
   }
   json["warnings"] = result.warnings;
   return json.dump(2) + "\n";

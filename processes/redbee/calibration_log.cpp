@@ -1,6 +1,7 @@
 #include "processes/redbee/calibration_log.hpp"
 
 #include <cstdio>
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,18 +26,19 @@ bool decodes(const LogEvent& event, Message& message) {
   return decodeMessage(event.data.data(), static_cast<int>(event.data.size()), message);
 }
 
-/// Follows points over several frames at once, where the picture moves slowly: a facade's parallax then outgrows the tracking noise, and the
-/// rotation too. Frames in between only carry the starting guess along.
+/// Follows points over several frames at once, where the picture moves slowly: a facade's parallax then
+/// outgrows the tracking noise, and the rotation too. Frames in between only carry the starting guess along.
 class LongBaseline {
  public:
-  explicit LongBaseline(const Configuration& configuration)
-      : configuration_(configuration), tracker_(configuration.visual.tracker) {}
+  /// `delay`: frames to let pass before the first match begins.
+  LongBaseline(const Configuration& configuration, int delay)
+      : configuration_(configuration), tracker_(configuration.visual.tracker), delay_(delay) {}
 
-  /// `points`: from the previous frame to this one. The match that ends at this frame, where one does.
-  std::optional<calibration::GroundMatch> advance(int64_t utime, const cv::Mat& ideal, const PointTracks& points) {
+  /// `step`: from the previous frame to this one. The match that ends at this frame, where one does.
+  std::optional<calibration::GroundMatch> advance(int64_t utime, const cv::Mat& ideal,
+                                                  const std::optional<HomographyEstimate>& step) {
+    if (delay_-- > 0) return std::nullopt;
     ++frames_;
-    const CameraIntrinsics& camera = configuration_.camera;
-    const auto step = estimateHomography(points, camera.width, camera.height, configuration_.visual.ransac);
     if (!step || begin_utime_ == 0) {
       tracker_.advance(ideal, std::nullopt);
       begin(utime);
@@ -66,8 +68,9 @@ class LongBaseline {
   double motion() const {
     const double w = configuration_.camera.width, h = configuration_.camera.height;
     double sum = 0;
-    for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.25 * w, 0.25 * h), Eigen::Vector2d(0.75 * w, 0.25 * h),
-                                     Eigen::Vector2d(0.25 * w, 0.75 * h), Eigen::Vector2d(0.75 * w, 0.75 * h)}) {
+    for (const Eigen::Vector2d& p :
+         {Eigen::Vector2d(0.25 * w, 0.25 * h), Eigen::Vector2d(0.75 * w, 0.25 * h),
+          Eigen::Vector2d(0.25 * w, 0.75 * h), Eigen::Vector2d(0.75 * w, 0.75 * h)}) {
       sum += (transfer(chain_, p) - p).norm() / 4;
     }
     return sum;
@@ -78,17 +81,20 @@ class LongBaseline {
   Eigen::Matrix3d chain_ = Eigen::Matrix3d::Identity();  ///< from the frame that the match begins at
   int64_t begin_utime_ = 0;
   int frames_ = 0;
+  int delay_;
 };
 
 class LogIntake {
  public:
-  LogIntake(const std::filesystem::path& log, const Configuration& configuration, calibration::CalibrationInput& input)
+  LogIntake(const std::filesystem::path& log, const Configuration& configuration,
+            calibration::CalibrationInput& input)
       : log_(log),
         configuration_(configuration),
         input_(input),
         rectifier_(Camera(configuration.camera)),
-        tracker_(configuration.visual.tracker),
-        long_baseline_(configuration) {}
+        tracker_(configuration.visual.tracker) {
+    for (const int delay : {0, 3, 6, 9}) long_baselines_.emplace_back(configuration, delay);
+  }
 
   void take(const LogEvent& event) {
     const Channels& channels = configuration_.channels;
@@ -98,16 +104,19 @@ class LogIntake {
   }
 
   void finish() const {
-    if (input_.frames.empty()) throw InputError(log_, "holds no picture on " + configuration_.channels.camera);
+    if (input_.frames.empty())
+      throw InputError(log_, "holds no picture on " + configuration_.channels.camera);
     if (input_.imu.empty()) throw InputError(log_, "holds no IMU sample on " + configuration_.channels.imu);
-    if (damaged_ > 0) std::fprintf(stderr, "warning: %s: %d damaged messages skipped\n", log_.c_str(), damaged_);
+    if (damaged_ > 0)
+      std::fprintf(stderr, "warning: %s: %d damaged messages skipped\n", log_.c_str(), damaged_);
   }
 
  private:
   void takeImu(const LogEvent& event) {
     ins_t message;
     if (!decodes(event, message)) return noteDamaged();
-    input_.imu.push_back({message.utime, {message.gyro[0], message.gyro[1], message.gyro[2]},
+    input_.imu.push_back({message.utime,
+                          {message.gyro[0], message.gyro[1], message.gyro[2]},
                           {message.accel[0], message.accel[1], message.accel[2]}});
   }
 
@@ -123,9 +132,9 @@ class LogIntake {
     const auto grey = decodeGrey(message);
     if (!grey) return noteDamaged();
     if (grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
-      throw InputError(log_, "event " + std::to_string(event.number) + ": picture of " + std::to_string(grey->cols) + "x" +
-                                 std::to_string(grey->rows) + ", configured are " +
-                                 std::to_string(configuration_.camera.width) + "x" +
+      throw InputError(log_, "event " + std::to_string(event.number) + ": picture of " +
+                                 std::to_string(grey->cols) + "x" + std::to_string(grey->rows) +
+                                 ", configured are " + std::to_string(configuration_.camera.width) + "x" +
                                  std::to_string(configuration_.camera.height));
     }
     const int64_t previous = input_.frames.empty() ? message.utime : input_.frames.back();
@@ -133,7 +142,12 @@ class LogIntake {
     if (!input_.frames.empty() && message.utime <= previous) return;
     const cv::Mat ideal = rectifier_.toIdeal(*grey);
     PointTracks points = tracker_.advance(ideal, std::nullopt);
-    if (auto match = long_baseline_.advance(message.utime, ideal, points)) input_.ground.push_back(std::move(*match));
+    const CameraIntrinsics& camera = configuration_.camera;
+    const auto step = estimateHomography(points, camera.width, camera.height, configuration_.visual.ransac);
+    for (LongBaseline& baseline : long_baselines_) {
+      if (auto match = baseline.advance(message.utime, ideal, step))
+        input_.ground.push_back(std::move(*match));
+    }
     input_.frames.push_back(message.utime);
     const double gap_s = static_cast<double>(message.utime - previous) * 1e-6;
     if (points.current.empty() || gap_s > configuration_.visual.max_frame_gap_s) return;
@@ -147,7 +161,7 @@ class LogIntake {
   calibration::CalibrationInput& input_;
   Rectifier rectifier_;
   PointTracker tracker_;
-  LongBaseline long_baseline_;
+  std::deque<LongBaseline> long_baselines_;  ///< staggered, so that their matches overlap
   int damaged_ = 0;
 };
 

@@ -40,14 +40,16 @@ std::string list(const std::vector<double>& values) {
 
 std::string parameterTable(const CalibrationResult& result) {
   std::ostringstream out;
-  out << "<table><tr><th>parameter</th><th>value</th><th>sigma</th><th>nominal</th><th>unit</th><th>verdict</th></tr>\n";
+  out << "<table><tr><th>parameter</th><th>value</th><th>sigma</th><th>nominal</th><th>unit</th><th>verdict</"
+         "th></tr>\n";
   for (const ParameterReport& report : result.parameters) {
     const std::string status = toString(report.verdict);
     out << "<tr><td>" << report.name << "</td><td>" << list(report.value) << "</td><td>" << list(report.sigma)
-        << "</td><td>" << list(report.nominal) << "</td><td>" << report.unit << "</td><td><b class=\"" << status << "\">"
-        << status << "</b>: " << report.words << "</td></tr>\n";
+        << "</td><td>" << list(report.nominal) << "</td><td>" << report.unit << "</td><td><b class=\""
+        << status << "\">" << status << "</b>: " << report.words << "</td></tr>\n";
   }
-  out << "</table>\n<p>camera.R_CI: rotation vector from the nominal to the estimated rotation, about the camera's axes.</p>\n";
+  out << "</table>\n<p>camera.R_CI: rotation vector from the nominal to the estimated rotation, about the "
+         "camera's axes.</p>\n";
   return out.str();
 }
 
@@ -68,10 +70,12 @@ std::string factsTable(const CalibrationResult& result) {
   row("correlation of the turning rates", brief(excitation.rotation_correlation));
   row("acceleration of the drone itself", brief(excitation.acceleration) + " m/s&sup2; rms");
   row("sigma of R_CI along its principal directions",
-      brief(excitation.rotation_sigmas(0) / kDegree) + ", " + brief(excitation.rotation_sigmas(1) / kDegree) + ", " +
-          brief(excitation.rotation_sigmas(2) / kDegree) + " deg");
+      brief(excitation.rotation_sigmas(0) / kDegree) + ", " + brief(excitation.rotation_sigmas(1) / kDegree) +
+          ", " + brief(excitation.rotation_sigmas(2) / kDegree) + " deg");
   row("stated deviations were scaled by (vision, IMU)",
       brief(result.vision_sigma_scale) + ", " + brief(result.imu_sigma_scale));
+  row("reported deviations were scaled by (the scene's misfit, the halves' disagreement)",
+      brief(result.misfit_sigma_scale) + ", " + brief(result.halves_sigma_scale));
   out << "</table>\n";
   return out.str();
 }
@@ -79,10 +83,12 @@ std::string factsTable(const CalibrationResult& result) {
 std::string splitHalfTable(const CalibrationResult& result) {
   if (result.split_half.empty()) return "<p>A half is too short to be calibrated on its own.</p>\n";
   std::ostringstream out;
-  out << "<table><tr><th>parameter</th><th>difference</th><th>its sigma</th><th>unit</th><th>ratio</th></tr>\n";
+  out << "<table><tr><th>parameter</th><th>difference</th><th>its "
+         "sigma</th><th>unit</th><th>ratio</th></tr>\n";
   for (const auto& entry : result.split_half) {
-    out << "<tr><td>" << entry.name << "</td><td>" << brief(entry.difference) << "</td><td>" << brief(entry.sigma)
-        << "</td><td>" << entry.unit << "</td><td>" << brief(entry.ratio()) << "</td></tr>\n";
+    out << "<tr><td>" << entry.name << "</td><td>" << brief(entry.difference) << "</td><td>"
+        << brief(entry.sigma) << "</td><td>" << entry.unit << "</td><td>" << brief(entry.ratio())
+        << "</td></tr>\n";
   }
   out << "</table>\n";
   return out.str();
@@ -127,7 +133,8 @@ std::string shiftPlots(const CalibrationResult& result) {
   };
   const auto& alignment = result.diagnostics.alignment;
   SvgPlot coarse("Correlation of the turning rates' magnitudes", "time shift, ms", "correlation");
-  coarse.addLine("", milliseconds(alignment.correlation_curve.shift_s), alignment.correlation_curve.value, kAfter);
+  coarse.addLine("", milliseconds(alignment.correlation_curve.shift_s), alignment.correlation_curve.value,
+                 kAfter);
   SvgPlot fine("Residual of the closed form over the time shift", "time shift, ms", "deg/s");
   std::vector<double> residual = alignment.residual_curve.value;
   for (double& value : residual) value /= kDegree;
@@ -137,9 +144,11 @@ std::string shiftPlots(const CalibrationResult& result) {
 }
 
 std::string transferPlot(const Diagnostics& diagnostics, bool target) {
-  SvgPlot plot(target ? "Predicted against measured pose of the target" : "Predicted against measured homography of the ground",
+  SvgPlot plot(target ? "Predicted against measured pose of the target"
+                      : "Predicted against measured homography of the ground",
                "s", "px");
-  plot.addLine("before (nominal mounting and time shift)", diagnostics.pair_t_s, diagnostics.pair_error_before_px, kBefore);
+  plot.addLine("before (nominal mounting and time shift)", diagnostics.pair_t_s,
+               diagnostics.pair_error_before_px, kBefore);
   plot.addLine("after", diagnostics.pair_t_s, diagnostics.pair_error_after_px, kAfter);
   return plot.svg();
 }
@@ -154,7 +163,8 @@ double quantile(std::vector<Eigen::Vector2d> points, double share) {
 }
 
 std::string scatterPlots(const Diagnostics& diagnostics) {
-  const double reach = 1.3 * std::max(quantile(diagnostics.scatter_before_px, 0.9), quantile(diagnostics.scatter_after_px, 0.9));
+  const double reach = 1.3 * std::max(quantile(diagnostics.scatter_before_px, 0.9),
+                                      quantile(diagnostics.scatter_after_px, 0.9));
   std::string text;
   const auto add = [&](const char* title, const std::vector<Eigen::Vector2d>& points, const char* colour) {
     SvgPlot plot(title, "px", "px");
@@ -193,14 +203,16 @@ std::string heightPlot(const CalibrationInput& input, const Diagnostics& diagnos
 
 }  // namespace
 
-std::string calibrationReport(const CalibrationInput& input, const CalibrationResult& result, const CalibrationSubject& subject) {
+std::string calibrationReport(const CalibrationInput& input, const CalibrationResult& result,
+                              const CalibrationSubject& subject) {
   const bool target = !input.target.empty();
   const Diagnostics& diagnostics = result.diagnostics;
   std::ostringstream out;
   out << "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>Calibration of " << subject.vehicle
-      << "</title><style>" << kStyle << "</style></head><body>\n<h1>Calibration of " << subject.vehicle << "</h1>\n<p>From "
-      << subject.source << "</p>\n";
-  for (const std::string& warning : result.warnings) out << "<p class=\"weak\">Warning: " << warning << "</p>\n";
+      << "</title><style>" << kStyle << "</style></head><body>\n<h1>Calibration of " << subject.vehicle
+      << "</h1>\n<p>From " << subject.source << "</p>\n";
+  for (const std::string& warning : result.warnings)
+    out << "<p class=\"weak\">Warning: " << warning << "</p>\n";
   out << "<h2>Verdicts</h2>\n" << parameterTable(result);
   out << "<h2>The recording</h2>\n" << factsTable(result);
   out << "<h2>Halves against each other</h2>\n" << splitHalfTable(result);
@@ -210,7 +222,8 @@ std::string calibrationReport(const CalibrationInput& input, const CalibrationRe
   }
   out << "<h2>Residuals before and after</h2>\n" << transferPlot(diagnostics, target);
   if (!target) out << scatterPlots(diagnostics) << "<h2>Height</h2>\n" << heightPlot(input, diagnostics);
-  out << "<h2>Biases</h2>\n" << biasPlot("Gyro bias", "deg/s", diagnostics.bias_t_s, diagnostics.gyro_bias, 1 / kDegree)
+  out << "<h2>Biases</h2>\n"
+      << biasPlot("Gyro bias", "deg/s", diagnostics.bias_t_s, diagnostics.gyro_bias, 1 / kDegree)
       << biasPlot("Accelerometer bias", "m/s^2", diagnostics.bias_t_s, diagnostics.accel_bias, 1);
   out << "</body></html>\n";
   return out.str();

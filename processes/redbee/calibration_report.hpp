@@ -8,7 +8,8 @@
 
 namespace redbee {
 
-std::string calibrationReport(const calibration::CalibrationInput& input, const calibration::CalibrationResult& result,
+std::string calibrationReport(const calibration::CalibrationInput& input,
+                              const calibration::CalibrationResult& result,
                               const CalibrationSubject& subject);
 
 }  // namespace redbee

@@ -31,9 +31,9 @@ Detection detectionOf(const detection_t& message) {
 }
 
 nlohmann::json stageJson(const process_health_t& health) {
-  return {{"median_ms", health.work_median}, {"p99_ms", health.work_p99},   {"mean_ms", health.work_mean},
-          {"frames", health.published},      {"skipped", health.skipped},   {"lost", health.lost},
-          {"damaged", health.damaged},       {"given_up", health.late},     {"resident_bytes", health.resident},
+  return {{"median_ms", health.work_median}, {"p99_ms", health.work_p99}, {"mean_ms", health.work_mean},
+          {"frames", health.published},      {"skipped", health.skipped}, {"lost", health.lost},
+          {"damaged", health.damaged},       {"given_up", health.late},   {"resident_bytes", health.resident},
           {"state", health.state},           {"message", health.message}};
 }
 
@@ -47,13 +47,14 @@ ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesy
     if (error) throw InputError(folder_ / kind, error.message());
   }
   const auto damaged = [this] { ++damaged_; };
-  bus.subscribe<foreground_t>(channels.foreground, kQueue, [this](const foreground_t& m) { takeForeground(m); }, damaged);
-  bus.subscribe<detections_t>(channels.detections, kQueue, [this](const detections_t& m) { detections_[m.utime] = m; },
-                              damaged);
-  bus.subscribe<fused_homography_t>(channels.fused_homography, kQueue,
-                                    [this](const fused_homography_t& m) { takeFused(m); }, damaged);
-  bus.subscribe<process_health_t>(channels.health, kQueue,
-                                  [this](const process_health_t& m) { health_[m.process] = m; }, damaged);
+  bus.subscribe<foreground_t>(
+      channels.foreground, kQueue, [this](const foreground_t& m) { takeForeground(m); }, damaged);
+  bus.subscribe<detections_t>(
+      channels.detections, kQueue, [this](const detections_t& m) { detections_[m.utime] = m; }, damaged);
+  bus.subscribe<fused_homography_t>(
+      channels.fused_homography, kQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged);
+  bus.subscribe<process_health_t>(
+      channels.health, kQueue, [this](const process_health_t& m) { health_[m.process] = m; }, damaged);
 }
 
 void ResultCollector::takeForeground(const foreground_t& message) {
@@ -71,7 +72,8 @@ void ResultCollector::takeFused(const fused_homography_t& message) {
   fused_sequence_.note(message.sequence);
   fused_homography_t& kept = homographies_[message.utime] = message;
   kept.n = 0;
-  for (auto* array : {&kept.x_previous, &kept.y_previous, &kept.x, &kept.y}) std::vector<float>().swap(*array);
+  for (auto* array : {&kept.x_previous, &kept.y_previous, &kept.x, &kept.y})
+    std::vector<float>().swap(*array);
 }
 
 void ResultCollector::writeDetections() const {
@@ -80,7 +82,8 @@ void ResultCollector::writeDetections() const {
   for (const auto& [utime, status] : status_) {
     const auto found = detections_.find(utime);
     if (found != detections_.end()) {
-      for (const detection_t& detection : found->second.detections) csv.write(frame, utime, detectionOf(detection));
+      for (const detection_t& detection : found->second.detections)
+        csv.write(frame, utime, detectionOf(detection));
     }
     ++frame;
   }
@@ -117,19 +120,21 @@ void ResultCollector::writeTables(double wall_s, int64_t peak_resident_bytes) co
     given_up += health.late;
     resident += health.resident;
   }
-  const int64_t good = std::count_if(status_.begin(), status_.end(), [](const auto& s) { return s.second == 0; });
+  const int64_t good =
+      std::count_if(status_.begin(), status_.end(), [](const auto& s) { return s.second == 0; });
   const auto per_second = [](double milliseconds) { return milliseconds > 0 ? 1000 / milliseconds : 0; };
-  writeJson(folder_ / "summary.json",
-            {{"version", REDBEE_VERSION},
-             {"frames", frames()},
-             {"frames_good", good},
-             {"fps", per_second(slowest_ms)},  // frames over wall time of the slowest stage, decoding included
-             {"wall_s", wall_s},
-             {"lost", lost},
-             {"skipped", skipped},
-             {"given_up", given_up},
-             {"stages", stages},
-             {"peak_rss_bytes", peak_resident_bytes > 0 ? peak_resident_bytes : resident}});
+  writeJson(
+      folder_ / "summary.json",
+      {{"version", REDBEE_VERSION},
+       {"frames", frames()},
+       {"frames_good", good},
+       {"fps", per_second(slowest_ms)},  // frames over wall time of the slowest stage, decoding included
+       {"wall_s", wall_s},
+       {"lost", lost},
+       {"skipped", skipped},
+       {"given_up", given_up},
+       {"stages", stages},
+       {"peak_rss_bytes", peak_resident_bytes > 0 ? peak_resident_bytes : resident}});
 }
 
 }  // namespace redbee

@@ -1,5 +1,5 @@
-// What a run leaves behind (contract.md): maps as PNG, detections.csv, homography.csv, summary.json. The same for a run in one process
-// and for one over LCM.
+// What a run leaves behind (contract.md): maps as PNG, detections.csv, homography.csv, summary.json. The same
+// for a run in one process and for one over LCM.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,8 @@ class ResultCollector {
   /// The latest word of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }
 
-  /// `wall_s`: how long the run took. `peak_resident_bytes`: of the process that ran it; 0: the sum over the processes heard.
+  /// `wall_s`: how long the run took. `peak_resident_bytes`: of the process that ran it; 0: the sum over the
+  /// processes heard.
   void writeTables(double wall_s, int64_t peak_resident_bytes) const;
 
  private:
@@ -37,7 +38,7 @@ class ResultCollector {
   void writeHomographies() const;
 
   std::filesystem::path folder_;
-  std::map<int64_t, int8_t> status_;                    ///< of each frame's foreground
+  std::map<int64_t, int8_t> status_;  ///< of each frame's foreground
   std::map<int64_t, detections_t> detections_;
   std::map<int64_t, fused_homography_t> homographies_;  ///< without their sample points
   std::map<std::string, process_health_t> health_;

@@ -26,7 +26,8 @@ namespace redbee {
 
 void addDetectCommand(CLI::App& app) {
   auto options = std::make_shared<DetectOptions>();
-  auto* command = app.add_subcommand("detect", "run the whole stack over a recorded flight, in one process, no frame lost");
+  auto* command = app.add_subcommand(
+      "detect", "run the whole stack over a recorded flight, in one process, no frame lost");
   command->add_option("--log", options->log, "the flight, an LCM log")->required();
   command->add_option("--config", options->configuration, "the vehicle's YAML file")->required();
   command->add_option("--out", options->out, "folder for maps, tables and summary.json")->required();
@@ -46,7 +47,8 @@ void addDetectCommand(CLI::App& app) {
 void addCollectCommand(CLI::App& app) {
   auto options = std::make_shared<CollectOptions>();
   options->url = kDefaultLcmUrl;
-  auto* command = app.add_subcommand("collect", "write down what running processes say, until SIGINT or SIGTERM");
+  auto* command =
+      app.add_subcommand("collect", "write down what running processes say, until SIGINT or SIGTERM");
   command->add_option("--config", options->configuration, "the vehicle's YAML file")->required();
   command->add_option("--lcm-url", options->url, "where the messages are")->capture_default_str();
   command->add_option("--out", options->out, "folder for maps, tables and summary.json")->required();
@@ -81,7 +83,9 @@ void addReportCommand(CLI::App& app) {
 void addEvaluateCommand(CLI::App& app) {
   auto options = std::make_shared<EvaluateOptions>();
   auto* command = app.add_subcommand("evaluate", "measure a run's maps against truth masks");
-  command->add_option("--truth", options->truth, "folder of masks <ns>.png, or a flight folder with labels/mask")->required();
+  command
+      ->add_option("--truth", options->truth, "folder of masks <ns>.png, or a flight folder with labels/mask")
+      ->required();
   command->add_option("--detections", options->results, "folder of detect or collect")->required();
   command->callback([options] { runEvaluate(*options); });
 }
@@ -92,7 +96,8 @@ void addSimulateCommand(CLI::App& app) {
   command->add_option("--scenario", options->scenario, "which: " + scenarioNames())->capture_default_str();
   command->add_option("--seed", options->seed, "the same seed gives the same flight")->capture_default_str();
   command->add_option("--seconds", options->seconds)->check(CLI::Range(0.2, 600.0))->capture_default_str();
-  command->add_option("--out", options->log, "the log to write; its configuration goes beside it")->required();
+  command->add_option("--out", options->log, "the log to write; its configuration goes beside it")
+      ->required();
   command->add_option("--truth", options->truth, "folder for masks and homographies");
   command->callback([options] { runSimulate(*options); });
 }
@@ -100,7 +105,8 @@ void addSimulateCommand(CLI::App& app) {
 void addDoctorCommand(CLI::App& app) {
   auto options = std::make_shared<DoctorOptions>();
   options->url = kDefaultLcmUrl;
-  auto* command = app.add_subcommand("doctor", "what stands between this machine and a running stack, with the mend of each");
+  auto* command = app.add_subcommand(
+      "doctor", "what stands between this machine and a running stack, with the mend of each");
   command->add_option("--lcm-url", options->url)->capture_default_str();
   command->add_option("--camera", options->camera_channel, "channel of the pictures")->capture_default_str();
   command->add_option("--imu", options->imu_channel, "channel of the IMU")->capture_default_str();
@@ -121,6 +127,7 @@ int runTool(int argc, char** argv) {
   addReportCommand(app);
   addEvaluateCommand(app);
   addSimulateCommand(app);
+  addCalibrateCommand(app);
   addDoctorCommand(app);
   addCalibrateCommand(app);
   cv::setNumThreads(1);  // figures for one core, and the same sums on every machine

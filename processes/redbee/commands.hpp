@@ -1,5 +1,5 @@
-// The subcommands of `redbee`, each added to the command line by a function of its own. A callback that fails throws; main() turns
-// what it throws into the exit code.
+// The subcommands of `redbee`, each added to the command line by a function of its own. A callback that fails
+// throws; main() turns what it throws into the exit code.
 #pragma once
 
 namespace CLI {

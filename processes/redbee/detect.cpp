@@ -27,8 +27,8 @@ class Pace {
     if (rate_ <= 0) return;
     if (!started_) first_utime_ = utime;
     started_ = true;
-    std::this_thread::sleep_until(
-        start_ + std::chrono::microseconds(static_cast<int64_t>(static_cast<double>(utime - first_utime_) / rate_)));
+    std::this_thread::sleep_until(start_ + std::chrono::microseconds(static_cast<int64_t>(
+                                               static_cast<double>(utime - first_utime_) / rate_)));
   }
 
  private:

@@ -36,7 +36,7 @@ struct DetectOptions {
   std::filesystem::path out;
   std::string method = "redbee";      ///< "redbee": as configured; else a preset on top of the configuration
   std::vector<std::string> settings;  ///< key=value, on top of all
-  double rate = 0;                ///< times the log's own speed; 0: as fast as it goes
+  double rate = 0;                    ///< times the log's own speed; 0: as fast as it goes
   bool quiet = false;
 };
 

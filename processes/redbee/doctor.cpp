@@ -37,7 +37,8 @@ Finding sensorFinding(const std::string& channel, int count, double seconds) {
   std::snprintf(rate, sizeof rate, "%s: %.1f messages a second", channel.c_str(), count / seconds);
   if (count > 0) return {true, rate, ""};
   return {false, channel + ": nothing heard",
-          "start the driver that publishes " + channel + " (or lcm-logplayer with a recorded flight) on the same URL"};
+          "start the driver that publishes " + channel +
+              " (or lcm-logplayer with a recorded flight) on the same URL"};
 }
 
 }  // namespace
@@ -54,7 +55,8 @@ Finding findMulticast(const std::string& url) {
     const auto sender = makeLcmBus(url);
     const auto receiver = makeLcmBus(url);
     bool heard = false;
-    receiver->subscribe<altimeter_t>(kProbeChannel, 4, [&](const altimeter_t&) { heard = true; }, nullptr);
+    receiver->subscribe<altimeter_t>(
+        kProbeChannel, 4, [&](const altimeter_t&) { heard = true; }, nullptr);
     altimeter_t probe{};
     handleUntil(*receiver, 0.05, [] { return false; });
     sender->publish(kProbeChannel, probe);

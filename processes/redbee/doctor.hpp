@@ -14,8 +14,8 @@ struct Finding {
 
 struct DoctorOptions {
   std::string url;
-  std::string camera_channel;
-  std::string imu_channel;
+  std::string camera_channel = "CAMERA";
+  std::string imu_channel = "IMU";
   double listen_s = 2.0;
 };
 

@@ -21,7 +21,8 @@ std::map<int64_t, fs::path> picturesByTime(const fs::path& folder, int64_t unit)
   std::map<int64_t, fs::path> pictures;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
-    const bool numeric = !stem.empty() && stem.size() < 20 && std::all_of(stem.begin(), stem.end(), ::isdigit);
+    const bool numeric =
+        !stem.empty() && stem.size() < 20 && std::all_of(stem.begin(), stem.end(), ::isdigit);
     if (entry.path().extension() == ".png" && numeric) {
       pictures[(std::stoll(stem) + unit / 2) / unit] = entry.path();
     }
@@ -40,7 +41,8 @@ std::optional<fs::path> maskFolder(const fs::path& folder) {
     if (fs::is_directory(candidate)) return candidate;
   }
   const auto is_picture = [](const fs::directory_entry& entry) { return entry.path().extension() == ".png"; };
-  if (fs::is_directory(folder) && std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), is_picture)) {
+  if (fs::is_directory(folder) &&
+      std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), is_picture)) {
     return folder;
   }
   return std::nullopt;
@@ -64,7 +66,8 @@ std::vector<std::pair<fs::path, fs::path>> clipsOf(const EvaluateOptions& option
     if (maskFolder(entry.path()) && fs::is_directory(results)) clips.emplace_back(entry.path(), results);
   }
   std::sort(clips.begin(), clips.end());
-  if (clips.empty()) throw InputError(options.truth, "holds no truth masks that " + options.results.string() + " answers");
+  if (clips.empty())
+    throw InputError(options.truth, "holds no truth masks that " + options.results.string() + " answers");
   return clips;
 }
 
@@ -88,7 +91,8 @@ ClipMeasures measureClip(const fs::path& truth, const fs::path& results) {
     } else {
       ++clip.truth_without_result;
     }
-    if (probability.size() != mask.size()) throw InputError(map->second, "differs in size from " + mask_file.string());
+    if (probability.size() != mask.size())
+      throw InputError(map->second, "differs in size from " + mask_file.string());
     clip.pixels.add(probability, mask);
   }
   if (answered == 0) throw InputError(results / "probability", "holds no map of a labelled frame");
@@ -105,9 +109,9 @@ void runEvaluate(const EvaluateOptions& options) {
     error_sum += clip.pixels.errorAtHalfRecall();
     f1_sum += clip.pixels.bestF1();
     writeCurve(results, clip.pixels);
-    std::printf("%-16s %7lld %10.3f %8.3f %8lld\n", clip.name.c_str(), static_cast<long long>(clip.pixels.frames()),
-                clip.pixels.errorAtHalfRecall(), clip.pixels.bestF1(),
-                static_cast<long long>(clip.truth_without_result));
+    std::printf("%-16s %7lld %10.3f %8.3f %8lld\n", clip.name.c_str(),
+                static_cast<long long>(clip.pixels.frames()), clip.pixels.errorAtHalfRecall(),
+                clip.pixels.bestF1(), static_cast<long long>(clip.truth_without_result));
   }
   const auto count = static_cast<double>(clips.size());
   std::printf("%-16s %7s %10.3f %8.3f\n", "mean", "", error_sum / count, f1_sum / count);

@@ -29,8 +29,8 @@ DetectionsByTime readDetections(const std::filesystem::path& file) {
   while (csv.next(kColumns)) {
     Detection detection;
     detection.id = static_cast<int>(csv.integer(1));
-    detection.box = {static_cast<int>(csv.number(2)), static_cast<int>(csv.number(3)), static_cast<int>(csv.number(4)),
-                     static_cast<int>(csv.number(5))};
+    detection.box = {static_cast<int>(csv.number(2)), static_cast<int>(csv.number(3)),
+                     static_cast<int>(csv.number(4)), static_cast<int>(csv.number(5))};
     detection.score = csv.number(6);
     detections.emplace(csv.integer(10), detection);
   }
@@ -88,7 +88,8 @@ void renderOverlay(const OverlayOptions& options) {
     }
     if (!writer) {  // the second frame tells the pace of the video
       const double fps = 1e6 / static_cast<double>(utime - first_utime);
-      writer = std::make_unique<VideoWriter>(options.video, even.size(), fps > 0 && fps < 1000 ? fps : kDefaultFps);
+      writer = std::make_unique<VideoWriter>(options.video, even.size(),
+                                             fps > 0 && fps < 1000 ? fps : kDefaultFps);
       writer->write(first);
     }
     writer->write(even);

@@ -21,7 +21,8 @@ constexpr int kPictures = 6;
 constexpr const char* kStyle =
     "body{font:15px/1.5 sans-serif;max-width:1040px;margin:2em auto;padding:0 1em;color:#222}"
     "table{border-collapse:collapse}td,th{padding:.25em .8em;border-bottom:1px solid #ddd;text-align:right}"
-    "td:first-child,th:first-child{text-align:left}img{width:49%;margin:.2%}h1{font-size:1.4em}h2{font-size:1.1em}";
+    "td:first-child,th:first-child{text-align:left}img{width:49%;margin:.2%}h1{font-size:1.4em}h2{font-size:"
+    "1.1em}";
 
 std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
 std::string format(const char* pattern, ...) {
@@ -38,7 +39,8 @@ std::string base64(const std::vector<uint8_t>& data) {
   std::string text;
   for (size_t i = 0; i < data.size(); i += 3) {
     const size_t left = data.size() - i;
-    const uint32_t bits = static_cast<uint32_t>(data[i] << 16) | static_cast<uint32_t>(left > 1 ? data[i + 1] << 8 : 0) |
+    const uint32_t bits = static_cast<uint32_t>(data[i] << 16) |
+                          static_cast<uint32_t>(left > 1 ? data[i + 1] << 8 : 0) |
                           static_cast<uint32_t>(left > 2 ? data[i + 2] : 0);
     for (size_t digit = 0; digit < 4; ++digit) {
       text += digit <= left ? kDigits[bits >> (18 - 6 * digit) & 63] : '=';
@@ -63,19 +65,22 @@ std::vector<std::string> stageRows(const nlohmann::json& summary) {
     rows.push_back(format("%-28s %7lld %9.2f %9.2f %8lld %6lld %9.1f", process.c_str(),
                           stage.at("frames").get<long long>(), stage.at("median_ms").get<double>(),
                           stage.at("p99_ms").get<double>(), stage.at("skipped").get<long long>(),
-                          stage.at("lost").get<long long>(), stage.at("resident_bytes").get<double>() / 1048576));
+                          stage.at("lost").get<long long>(),
+                          stage.at("resident_bytes").get<double>() / 1048576));
   }
   return rows;
 }
 
-std::vector<std::string> headlines(const nlohmann::json& summary, const std::optional<ClipMeasures>& measures) {
+std::vector<std::string> headlines(const nlohmann::json& summary,
+                                   const std::optional<ClipMeasures>& measures) {
   std::vector<std::string> lines;
   lines.push_back(format("frames %lld (%lld with a mask), lost %lld, skipped %lld, waited for in vain %lld",
                          summary.at("frames").get<long long>(), summary.at("frames_good").get<long long>(),
                          summary.at("lost").get<long long>(), summary.at("skipped").get<long long>(),
                          summary.at("given_up").get<long long>()));
   lines.push_back(format("%.1f frames a second in the slowest stage, %.1f MB resident",
-                         summary.at("fps").get<double>(), summary.at("peak_rss_bytes").get<double>() / 1048576));
+                         summary.at("fps").get<double>(),
+                         summary.at("peak_rss_bytes").get<double>() / 1048576));
   if (measures) {
     lines.push_back(format("against the truth masks: Error@50%% %.3f, best F1 %.3f over %lld frames",
                            measures->pixels.errorAtHalfRecall(), measures->pixels.bestF1(),
@@ -99,7 +104,8 @@ std::string pictures(const ReportOptions& options, int64_t frames) {
 
 std::string tableHtml(const nlohmann::json& summary) {
   std::string html =
-      "<table><tr><th>process</th><th>frames</th><th>median ms</th><th>p99 ms</th><th>skipped</th><th>lost</th>"
+      "<table><tr><th>process</th><th>frames</th><th>median ms</th><th>p99 "
+      "ms</th><th>skipped</th><th>lost</th>"
       "<th>resident MB</th></tr>\n";
   for (const std::string& row : stageRows(summary)) {
     std::istringstream words(row);
@@ -118,17 +124,19 @@ void writeReport(const ReportOptions& options) {
   if (!options.truth.empty()) measures = measureClip(options.truth, options.results);
 
   std::ostringstream html;
-  html << "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>REDBEE: " << options.log.filename().string()
-       << "</title><style>" << kStyle << "</style>\n<h1>REDBEE " REDBEE_VERSION ": " << options.log.filename().string()
-       << "</h1>\n<ul>\n";
+  html << "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>REDBEE: "
+       << options.log.filename().string() << "</title><style>" << kStyle
+       << "</style>\n<h1>REDBEE " REDBEE_VERSION ": " << options.log.filename().string() << "</h1>\n<ul>\n";
   std::printf("\nREDBEE " REDBEE_VERSION ", %s\n", options.log.filename().c_str());
   for (const std::string& line : headlines(summary, measures)) {
     html << "<li>" << line << "</li>\n";
     std::printf("  %s\n", line.c_str());
   }
-  std::printf("  %-28s %7s %9s %9s %8s %6s %9s\n", "process", "frames", "median ms", "p99 ms", "skipped", "lost", "MB");
+  std::printf("  %-28s %7s %9s %9s %8s %6s %9s\n", "process", "frames", "median ms", "p99 ms", "skipped",
+              "lost", "MB");
   for (const std::string& row : stageRows(summary)) std::printf("  %s\n", row.c_str());
-  html << "</ul>\n<h2>Processes</h2>\n" << tableHtml(summary) << "<h2>What moves</h2>\n"
+  html << "</ul>\n<h2>Processes</h2>\n"
+       << tableHtml(summary) << "<h2>What moves</h2>\n"
        << pictures(options, summary.at("frames").get<int64_t>()) << "</html>\n";
   writeAtomically(options.page, html.str());
   std::printf("%s\n", options.page.c_str());

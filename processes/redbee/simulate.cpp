@@ -33,7 +33,8 @@ class TruthFolder {
   explicit TruthFolder(const std::filesystem::path& folder) : folder_(folder) {
     if (folder_.empty()) return;
     std::filesystem::create_directories(folder_ / "mask");
-    homographies_ << "#timestamp [ns],frame,H11,H12,H13,H21,H22,H23,H31,H32,H33 (pixels of frame k-1 -> pixels of frame k)\n";
+    homographies_ << "#timestamp [ns],frame,H11,H12,H13,H21,H22,H23,H31,H32,H33 (pixels of frame k-1 -> "
+                     "pixels of frame k)\n";
     homographies_.precision(12);
   }
 
@@ -98,7 +99,8 @@ void runSimulate(const SimulateOptions& options) {
   writeAtomically(configuration, "# The simulated drone, with its true extrinsics.\n" +
                                      emitYaml(configurationOf(scenario, options)));
   progress.finish();
-  std::printf("%s: %d frames; %s: its configuration\n", options.log.c_str(), scenario.frames, configuration.c_str());
+  std::printf("%s: %d frames; %s: its configuration\n", options.log.c_str(), scenario.frames,
+              configuration.c_str());
 }
 
 }  // namespace redbee

@@ -32,21 +32,24 @@ double tickStep(double span) {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '<') result += "&lt;";
-    else if (c == '&') result += "&amp;";
-    else result += c;
+    if (c == '<')
+      result += "&lt;";
+    else if (c == '&')
+      result += "&amp;";
+    else
+      result += c;
   }
   return result;
 }
 
 std::string textAt(double x, double y, const std::string& text, const std::string& attributes) {
-  return "<text x=\"" + number(x, "%.1f") + "\" y=\"" + number(y, "%.1f") + "\" " + attributes + ">" + escaped(text) +
-         "</text>\n";
+  return "<text x=\"" + number(x, "%.1f") + "\" y=\"" + number(y, "%.1f") + "\" " + attributes + ">" +
+         escaped(text) + "</text>\n";
 }
 
 std::string lineBetween(double x1, double y1, double x2, double y2, const std::string& attributes) {
-  return "<line x1=\"" + number(x1, "%.1f") + "\" y1=\"" + number(y1, "%.1f") + "\" x2=\"" + number(x2, "%.1f") +
-         "\" y2=\"" + number(y2, "%.1f") + "\" " + attributes + "/>\n";
+  return "<line x1=\"" + number(x1, "%.1f") + "\" y1=\"" + number(y1, "%.1f") + "\" x2=\"" +
+         number(x2, "%.1f") + "\" y2=\"" + number(y2, "%.1f") + "\" " + attributes + "/>\n";
 }
 
 }  // namespace
@@ -61,7 +64,8 @@ void SvgPlot::addLine(const std::string& name, const std::vector<double>& x, con
   series_.push_back(std::move(series));
 }
 
-void SvgPlot::addPoints(const std::string& name, const std::vector<Eigen::Vector2d>& points, const std::string& colour) {
+void SvgPlot::addPoints(const std::string& name, const std::vector<Eigen::Vector2d>& points,
+                        const std::string& colour) {
   series_.push_back({name, points, colour, false});
 }
 
@@ -97,16 +101,19 @@ std::string SvgPlot::svg() const {
 
   std::ostringstream out;
   out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height
-      << "\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+      << "\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
+         "fill=\"white\"/>\n"
       << textAt(kLeft, 16, title_, "font-weight=\"bold\"");
   const double x_step = tickStep(x_range.high - x_range.low), y_step = tickStep(y_range.high - y_range.low);
   for (double x = std::ceil(x_range.low / x_step) * x_step; x <= x_range.high + 1e-9 * x_step; x += x_step) {
     out << lineBetween(px(x), kTop, px(x), bottom, "stroke=\"#eee\"")
-        << textAt(px(x), bottom + 16, number(std::abs(x) < 1e-9 * x_step ? 0.0 : x, "%g"), "text-anchor=\"middle\"");
+        << textAt(px(x), bottom + 16, number(std::abs(x) < 1e-9 * x_step ? 0.0 : x, "%g"),
+                  "text-anchor=\"middle\"");
   }
   for (double y = std::ceil(y_range.low / y_step) * y_step; y <= y_range.high + 1e-9 * y_step; y += y_step) {
     out << lineBetween(kLeft, py(y), right, py(y), "stroke=\"#eee\"")
-        << textAt(kLeft - 6, py(y) + 4, number(std::abs(y) < 1e-9 * y_step ? 0.0 : y, "%g"), "text-anchor=\"end\"");
+        << textAt(kLeft - 6, py(y) + 4, number(std::abs(y) < 1e-9 * y_step ? 0.0 : y, "%g"),
+                  "text-anchor=\"end\"");
   }
   out << textAt((kLeft + right) / 2, height - 8, x_label_, "text-anchor=\"middle\"")
       << "<text transform=\"translate(14," << (kTop + bottom) / 2 << ") rotate(-90)\" text-anchor=\"middle\">"
@@ -124,7 +131,8 @@ std::string SvgPlot::svg() const {
           pen_down = false;
           continue;
         }
-        out << (pen_down ? 'L' : 'M') << number(px(point.x()), "%.1f") << ' ' << number(py(point.y()), "%.1f");
+        out << (pen_down ? 'L' : 'M') << number(px(point.x()), "%.1f") << ' '
+            << number(py(point.y()), "%.1f");
         pen_down = true;
       }
       out << "\"/>\n";
@@ -141,8 +149,8 @@ std::string SvgPlot::svg() const {
     out << lineBetween(px(x), kTop, px(x), bottom, "stroke=\"#555\" stroke-dasharray=\"4 3\"")
         << textAt(px(x) + 4, kTop + 12, name, "fill=\"#555\"");
   }
-  out << "<rect x=\"" << kLeft << "\" y=\"" << kTop << "\" width=\"" << right - kLeft << "\" height=\"" << bottom - kTop
-      << "\" fill=\"none\" stroke=\"#888\"/>\n</svg>\n";
+  out << "<rect x=\"" << kLeft << "\" y=\"" << kTop << "\" width=\"" << right - kLeft << "\" height=\""
+      << bottom - kTop << "\" fill=\"none\" stroke=\"#888\"/>\n</svg>\n";
   return out.str();
 }
 

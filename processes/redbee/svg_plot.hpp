@@ -12,8 +12,10 @@ class SvgPlot {
   SvgPlot(std::string title, std::string x_label, std::string y_label);
 
   /// NaN breaks a line. Colour: any of SVG's.
-  void addLine(const std::string& name, const std::vector<double>& x, const std::vector<double>& y, const std::string& colour);
-  void addPoints(const std::string& name, const std::vector<Eigen::Vector2d>& points, const std::string& colour);
+  void addLine(const std::string& name, const std::vector<double>& x, const std::vector<double>& y,
+               const std::string& colour);
+  void addPoints(const std::string& name, const std::vector<Eigen::Vector2d>& points,
+                 const std::string& colour);
   /// A dashed vertical line at x.
   void addMark(const std::string& name, double x);
   /// Same unit on both axes, the origin in the middle, `reach` to all sides; points beyond are not drawn.

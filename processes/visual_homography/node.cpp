@@ -2,7 +2,6 @@
 
 #include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
-#include "processes/frame_intake.hpp"
 #include "processes/work_timer.hpp"
 
 namespace redbee {
@@ -20,22 +19,16 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
       camera_(configuration.camera),
       rectifier_(camera_),
       estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual)),
+      pictures_(configuration.waits.max_backlog),
       inertial_(static_cast<int64_t>(configuration.waits.visual_s * 1e6), configuration.has_imu) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
-  bus_.subscribe<image_t>(channels.camera, kFrameQueue, [this](const image_t& m) { takeFrame(m); }, damaged);
-  bus_.subscribe<inertial_homography_t>(channels.inertial_homography, kFrameQueue,
-                                        [this](const inertial_homography_t& m) { takeInertial(m); }, damaged);
-}
-
-void VisualHomographyNode::takeFrame(const image_t& message) {
-  if (!acceptFrame(order_, health_, message.utime, [this] { restart(); })) return;
-  newest_utime_ = std::max(newest_utime_, message.utime);
-  pending_.push_back({message, {}});
-  while (static_cast<int>(pending_.size()) > configuration_.waits.max_backlog) {
-    pending_.pop_front();
-    health_.noteSkipped();
-  }
+  bus_.subscribe<image_t>(
+      channels.camera, kFrameQueue,
+      [this](const image_t& m) { pictures_.take(m, health_, [this] { restart(); }); }, damaged);
+  bus_.subscribe<inertial_homography_t>(
+      channels.inertial_homography, kFrameQueue, [this](const inertial_homography_t& m) { takeInertial(m); },
+      damaged);
 }
 
 void VisualHomographyNode::takeInertial(const inertial_homography_t& message) {
@@ -48,10 +41,8 @@ void VisualHomographyNode::takeInertial(const inertial_homography_t& message) {
 }
 
 void VisualHomographyNode::restart() {
-  pending_.clear();
   inertial_.clear();
   estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual);
-  newest_utime_ = 0;
 }
 
 std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t utime) const {
@@ -78,22 +69,11 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t uti
 }
 
 void VisualHomographyNode::process() {
-  while (!pending_.empty()) {
-    const int64_t utime = pending_.front().content.utime;
-    const int64_t before = inertial_.givenUp();
-    const auto answer = inertial_.ask(utime, newest_utime_);
-    health_.noteLate(inertial_.givenUp() - before);
-    if (answer == CompanionBuffer<inertial_homography_t>::Answer::kWait && !finishing_) return;
-    const Arrived<image_t> frame = std::move(pending_.front());
-    pending_.pop_front();
-    track(frame);
-  }
+  pictures_.workOff(inertial_, health_, [this](const Arrived<image_t>& frame) { track(frame); });
 }
 
 void VisualHomographyNode::finish() {
-  finishing_ = true;
-  process();
-  finishing_ = false;
+  pictures_.workOffAll([this](const Arrived<image_t>& frame) { track(frame); });
 }
 
 void VisualHomographyNode::track(const Arrived<image_t>& frame) {
@@ -111,14 +91,16 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
     refusal.height = configuration_.camera.height;
     bus_.publish(configuration_.channels.visual_homography, refusal);
     noteDone(health_, message.utime, frame.since, timer);
-    health_.setState(HealthState::kDegraded, "picture is " + std::to_string(message.width) + "x" +
-                                               std::to_string(message.height) + " or damaged; configured are " +
-                                               std::to_string(configuration_.camera.width) + "x" +
-                                               std::to_string(configuration_.camera.height));
+    health_.setState(HealthState::kDegraded,
+                     "picture is " + std::to_string(message.width) + "x" + std::to_string(message.height) +
+                         " or damaged; configured are " + std::to_string(configuration_.camera.width) + "x" +
+                         std::to_string(configuration_.camera.height));
     return;
   }
   publish(estimator_->step(message.utime, rectifier_.toIdeal(*grey), prediction(message.utime)));
-  inertial_.forgetUpTo(message.utime);
+  // After a picture that nothing could be tracked in, the next one is tracked from an earlier frame: its
+  // links are still needed.
+  inertial_.forgetUpTo(estimator_->previousTime().value_or(message.utime));
   noteDone(health_, message.utime, frame.since, timer);
 }
 

@@ -2,15 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
-#include "messaging/frame_order.hpp"
 #include "messaging/node.hpp"
-#include "processes/work_timer.hpp"
+#include "processes/picture_queue.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/visual_homography_t.hpp"
@@ -28,9 +26,9 @@ class VisualHomographyNode : public Node {
   HealthMonitor& health() override { return health_; }
 
  private:
-  void takeFrame(const image_t& message);
   void takeInertial(const inertial_homography_t& message);
-  /// The inertial messages from the frame that is tracked from up to this one, composed; nothing where one is missing.
+  /// The inertial messages from the frame that is tracked from up to this one, composed; nothing where one is
+  /// missing.
   std::optional<HomographyPrediction> prediction(int64_t utime) const;
   void track(const Arrived<image_t>& frame);
   void publish(const VisualHomography& result);
@@ -42,11 +40,8 @@ class VisualHomographyNode : public Node {
   Camera camera_;
   Rectifier rectifier_;
   std::unique_ptr<VisualHomographyEstimator> estimator_;
-  FrameOrder order_;
-  std::deque<Arrived<image_t>> pending_;
+  PictureQueue pictures_;
   CompanionBuffer<inertial_homography_t> inertial_;
-  int64_t newest_utime_ = 0;
-  bool finishing_ = false;
   int32_t sequence_ = 0;
 };
 

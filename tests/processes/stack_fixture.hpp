@@ -95,8 +95,8 @@ inline Said run(const Flight& flight) {
   bus->subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(said.fused), nullptr);
   bus->subscribe<foreground_t>("FOREGROUND", 64, keep(said.foreground), nullptr);
   bus->subscribe<detections_t>("DETECTIONS", 64, keep(said.detections), nullptr);
-  bus->subscribe<process_health_t>("PROCESS_HEALTH", 64, [&said](const process_health_t& m) { said.health[m.process] = m; },
-                                   nullptr);
+  bus->subscribe<process_health_t>(
+      "PROCESS_HEALTH", 64, [&said](const process_health_t& m) { said.health[m.process] = m; }, nullptr);
   InProcessStack stack(*bus, flight.configuration);
   for (const Arrival& arrival : flight.arrivals) {
     bus->publish(arrival.channel, arrival.data);
@@ -108,8 +108,8 @@ inline Said run(const Flight& flight) {
 }
 
 inline double groundError(const fused_homography_t& fused, const Eigen::Matrix3d& truth) {
-  return meanTransferError(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fused.H), truth, fused.width,
-                           fused.height);
+  return meanTransferError(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fused.H), truth,
+                           fused.width, fused.height);
 }
 
 }  // namespace redbee::test

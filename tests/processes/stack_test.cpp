@@ -1,4 +1,5 @@
-// The four nodes together on memq://, on simulated flights whose arrivals are disturbed in the ways a real bus and real drivers do.
+// The four nodes together on memq://, on simulated flights whose arrivals are disturbed in the ways a real
+// bus and real drivers do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,8 @@ bool isFrame(const Arrival& arrival, const Flight& flight, int k) {
 
 template <typename Predicate>
 void drop(Flight& flight, const Predicate& predicate) {
-  flight.arrivals.erase(std::remove_if(flight.arrivals.begin(), flight.arrivals.end(), predicate), flight.arrivals.end());
+  flight.arrivals.erase(std::remove_if(flight.arrivals.begin(), flight.arrivals.end(), predicate),
+                        flight.arrivals.end());
 }
 
 size_t positionOf(const Flight& flight, int k) {
@@ -84,7 +86,8 @@ void expectRecovered(const Said& said, const Flight& flight, int from) {
 TEST(Stack, FollowsTheGroundAndAnswersEveryFrame) {
   const Said said = run(undisturbed());
   const Accuracy all = accuracy(said, undisturbed(), 1, kFrames);
-  std::cout << "fused ground homography: " << all.mean_px << " px mean transfer error over " << kFrames - 1 << " frames\n";
+  std::cout << "fused ground homography: " << all.mean_px << " px mean transfer error over " << kFrames - 1
+            << " frames\n";
   EXPECT_EQ(all.missing, 0);
   EXPECT_LT(all.mean_px, 0.2);
   EXPECT_EQ(said.foreground.size(), static_cast<size_t>(kFrames));
@@ -210,7 +213,8 @@ TEST(Stack, RandomBytesOnEveryChannelAreCountedAndChangeNothing) {
   Flight flight = undisturbed();
   const std::vector<uint8_t> rubbish(300, 0x5A);
   const size_t at = positionOf(flight, 30);
-  for (const char* channel : {"CAMERA", "IMU", "ALTIMETER", "INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY"}) {
+  for (const char* channel :
+       {"CAMERA", "IMU", "ALTIMETER", "INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY"}) {
     flight.arrivals.insert(flight.arrivals.begin() + static_cast<long>(at), {0, channel, rubbish});
   }
   const Said said = run(flight);
