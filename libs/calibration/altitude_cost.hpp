@@ -19,7 +19,8 @@ struct AltitudeCost {
   static constexpr int kResiduals = 1;
 
   template <typename T>
-  bool operator()(const T* q_GI, const T* p_GI, const T* v_GI, const T* p_IC, const T* tilt, T* residual) const {
+  bool operator()(const T* q_GI, const T* p_GI, const T* v_GI, const T* p_IC, const T* tilt,
+                  T* residual) const {
     using Vector = Eigen::Map<const Vector3T<T>>;
     const Vector3T<T> arm = Eigen::Map<const Eigen::Quaternion<T>>(q_GI) * Vector(p_IC);
     const Vector3T<T> p_GC = Vector(p_GI) + Vector(v_GI) * T(tau_s) + arm;

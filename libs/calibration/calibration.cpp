@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "calibration/diagnostics.hpp"
 #include "calibration/flight_solution.hpp"
@@ -19,6 +20,8 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 /// Closed forms that are less certain than this are no starting point.
 constexpr double kAcceptedHandEyeSigma_rad = 3.0 * kDegree;
 constexpr double kAcceptedCorrelation = 0.5;
+/// How far residuals exceed independent tracking errors over ground that is flat but overgrown.
+constexpr double kOrdinaryVisionScale = 2.0;
 
 JointPriors priorsFor(const CalibrationInput& input, const Mounting& mounting) {
   JointPriors priors;
@@ -45,11 +48,13 @@ Mounting mountingFrom(const RotationAlignment& alignment, const CalibrationInput
   mounting.timeshift_s = alignment.timeshift_s;
   if (alignment.hand_eye.sigma.maxCoeff() > kAcceptedHandEyeSigma_rad) return mounting;
   mounting.R_CI = alignment.hand_eye.R_CI;
+  mounting.rotation_sigma_rad = std::max(2.0 * alignment.hand_eye.sigma.maxCoeff(), 0.2 * kDegree);
   mounting.gyro_bias = alignment.hand_eye.gyro_bias;
   return mounting;
 }
 
-void fillValues(CalibrationResult& result, const FlightSolution& solution, const CalibrationInput& input) {
+void fillValues(CalibrationResult& result, const FlightSolution& solution, const JointCovariance& covariance,
+                const CalibrationInput& input) {
   const JointState& state = solution.state;
   CalibratedValues& values = result.values;
   values.nominal = input.nominal;
@@ -58,7 +63,7 @@ void fillValues(CalibrationResult& result, const FlightSolution& solution, const
   values.estimated.timeshift_s = state.timeshift_s;
   if (input.target.empty()) {
     values.estimated.start_height_m = cameraHeight(state, 0);
-    values.estimated.start_height_sigma_m = std::sqrt(solution.analysis.covariance.first_height);
+    values.estimated.start_height_sigma_m = std::sqrt(covariance.first_height);
   } else {
     values.estimated.start_height_m = input.nominal.start_height_m;
     values.estimated.start_height_sigma_m = input.nominal.start_height_sigma_m;
@@ -68,12 +73,14 @@ void fillValues(CalibrationResult& result, const FlightSolution& solution, const
   values.tilt_rad = state.tilt;
 }
 
-void fillExcitation(CalibrationResult& result, const FlightSolution& solution, const RotationAlignment& alignment) {
+void fillExcitation(CalibrationResult& result, const FlightSolution& solution,
+                    const JointCovariance& covariance, const RotationAlignment& alignment) {
   Excitation& excitation = result.excitation;
   excitation.rotation = alignment.hand_eye.excitation;
+  excitation.rate_variation = alignment.rate_variation;
   excitation.rotation_correlation = alignment.correlation;
   excitation.acceleration = accelerationExcitation(solution.state);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(solution.analysis.covariance.rotation);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance.rotation);
   excitation.rotation_sigmas = eigen.eigenvalues().cwiseMax(0).cwiseSqrt().reverse();
   result.values.rotation_sigma_rad = excitation.rotation_sigmas(0);
 }
@@ -86,6 +93,12 @@ void fillFit(CalibrationResult& result, const FlightSolution& solution, const Re
   result.frames_given = static_cast<int>(input.frames.size());
   result.duration_s = recording.t_cam_s.back() - recording.t_cam_s.front();
   double squares = 0, count = 0;
+  std::set<size_t> spanned;
+  for (const GroundHomography& ground : solution.input.ground) {
+    for (size_t k = ground.a; k < ground.b; ++k) spanned.insert(k);
+  }
+  for (const TargetPose& pose : solution.input.target) spanned.insert(pose.frame);
+  result.frames_spanned = static_cast<int>(spanned.size());
   for (const GroundHomography& ground : solution.input.ground) {
     squares += ground.points * ground.rms_px * ground.rms_px;
     count += ground.points;
@@ -100,16 +113,23 @@ void fillFit(CalibrationResult& result, const FlightSolution& solution, const Re
 
 void addWarnings(CalibrationResult& result) {
   if (result.frames < result.frames_given) {
-    result.warnings.push_back("used " + std::to_string(result.frames) + " of " + std::to_string(result.frames_given) +
+    result.warnings.push_back("used " + std::to_string(result.frames) + " of " +
+                              std::to_string(result.frames_given) +
                               " frames: the IMU does not cover the others without a hole");
   }
-  if (2 * result.measurements < result.frames) {
-    result.warnings.push_back("only " + std::to_string(result.measurements) + " measurements in " +
-                              std::to_string(result.frames) + " frames: little texture, or little ground in view");
+  if (4 * result.frames_spanned < 3 * result.frames) {
+    result.warnings.push_back("only " + std::to_string(result.frames_spanned) + " of " +
+                              std::to_string(result.frames) +
+                              " frames are measured: little texture, or little ground in view");
   }
   if (result.imu_sigma_scale > 3) {
     result.warnings.push_back("the IMU is noisier than its densities say, by " +
-                              std::to_string(static_cast<int>(std::lround(result.imu_sigma_scale))) + " times");
+                              std::to_string(static_cast<int>(std::lround(result.imu_sigma_scale))) +
+                              " times");
+  }
+  if (result.misfit_sigma_scale > 1.5) {
+    result.warnings.push_back(
+        "the points do not follow one level plane: facades, slopes or bushes in view; deviations enlarged");
   }
   for (const SplitHalfEntry& entry : result.split_half) {
     if (entry.ratio() <= 4) continue;
@@ -138,17 +158,22 @@ CalibrationResult calibrate(const CalibrationInput& input, const std::function<v
   const JointPriors priors = priorsFor(input, mounting);
   const FlightSolution solution = solveFlight(recording, input, mounting, priors, input.start_height);
   if (!solution.usable) {
-    throw CalibrationError("the joint problem has no solution: the pictures and the IMU do not belong together");
+    throw CalibrationError(
+        "the joint problem has no solution: the pictures and the IMU do not belong together");
   }
   done(0.7);
 
   CalibrationResult result;
-  fillValues(result, solution, input);
-  fillExcitation(result, solution, alignment);
   fillFit(result, solution, recording, input);
   result.split_half = splitHalf(recording, input, solution);
+  result.halves_sigma_scale = disagreement(result.split_half);
+  result.misfit_sigma_scale = std::max(1.0, result.vision_sigma_scale / kOrdinaryVisionScale);
+  const double scale = result.halves_sigma_scale * result.misfit_sigma_scale;
+  const JointCovariance covariance = solution.analysis.covariance.scaled(scale * scale);
+  fillValues(result, solution, covariance, input);
+  fillExcitation(result, solution, covariance, alignment);
   done(0.95);
-  result.parameters = parameterReports(result, solution.analysis.covariance, input);
+  result.parameters = parameterReports(result, covariance, input);
   keepOrRefuse(result);
   result.diagnostics = diagnose(solution, recording, input, alignment);
   addWarnings(result);

@@ -1,7 +1,8 @@
 // Offline calibration of a camera on an IMU, from a flight over flat ground or from a known target.
 //
-// Estimated: R_CI, time shift, lever arm, gyro and accelerometer bias, and over ground the height at the first frame and the plane's tilt
-// against gravity. What the recording does not show is refused: it keeps its nominal value, and the verdict says so.
+// Estimated: R_CI, time shift, lever arm, gyro and accelerometer bias, and over ground the height at the
+// first frame and the plane's tilt against gravity. What the recording does not show is refused: it keeps its
+// nominal value, and the verdict says so.
 #pragma once
 
 #include <Eigen/Core>
@@ -48,7 +49,7 @@ struct MeasuredHeight {
 
 struct CalibrationInput {
   CameraIntrinsics camera;
-  InertialExtrinsics nominal;      ///< a starting point for what the recording does not show
+  InertialExtrinsics nominal;  ///< a starting point for what the recording does not show
   ImuNoise noise;
   double gravity = 9.81;           ///< m/s^2
   double gyro_bias_sigma = 0.01;   ///< rad/s, turn-on bias
@@ -62,7 +63,8 @@ struct CalibrationInput {
   RansacParameters ransac;
 };
 
-/// Nominal, estimated and kept values. `kept` has the estimated value of what was found or is weak, the nominal one of what was refused.
+/// Nominal, estimated and kept values. `kept` has the estimated value of what was found or is weak, the
+/// nominal one of what was refused.
 struct CalibratedValues {
   InertialExtrinsics nominal;
   InertialExtrinsics estimated;
@@ -73,36 +75,41 @@ struct CalibratedValues {
   double rotation_sigma_rad = 0;                         ///< of R_CI, about its least certain axis
 };
 
-/// Difference of the two halves' estimates over its standard deviation.
+/// Difference of the two halves' estimates and its standard deviation; only of parameters that both halves
+/// show.
 struct SplitHalfEntry {
   std::string name;
   std::string unit;
   double difference = 0;  ///< largest over the parameter's entries
   double sigma = 0;       ///< of that difference
+  int entries = 1;        ///< of the parameter
   double ratio() const { return sigma > 0 ? difference / sigma : 0; }
 };
 
 /// How the recording excites the parameters.
 struct Excitation {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< rad/s, rms about the principal axes, descending
+  double rate_variation = 0;                           ///< rad/s, rms of the turning rate about its mean
   double rotation_correlation = 0;                     ///< of camera and gyro rates at the best time shift
   double acceleration = 0;                             ///< m/s^2, rms of the drone's own (gravity taken off)
-  Eigen::Vector3d rotation_sigmas = Eigen::Vector3d::Zero();  ///< rad, of R_CI along its principal directions, descending
+  Eigen::Vector3d rotation_sigmas =
+      Eigen::Vector3d::Zero();  ///< rad, of R_CI along its principal directions, descending
 };
 
 /// Series for the report's pictures.
 struct Diagnostics {
   RotationAlignment alignment;
-  std::vector<double> pair_t_s;             ///< camera clock since the first frame
-  std::vector<double> pair_error_before_px; ///< mean transfer error of the predicted homography, nominal extrinsics
-  std::vector<double> pair_error_after_px;  ///< the same with the estimated ones
+  std::vector<double> pair_t_s;  ///< camera clock since the first frame
+  std::vector<double>
+      pair_error_before_px;  ///< mean transfer error of the predicted homography, nominal extrinsics
+  std::vector<double> pair_error_after_px;         ///< the same with the estimated ones
   std::vector<Eigen::Vector2d> scatter_before_px;  ///< transfer errors of a sample of the points
   std::vector<Eigen::Vector2d> scatter_after_px;
   std::vector<double> bias_t_s;
   std::vector<Eigen::Vector3d> gyro_bias;   ///< rad/s
   std::vector<Eigen::Vector3d> accel_bias;  ///< m/s^2
   std::vector<double> frame_t_s;
-  std::vector<double> height_m;             ///< camera above ground at each frame
+  std::vector<double> height_m;  ///< camera above ground at each frame
 };
 
 struct CalibrationResult {
@@ -112,19 +119,25 @@ struct CalibrationResult {
   Excitation excitation;
   double vision_sigma_scale = 1;  ///< the homographies' stated deviations had to be multiplied by this
   double imu_sigma_scale = 1;     ///< and the IMU's by this, for the residuals to be what they claim
-  int frames = 0;                 ///< used
+  /// Residuals far beyond tracking noise are no noise but a scene that is no plane; the reported deviations
+  /// were multiplied by this.
+  double misfit_sigma_scale = 1;
+  double halves_sigma_scale =
+      1;           ///< the reported deviations were multiplied by this, since the halves differ so much
+  int frames = 0;  ///< used
   int frames_given = 0;
-  int measurements = 0;           ///< homographies or target poses used
+  int measurements = 0;    ///< homographies or target poses used
+  int frames_spanned = 0;  ///< by these
   double duration_s = 0;
-  double points_rms_px = 0;       ///< of the points or corners about their homographies or poses
+  double points_rms_px = 0;  ///< of the points or corners about their homographies or poses
   Diagnostics diagnostics;
   std::vector<std::string> warnings;  ///< one line each
 
   const ParameterReport& parameter(const std::string& name) const;
 };
 
-/// Throws CalibrationError where there is too little to work on: no IMU during the frames, too little texture, too few frames.
-/// `progress` is told the share that is done, 0 to 1.
+/// Throws CalibrationError where there is too little to work on: no IMU during the frames, too little
+/// texture, too few frames. `progress` is told the share that is done, 0 to 1.
 CalibrationResult calibrate(const CalibrationInput& input, const std::function<void(double)>& progress = {});
 
 }  // namespace redbee::calibration

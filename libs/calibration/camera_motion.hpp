@@ -1,9 +1,10 @@
 // Pose of the camera at an exposure, for automatic derivatives.
 //
-// A frame's state holds at t_cam + timeshift; the exposure is at t_cam + timeshift + s, with s to be found. To first order
+// A frame's state holds at t_cam + timeshift; the exposure is at t_cam + timeshift + s, with s to be found.
+// To first order
 //
-//     R_GI(s) = R_GI exp(w s)        p_GI(s) = p_GI + v_GI s        w: angular rate at the frame, bias taken off
-//     R_CG = R_CI R_GI(s)'           p_GC = p_GI(s) + R_GI(s) p_IC
+//     R_GI(s) = R_GI exp(w s)        p_GI(s) = p_GI + v_GI s        w: angular rate at the frame, bias taken
+//     off R_CG = R_CI R_GI(s)'           p_GC = p_GI(s) + R_GI(s) p_IC
 #pragma once
 
 #include <Eigen/Core>

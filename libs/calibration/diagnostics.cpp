@@ -56,7 +56,8 @@ void addScatter(Diagnostics& diagnostics, const FlightSolution& solution, const 
   }
 }
 
-/// Difference in pixels between where two poses put the target's origin neighbourhood: rotation and translation error at its distance.
+/// Difference in pixels between where two poses put the target's origin neighbourhood: rotation and
+/// translation error at its distance.
 double targetError(const JointState& state, const TargetPose& pose, double focal_px) {
   const FrameState& frame = state.frames[pose.frame];
   const Eigen::Quaterniond q_CG = state.q_CI * frame.q_GI.conjugate();
@@ -88,8 +89,8 @@ double accelerationExcitation(const JointState& state) {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
 }
 
-Diagnostics diagnose(const FlightSolution& solution, const Recording& recording, const CalibrationInput& input,
-                     const RotationAlignment& alignment) {
+Diagnostics diagnose(const FlightSolution& solution, const Recording& recording,
+                     const CalibrationInput& input, const RotationAlignment& alignment) {
   Diagnostics diagnostics;
   diagnostics.alignment = alignment;
   const JointState nominal = underNominal(solution, input.nominal);

@@ -6,8 +6,8 @@
 
 namespace redbee::calibration {
 
-Diagnostics diagnose(const FlightSolution& solution, const Recording& recording, const CalibrationInput& input,
-                     const RotationAlignment& alignment);
+Diagnostics diagnose(const FlightSolution& solution, const Recording& recording,
+                     const CalibrationInput& input, const RotationAlignment& alignment);
 
 /// rms of the drone's own acceleration over the recording [m/s^2], from the change of the frames' velocities.
 double accelerationExcitation(const JointState& state);

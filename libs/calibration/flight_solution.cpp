@@ -10,11 +10,12 @@ namespace {
 
 /// While the ground is being told from other surfaces it is taken to be level.
 constexpr double kLevelSigma_rad = 0.001;
-constexpr int kSelectionRounds = 2;
+constexpr int kSelectionRounds = 3;
 constexpr int kScaleRounds = 2;
 
-/// A homography over several frames has as much noise as one between neighbours, and as little bias from what stands on the ground; but it
-/// shows the whole motion. Those between neighbours that lie inside one are left out.
+/// A homography over several frames has as much noise as one between neighbours, and as little bias from what
+/// stands on the ground; but it shows the whole motion. Those between neighbours that lie inside one are left
+/// out.
 std::vector<GroundHomography> withoutCovered(const std::vector<GroundHomography>& all) {
   std::set<size_t> covered;
   for (const GroundHomography& ground : all) {
@@ -25,6 +26,12 @@ std::vector<GroundHomography> withoutCovered(const std::vector<GroundHomography>
     if (ground.b > ground.a + 1 || covered.count(ground.a) == 0) kept.push_back(ground);
   }
   return kept;
+}
+
+size_t framesSpanned(const std::vector<GroundHomography>& all) {
+  size_t frames = 0;
+  for (const GroundHomography& ground : all) frames += ground.b - ground.a;
+  return frames;
 }
 
 /// Homographies of the ground among the points, near what the solution predicts.
@@ -51,9 +58,9 @@ bool solveOnce(FlightSolution& solution) {
   return true;
 }
 
-/// Variance components (Helmert 1907): each group's scale is what makes its residuals as large as the degrees of freedom that the fit
-/// left to it. Vision's is taken from the median, which homographies of other planes do not move. The IMU is never believed to be
-/// better than its densities say.
+/// Variance components (Helmert 1907): each group's scale is what makes its residuals as large as the degrees
+/// of freedom that the fit left to it. Vision's is taken from the median, which homographies of other planes
+/// do not move. The IMU is never believed to be better than its densities say.
 void rescale(JointInput& input, const JointAnalysis& analysis) {
   const auto freedomShare = [](const GroupFit& group) {
     return std::max(group.redundancy / std::max(group.measurements, 1), 0.05);
@@ -65,16 +72,19 @@ void rescale(JointInput& input, const JointAnalysis& analysis) {
 }
 
 /// Solves over level ground and takes the points near that solution, in turn.
-bool selectGround(FlightSolution& solution, const Recording& recording, const CalibrationInput& input) {
-  const double tilt_sigma_rad = solution.input.priors.tilt_sigma_rad;
+bool selectGround(FlightSolution& solution, const Recording& recording, const CalibrationInput& input,
+                  const Mounting& mounting) {
+  const JointPriors wide = solution.input.priors;
+  // A facade taken for ground must not turn the camera or the vertical to make itself level.
   solution.input.priors.tilt_sigma_rad = kLevelSigma_rad;
+  solution.input.priors.rotation_sigma_rad = mounting.rotation_sigma_rad;
   for (int round = 0; round < kSelectionRounds; ++round) {
     if (!solveOnce(solution)) return false;
     auto ground = groundNear(solution, recording, input);
     // A solution so wrong that it finds no ground must not lose what there was.
-    if (10 * ground.size() > recording.ground.size()) solution.input.ground = std::move(ground);
+    if (3 * framesSpanned(ground) > recording.t_cam_s.size()) solution.input.ground = std::move(ground);
   }
-  solution.input.priors.tilt_sigma_rad = tilt_sigma_rad;
+  solution.input.priors = wide;
   return true;
 }
 
@@ -93,8 +103,9 @@ JointInput jointInput(const Recording& recording, const CalibrationInput& input,
 
 }  // namespace
 
-FlightSolution solveFlight(const Recording& recording, const CalibrationInput& input, const Mounting& mounting,
-                           const JointPriors& priors, const std::optional<MeasuredHeight>& start_height) {
+FlightSolution solveFlight(const Recording& recording, const CalibrationInput& input,
+                           const Mounting& mounting, const JointPriors& priors,
+                           const std::optional<MeasuredHeight>& start_height) {
   FlightSolution solution;
   solution.input = jointInput(recording, input, priors);
   solution.state = emptyState(recording.t_cam_s, mounting);
@@ -106,7 +117,7 @@ FlightSolution solveFlight(const Recording& recording, const CalibrationInput& i
     own.height_m = start_height ? start_height->height_m : cameraHeight(solution.state, 0);
     own.height_sigma_m = start_height ? start_height->sigma_m : own.height_m;
   }
-  if (!recording.matches.empty() && !selectGround(solution, recording, input)) return solution;
+  if (!recording.matches.empty() && !selectGround(solution, recording, input, mounting)) return solution;
   if (!solveOnce(solution)) return solution;
 
   for (int round = 0; round <= kScaleRounds; ++round) {

@@ -14,8 +14,10 @@ struct FlightSolution {
   bool usable = false;
 };
 
-/// Starts from `mounting`; `priors` are those of the joint problem, their height excepted, which is found, unless `start_height` is given.
-FlightSolution solveFlight(const Recording& recording, const CalibrationInput& input, const Mounting& mounting,
-                           const JointPriors& priors, const std::optional<MeasuredHeight>& start_height);
+/// Starts from `mounting`; `priors` are those of the joint problem, their height excepted, which is found,
+/// unless `start_height` is given.
+FlightSolution solveFlight(const Recording& recording, const CalibrationInput& input,
+                           const Mounting& mounting, const JointPriors& priors,
+                           const std::optional<MeasuredHeight>& start_height);
 
 }  // namespace redbee::calibration

@@ -23,7 +23,8 @@ constexpr size_t kMinCells = 12;
 /// What the prediction leaves open apart from its three deviations, scaled units: keeps P regular.
 constexpr double kFloor = 1e-4;
 
-Matrix8d priorInformation(const CameraIntrinsics& camera, const GroundPrediction& prediction, const ImageScaling& scaling) {
+Matrix8d priorInformation(const CameraIntrinsics& camera, const GroundPrediction& prediction,
+                          const ImageScaling& scaling) {
   const Eigen::Matrix3d K_scaled = scaling.T * Camera(camera).K();
   const PlaneHomographyJacobians J = planeHomographyJacobians(K_scaled, prediction.motion);
   const double translation_m = prediction.translation_sigma * prediction.motion.h_a;
@@ -35,8 +36,8 @@ Matrix8d priorInformation(const CameraIntrinsics& camera, const GroundPrediction
 }
 
 /// One Gauss-Newton step of the robust fit under the prior.
-Eigen::Matrix3d improved(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const Vector8d& h_0, const Matrix8d& prior,
-                         double scale, double sigma) {
+Eigen::Matrix3d improved(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const Vector8d& h_0,
+                         const Matrix8d& prior, double scale, double sigma) {
   Matrix8d A = prior;
   Vector8d b = prior * (h_0 - toVector(H));
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -55,7 +56,8 @@ std::vector<uint8_t> within(const ScaledPairs& pairs, const Eigen::Matrix3d& H, 
   std::vector<float> squared;
   squaredErrors(pairs, H, squared);
   std::vector<uint8_t> chosen(pairs.size());
-  for (size_t i = 0; i < pairs.size(); ++i) chosen[i] = squared[i] <= static_cast<float>(reach * reach) ? 1 : 0;
+  for (size_t i = 0; i < pairs.size(); ++i)
+    chosen[i] = squared[i] <= static_cast<float>(reach * reach) ? 1 : 0;
   return chosen;
 }
 
@@ -64,7 +66,8 @@ bool spreads(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen) {
   std::set<std::pair<int, int>> cells;
   for (size_t i = 0; i < pairs.size(); ++i) {
     if (chosen[i] == 0) continue;
-    cells.emplace(static_cast<int>(std::floor(pairs.ax[i] / kCell)), static_cast<int>(std::floor(pairs.ay[i] / kCell)));
+    cells.emplace(static_cast<int>(std::floor(pairs.ax[i] / kCell)),
+                  static_cast<int>(std::floor(pairs.ay[i] / kCell)));
   }
   return cells.size() >= kMinCells;
 }
@@ -82,7 +85,8 @@ std::optional<GroundHomography> fitGround(const PointTracks& points, const Camer
   Eigen::Matrix3d H = predicted;
   for (const double scale_px : kScales_px) {
     for (int i = 0; i < 3; ++i) {
-      H = improved(pairs, H, toVector(predicted), prior, scale_px / scaling.unit_px, kTypicalSigma_px / scaling.unit_px);
+      H = improved(pairs, H, toVector(predicted), prior, scale_px / scaling.unit_px,
+                   kTypicalSigma_px / scaling.unit_px);
     }
   }
   if (!H.allFinite()) return std::nullopt;

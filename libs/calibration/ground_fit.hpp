@@ -1,12 +1,14 @@
 // The ground's homography among points of which many may lie on other things: facades, bushes, people.
 //
-// A homography fitted to whatever agrees with it bends towards surfaces that stand on the ground and move almost like it. Here the points
-// are first fitted under a prediction that knows the camera's rotation and the vertical, and little of the translation:
+// A homography fitted to whatever agrees with it bends towards surfaces that stand on the ground and move
+// almost like it. Here the points are first fitted under a prediction that knows the camera's rotation and
+// the vertical, and little of the translation:
 //
-//     min  sum_i rho(x_b - H(h) x_a) + (h - h_0)' P^-1 (h - h_0)      P = J_R J_R' s_R^2 + J_t J_t' s_t^2 + J_m J_m' s_m^2
+//     min  sum_i rho(x_b - H(h) x_a) + (h - h_0)' P^-1 (h - h_0)      P = J_R J_R' s_R^2 + J_t J_t' s_t^2 +
+//     J_m J_m' s_m^2
 //
-// with rho after Geman and McClure, its scale shrinking (graduated non-convexity). The points within reach of that fit are the ground's; they
-// alone, without the prediction, then give the measured homography.
+// with rho after Geman and McClure, its scale shrinking (graduated non-convexity). The points within reach of
+// that fit are the ground's; they alone, without the prediction, then give the measured homography.
 #pragma once
 
 #include <optional>
@@ -23,7 +25,8 @@ struct GroundPrediction {
   double normal_sigma_rad = 0.01;
 };
 
-/// Frame indices are not filled. Nothing where too few points lie on the predicted plane or they do not spread over the picture.
+/// Frame indices are not filled. Nothing where too few points lie on the predicted plane or they do not
+/// spread over the picture.
 std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& camera,
                                           const GroundPrediction& prediction);
 

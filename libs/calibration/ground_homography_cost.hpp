@@ -6,8 +6,9 @@
 //     H   = K_s (R + t m_a' / h_a) K_s^-1      K_s = T K, T Hartley's scaling
 //     r   = L' (vec(H / h33) - vec(H_measured))      L L' = information of the measured entries
 //
-// H_measured with its information stands for all ground points of the pair: the sum of their squared transfer errors is
-// |r|^2 plus a constant, to second order around its minimum. A thousand points cost as much as eight.
+// H_measured with its information stands for all ground points of the pair: the sum of their squared transfer
+// errors is |r|^2 plus a constant, to second order around its minimum. A thousand points cost as much as
+// eight.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,16 +21,17 @@ namespace redbee::calibration {
 struct GroundHomographyCost {
   Eigen::Matrix3d K_scaled;
   Eigen::Matrix3d K_scaled_inverse;
-  Vector8d measured;         ///< scaled entries, frame a to frame b
-  Matrix8d square_root;      ///< L'
-  Eigen::Vector3d rate_a;    ///< rad/s, of I in I at frame a
+  Vector8d measured;       ///< scaled entries, frame a to frame b
+  Matrix8d square_root;    ///< L'
+  Eigen::Vector3d rate_a;  ///< rad/s, of I in I at frame a
   Eigen::Vector3d rate_b;
 
   static constexpr int kResiduals = 8;
 
   template <typename T>
-  bool operator()(const T* q_GIa, const T* p_GIa, const T* v_GIa, const T* q_GIb, const T* p_GIb, const T* v_GIb,
-                  const T* q_CI, const T* p_IC, const T* shift_s, const T* tilt, T* residual) const {
+  bool operator()(const T* q_GIa, const T* p_GIa, const T* v_GIa, const T* q_GIb, const T* p_GIb,
+                  const T* v_GIb, const T* q_CI, const T* p_IC, const T* shift_s, const T* tilt,
+                  T* residual) const {
     const CameraAt<T> a = cameraAt(q_GIa, p_GIa, v_GIa, rate_a, q_CI, p_IC, *shift_s);
     const CameraAt<T> b = cameraAt(q_GIb, p_GIb, v_GIb, rate_b, q_CI, p_IC, *shift_s);
     const Vector3T<T> n = groundNormal(tilt);

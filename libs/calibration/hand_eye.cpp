@@ -28,8 +28,8 @@ Moments momentsOf(const std::vector<RatePair>& pairs, const std::vector<double>&
   m.mean_camera /= m.weight;
   m.mean_imu /= m.weight;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    m.cross += weights[i] / m.weight * (pairs[i].camera - m.mean_camera) *
-               (pairs[i].imu - m.mean_imu).transpose();
+    m.cross +=
+        weights[i] / m.weight * (pairs[i].camera - m.mean_camera) * (pairs[i].imu - m.mean_imu).transpose();
   }
   return m;
 }
@@ -40,7 +40,8 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
-/// Standard deviations about the principal axes: information is the rates' scatter across each axis, over the noise.
+/// Standard deviations about the principal axes: information is the rates' scatter across each axis, over the
+/// noise.
 Eigen::Vector3d alignmentSigma(const std::vector<RatePair>& pairs, const std::vector<double>& weights,
                                const Moments& m, double residual) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();

@@ -21,7 +21,8 @@ std::vector<Preintegration> stepsBetweenFrames(const JointState& state, const Jo
   return steps;
 }
 
-/// Attitudes from the gyro; upright by the sum of all velocity changes, in which gravity outlasts every manoeuvre.
+/// Attitudes from the gyro; upright by the sum of all velocity changes, in which gravity outlasts every
+/// manoeuvre.
 void initialiseAttitudes(JointState& state, const std::vector<Preintegration>& steps) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d upwards = Eigen::Vector3d::Zero();
@@ -44,7 +45,8 @@ void velocitiesFromPositions(JointState& state) {
   }
 }
 
-/// Steps of the camera from each frame to the next in units of the height at the former, in G; frames without a homography go on as before.
+/// Steps of the camera from each frame to the next in units of the height at the former, in G; frames without
+/// a homography go on as before.
 std::vector<Eigen::Vector3d> relativeSteps(const JointState& state, const JointInput& input) {
   const size_t n = state.frames.size();
   std::vector<Eigen::Vector3d> steps(n > 0 ? n - 1 : 0, Eigen::Vector3d::Zero());
@@ -53,7 +55,8 @@ std::vector<Eigen::Vector3d> relativeSteps(const JointState& state, const JointI
     if (ground.b != ground.a + 1) continue;
     const Eigen::Matrix3d R_CaG = (state.q_CI * state.frames[ground.a].q_GI.conjugate()).toRotationMatrix();
     const Eigen::Matrix3d R_CbG = (state.q_CI * state.frames[ground.b].q_GI.conjugate()).toRotationMatrix();
-    const Eigen::Vector3d t = translationOverHeight(input.camera->K(), ground.H, R_CbG * R_CaG.transpose(), -R_CaG.col(2));
+    const Eigen::Vector3d t =
+        translationOverHeight(input.camera->K(), ground.H, R_CbG * R_CaG.transpose(), -R_CaG.col(2));
     constexpr double kLargestStep = 0.3;  // heights a frame: beyond it the homography is not the ground's
     if (!t.allFinite() || t.norm() > kLargestStep) continue;
     steps[ground.a] = -R_CbG.transpose() * t;
@@ -77,12 +80,13 @@ std::vector<Eigen::Vector3d> relativePath(const JointState& state, const JointIn
   return path;
 }
 
-double heightFromAltimeter(const JointState& state, const JointInput& input, const std::vector<Eigen::Vector3d>& path) {
+double heightFromAltimeter(const JointState& state, const JointInput& input,
+                           const std::vector<Eigen::Vector3d>& path) {
   double measured = 0, relative = 0;
   for (const HeightObservation& height : input.heights) {
-    const auto after = std::lower_bound(
-        state.frames.begin(), state.frames.end(), height.t_imu_s - state.timeshift_s,
-        [](const FrameState& frame, double t) { return frame.t_cam_s < t; });
+    const auto after =
+        std::lower_bound(state.frames.begin(), state.frames.end(), height.t_imu_s - state.timeshift_s,
+                         [](const FrameState& frame, double t) { return frame.t_cam_s < t; });
     if (after == state.frames.end()) continue;
     const double z = path[static_cast<size_t>(after - state.frames.begin())].z();
     const double weight = 1.0 / (height.sigma_m * height.sigma_m);
@@ -102,19 +106,22 @@ struct Curvature {
 
 /// With dv_k the velocity change over step k: v_{k+1} - v_k = dv_k, and positions by the trapezoidal rule.
 std::vector<Curvature> curvatures(const JointState& state, const JointInput& input,
-                                  const std::vector<Preintegration>& steps, const std::vector<Eigen::Vector3d>& path) {
+                                  const std::vector<Preintegration>& steps,
+                                  const std::vector<Eigen::Vector3d>& path) {
   const auto n = static_cast<int>(state.frames.size());
   const double duration = state.frames.back().t_cam_s - state.frames.front().t_cam_s;
   const int reach = std::max(2, static_cast<int>(0.4 * n / duration));
   const Eigen::Vector3d gravity(0, 0, -input.gravity);
   std::vector<Eigen::Vector3d> velocity(1, Eigen::Vector3d::Zero()), position(1, Eigen::Vector3d::Zero());
-  std::vector<Eigen::Matrix3d> velocity_by_bias(1, Eigen::Matrix3d::Zero()), position_by_bias(1, Eigen::Matrix3d::Zero());
+  std::vector<Eigen::Matrix3d> velocity_by_bias(1, Eigen::Matrix3d::Zero()),
+      position_by_bias(1, Eigen::Matrix3d::Zero());
   for (size_t k = 0; k < steps.size(); ++k) {
     const Eigen::Matrix3d R = state.frames[k].q_GI.toRotationMatrix();
     const double dt = steps[k].dt_s;
     position.push_back(position.back() + velocity.back() * dt + R * steps[k].p + 0.5 * dt * dt * gravity);
     velocity.push_back(velocity.back() + R * steps[k].v + dt * gravity);
-    position_by_bias.push_back(position_by_bias.back() + velocity_by_bias.back() * dt + R * steps[k].p_by_accel);
+    position_by_bias.push_back(position_by_bias.back() + velocity_by_bias.back() * dt +
+                               R * steps[k].p_by_accel);
     velocity_by_bias.push_back(velocity_by_bias.back() + R * steps[k].v_by_accel);
   }
   std::vector<Curvature> all;
@@ -156,8 +163,8 @@ JointState emptyState(const std::vector<double>& t_cam_s, const Mounting& mounti
   return state;
 }
 
-Eigen::Vector3d translationOverHeight(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_ba, const Eigen::Matrix3d& R_ba,
-                                      const Eigen::Vector3d& m_a) {
+Eigen::Vector3d translationOverHeight(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_ba,
+                                      const Eigen::Matrix3d& R_ba, const Eigen::Vector3d& m_a) {
   const Eigen::Matrix3d E = K.inverse() * H_ba * K;
   const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - m_a * m_a.transpose();
   const Eigen::Matrix3d EP = E * P;
@@ -165,9 +172,11 @@ Eigen::Vector3d translationOverHeight(const Eigen::Matrix3d& K, const Eigen::Mat
   return (scale * E - R_ba) * m_a;
 }
 
-double heightFromAcceleration(const JointState& state, const JointInput& input, const std::vector<Eigen::Vector3d>& path) {
+double heightFromAcceleration(const JointState& state, const JointInput& input,
+                              const std::vector<Eigen::Vector3d>& path) {
   const auto all = curvatures(state, input, stepsBetweenFrames(state, input), path);
-  // Unknown: height, accelerometer bias, horizontal error of gravity's direction. h path - by_bias b - e s^2 = measured.
+  // Unknown: height, accelerometer bias, horizontal error of gravity's direction. h path - by_bias b - e s^2
+  // = measured.
   using Vector6d = Eigen::Matrix<double, 6, 1>;
   Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
   Vector6d b = Vector6d::Zero();

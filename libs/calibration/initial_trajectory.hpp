@@ -1,4 +1,5 @@
-// Starting values of the joint problem, from rotations, gravity and homographies; no guess of the motion is needed.
+// Starting values of the joint problem, from rotations, gravity and homographies; no guess of the motion is
+// needed.
 #pragma once
 
 #include <vector>
@@ -11,6 +12,7 @@ namespace redbee::calibration {
 /// What the rotations gave (rotation_alignment.hpp), or the nominal values.
 struct Mounting {
   Eigen::Matrix3d R_CI = Eigen::Matrix3d::Identity();
+  double rotation_sigma_rad = 0.09;  ///< how well R_CI is known so far
   Eigen::Vector3d p_IC = Eigen::Vector3d::Zero();
   double timeshift_s = 0;
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
@@ -20,21 +22,22 @@ struct Mounting {
 JointState emptyState(const std::vector<double>& t_cam_s, const Mounting& mounting);
 inline constexpr double kBiasStretch_s = 1.0;
 
-/// Flight over ground: attitudes from the gyro and the mean direction of specific force; path in units of the first height from the
-/// homographies' t / h; the height itself from the altimeter, else from comparing the path's curvature with the accelerometer, else
-/// `priors.height_m`.
+/// Flight over ground: attitudes from the gyro and the mean direction of specific force; path in units of the
+/// first height from the homographies' t / h; the height itself from the altimeter, else from comparing the
+/// path's curvature with the accelerometer, else `priors.height_m`.
 void initialiseOverGround(JointState& state, const JointInput& input);
 
 /// Before a target: poses from the target, upright by the mean direction of specific force.
 void initialiseBeforeTarget(JointState& state, const JointInput& input);
 
-/// Translation over height of a homography whose rotation and normal are known: t / h_a in frame b, by least squares over the
-/// homography's unknown scale.
-Eigen::Vector3d translationOverHeight(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_ba, const Eigen::Matrix3d& R_ba,
-                                      const Eigen::Vector3d& m_a);
+/// Translation over height of a homography whose rotation and normal are known: t / h_a in frame b, by least
+/// squares over the homography's unknown scale.
+Eigen::Vector3d translationOverHeight(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_ba,
+                                      const Eigen::Matrix3d& R_ba, const Eigen::Vector3d& m_a);
 
-/// First height [m] that makes a path in units of it fit the accelerometer; 0 where the flight has too little acceleration to tell.
-/// `path`: one point per frame, in G.
-double heightFromAcceleration(const JointState& state, const JointInput& input, const std::vector<Eigen::Vector3d>& path);
+/// First height [m] that makes a path in units of it fit the accelerometer; 0 where the flight has too little
+/// acceleration to tell. `path`: one point per frame, in G.
+double heightFromAcceleration(const JointState& state, const JointInput& input,
+                              const std::vector<Eigen::Vector3d>& path);
 
 }  // namespace redbee::calibration

@@ -15,12 +15,13 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// Columns of the parameters that are reported, in the order of JointProblem::orderedParameters.
 struct Columns {
-  static constexpr int kRotation = 0, kLeverArm = 3, kTimeshift = 6, kTilt = 7, kFirstFrame = 9, kLastFrame = 18,
-                       kGyroBias = 27, kAccelBias = 30, kCount = 33;
+  static constexpr int kRotation = 0, kLeverArm = 3, kTimeshift = 6, kTilt = 7, kFirstFrame = 9,
+                       kLastFrame = 18, kGyroBias = 27, kAccelBias = 30, kCount = 33;
 };
 /// Ceres' quaternion manifold moves a rotation by twice its tangent vector.
 constexpr double kTangentToRotation = 2.0;
-/// Random vectors that estimate a trace (Hutchinson 1989); the redundancies are in the thousands, and this gives them to a percent.
+/// Random vectors that estimate a trace (Hutchinson 1989); the redundancies are in the thousands, and this
+/// gives them to a percent.
 constexpr int kProbes = 12;
 
 SparseMatrix toEigen(const ceres::CRSMatrix& crs) {
@@ -58,7 +59,8 @@ Eigen::VectorXd heightGradient(const JointState& state, const FrameState& frame,
 
 JointCovariance covarianceFrom(const Eigen::MatrixXd& P, const JointState& state) {
   JointCovariance covariance;
-  covariance.rotation = kTangentToRotation * kTangentToRotation * P.block<3, 3>(Columns::kRotation, Columns::kRotation);
+  covariance.rotation =
+      kTangentToRotation * kTangentToRotation * P.block<3, 3>(Columns::kRotation, Columns::kRotation);
   covariance.p_IC = P.block<3, 3>(Columns::kLeverArm, Columns::kLeverArm);
   covariance.timeshift = P(Columns::kTimeshift, Columns::kTimeshift);
   covariance.tilt = P.block<2, 2>(Columns::kTilt, Columns::kTilt);
@@ -73,9 +75,19 @@ JointCovariance covarianceFrom(const Eigen::MatrixXd& P, const JointState& state
 
 }  // namespace
 
+JointCovariance JointCovariance::scaled(double factor) const {
+  JointCovariance result = *this;
+  for (Eigen::Matrix3d* block : {&result.rotation, &result.p_IC, &result.gyro_bias, &result.accel_bias})
+    *block *= factor;
+  result.tilt *= factor;
+  for (double* variance : {&result.timeshift, &result.first_height, &result.last_height}) *variance *= factor;
+  return result;
+}
+
 std::vector<double*> JointProblem::orderedParameters() {
   std::vector<double*> order{state_.q_CI.coeffs().data(), state_.p_IC.data(), &state_.timeshift_step_s};
-  // The target's rotation has one entry more than the tilt, so it takes the place behind the reported columns.
+  // The target's rotation has one entry more than the tilt, so it takes the place behind the reported
+  // columns.
   const bool ground = input_.target.empty();
   if (ground) order.push_back(state_.tilt.data());
   const auto addFrame = [&](FrameState& frame) {
@@ -134,7 +146,8 @@ JointAnalysis JointProblem::analyse() {
   fillGroup(analysis.imu, imu_, 9, 8.343);
   std::mt19937 random(1);
   analysis.vision.redundancy = redundancyOf(J, A, 0, analysis.vision.measurements, random);
-  analysis.imu.redundancy = redundancyOf(J, A, analysis.vision.measurements, analysis.imu.measurements, random);
+  analysis.imu.redundancy =
+      redundancyOf(J, A, analysis.vision.measurements, analysis.imu.measurements, random);
 
   // Without a ground there is no tilt; its two columns stay empty in the table of reported ones.
   const int tilt = ground ? 2 : 0;

@@ -19,9 +19,11 @@
 namespace redbee::calibration {
 namespace {
 
-/// Half of the stretch around an exposure that its angular rate is averaged over: longer than the period of a propeller's vibration.
+/// Half of the stretch around an exposure that its angular rate is averaged over: longer than the period of a
+/// propeller's vibration.
 constexpr double kRateReach_s = 0.006;
-/// Scale of the Cauchy loss on a whole homography or pose: what follows the model (chi2 about 8) keeps 90 % of its weight.
+/// Scale of the Cauchy loss on a whole homography or pose: what follows the model (chi2 about 8) keeps 90 %
+/// of its weight.
 constexpr double kVisionLoss = 8.0;
 constexpr double kGaugeYaw_rad = 1e-4;
 constexpr double kGaugePlace_m = 1e-3;
@@ -80,9 +82,9 @@ void JointProblem::addImu() {
                             input_.noise);
     cost.square_root = squareRoot<9>((cost.sum.covariance * input_.imu_variance_scale).inverse());
     cost.gravity = input_.gravity;
-    imu_.push_back(problem_.AddResidualBlock(automatic<PreintegrationCost, 4, 3, 3, 4, 3, 3, 3, 3>(cost), nullptr,
-                                             data(a.q_GI), a.p_GI.data(), a.v_GI.data(), data(b.q_GI), b.p_GI.data(),
-                                             b.v_GI.data(), bias.gyro.data(), bias.accel.data()));
+    imu_.push_back(problem_.AddResidualBlock(
+        automatic<PreintegrationCost, 4, 3, 3, 4, 3, 3, 3, 3>(cost), nullptr, data(a.q_GI), a.p_GI.data(),
+        a.v_GI.data(), data(b.q_GI), b.p_GI.data(), b.v_GI.data(), bias.gyro.data(), bias.accel.data()));
   }
   for (size_t i = 0; i + 1 < state_.biases.size(); ++i) {
     const double root = std::sqrt(state_.bias_begin_s[i + 1] - state_.bias_begin_s[i]);
@@ -90,10 +92,10 @@ void JointProblem::addImu() {
     const BiasWalkCost accel{std::max(input_.noise.accel_random_walk * root, 1e-8)};
     Bias& here = state_.biases[i];
     Bias& next = state_.biases[i + 1];
-    others_.push_back(problem_.AddResidualBlock(automatic<BiasWalkCost, 3, 3>(gyro), nullptr, here.gyro.data(),
-                                                next.gyro.data()));
-    others_.push_back(problem_.AddResidualBlock(automatic<BiasWalkCost, 3, 3>(accel), nullptr, here.accel.data(),
-                                                next.accel.data()));
+    others_.push_back(problem_.AddResidualBlock(automatic<BiasWalkCost, 3, 3>(gyro), nullptr,
+                                                here.gyro.data(), next.gyro.data()));
+    others_.push_back(problem_.AddResidualBlock(automatic<BiasWalkCost, 3, 3>(accel), nullptr,
+                                                here.accel.data(), next.accel.data()));
   }
 }
 
@@ -112,9 +114,10 @@ void JointProblem::addGround() {
     cost.rate_a = rateAt(a);
     cost.rate_b = rateAt(b);
     vision_.push_back(problem_.AddResidualBlock(
-        automatic<GroundHomographyCost, 4, 3, 3, 4, 3, 3, 4, 3, 1, 2>(cost), new ceres::CauchyLoss(kVisionLoss),
-        data(a.q_GI), a.p_GI.data(), a.v_GI.data(), data(b.q_GI), b.p_GI.data(), b.v_GI.data(), data(state_.q_CI),
-        state_.p_IC.data(), &state_.timeshift_step_s, state_.tilt.data()));
+        automatic<GroundHomographyCost, 4, 3, 3, 4, 3, 3, 4, 3, 1, 2>(cost),
+        new ceres::CauchyLoss(kVisionLoss), data(a.q_GI), a.p_GI.data(), a.v_GI.data(), data(b.q_GI),
+        b.p_GI.data(), b.v_GI.data(), data(state_.q_CI), state_.p_IC.data(), &state_.timeshift_step_s,
+        state_.tilt.data()));
   }
 }
 
@@ -123,20 +126,20 @@ void JointProblem::addTarget() {
   for (const TargetPose& measured : input_.target) {
     FrameState& frame = state_.frames[measured.frame];
     const TargetPoseCost cost{measured.q_CT, measured.p_CT,
-                              squareRoot<6>(measured.information / input_.vision_variance_scale), rateAt(frame)};
+                              squareRoot<6>(measured.information / input_.vision_variance_scale),
+                              rateAt(frame)};
     vision_.push_back(problem_.AddResidualBlock(
-        automatic<TargetPoseCost, 4, 3, 3, 4, 3, 1, 4>(cost), new ceres::CauchyLoss(kVisionLoss), data(frame.q_GI),
-        frame.p_GI.data(), frame.v_GI.data(), data(state_.q_CI), state_.p_IC.data(), &state_.timeshift_step_s,
-        data(state_.q_GT)));
+        automatic<TargetPoseCost, 4, 3, 3, 4, 3, 1, 4>(cost), new ceres::CauchyLoss(kVisionLoss),
+        data(frame.q_GI), frame.p_GI.data(), frame.v_GI.data(), data(state_.q_CI), state_.p_IC.data(),
+        &state_.timeshift_step_s, data(state_.q_GT)));
   }
 }
 
 void JointProblem::addHeights() {
   const auto imuTime = [&](const FrameState& frame) { return frame.t_cam_s + state_.timeshift_s; };
   for (const HeightObservation& height : input_.heights) {
-    auto nearest = std::lower_bound(
-        state_.frames.begin(), state_.frames.end(), height.t_imu_s,
-        [&](const FrameState& frame, double t) { return imuTime(frame) < t; });
+    auto nearest = std::lower_bound(state_.frames.begin(), state_.frames.end(), height.t_imu_s,
+                                    [&](const FrameState& frame, double t) { return imuTime(frame) < t; });
     if (nearest == state_.frames.end()) continue;
     if (nearest != state_.frames.begin() &&
         height.t_imu_s - imuTime(*(nearest - 1)) < imuTime(*nearest) - height.t_imu_s) {
@@ -146,9 +149,9 @@ void JointProblem::addHeights() {
     constexpr double kMaxTau_s = 0.05;
     if (std::abs(tau) > kMaxTau_s) continue;
     const AltitudeCost cost{height.height_m, height.sigma_m, tau};
-    others_.push_back(problem_.AddResidualBlock(automatic<AltitudeCost, 4, 3, 3, 3, 2>(cost), new ceres::HuberLoss(3.0),
-                                                data(nearest->q_GI), nearest->p_GI.data(), nearest->v_GI.data(),
-                                                state_.p_IC.data(), state_.tilt.data()));
+    others_.push_back(problem_.AddResidualBlock(
+        automatic<AltitudeCost, 4, 3, 3, 3, 2>(cost), new ceres::HuberLoss(3.0), data(nearest->q_GI),
+        nearest->p_GI.data(), nearest->v_GI.data(), state_.p_IC.data(), state_.tilt.data()));
   }
 }
 

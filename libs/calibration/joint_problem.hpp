@@ -21,8 +21,8 @@ namespace redbee::calibration {
 struct GroundHomography {
   size_t a = 0;
   size_t b = 0;
-  Eigen::Matrix3d H;                              ///< ideal pixels, h33 = 1
-  Matrix8d information = Matrix8d::Zero();        ///< of the scaled entries
+  Eigen::Matrix3d H;                        ///< ideal pixels, h33 = 1
+  Matrix8d information = Matrix8d::Zero();  ///< of the scaled entries
   int points = 0;
   double rms_px = 0;  ///< of the points' transfer errors
 };
@@ -54,7 +54,7 @@ struct JointPriors {
   double gyro_bias_sigma = 0.01;   ///< rad/s
   double accel_bias_sigma = 0.15;  ///< m/s^2
   double tilt_sigma_rad = 0.05;
-  double height_m = 2;             ///< of the first frame's camera; starting value
+  double height_m = 2;  ///< of the first frame's camera; starting value
   double height_sigma_m = 2;
 };
 
@@ -73,9 +73,9 @@ struct JointInput {
 
 /// How well one group of measurements fits.
 struct GroupFit {
-  double chi2 = 0;        ///< sum of squared whitened residuals
+  double chi2 = 0;          ///< sum of squared whitened residuals
   double median_ratio = 0;  ///< median chi2 of one measurement over the median of its chi-square distribution
-  double redundancy = 0;  ///< degrees of freedom that the fit left to the group
+  double redundancy = 0;    ///< degrees of freedom that the fit left to the group
   int measurements = 0;
 };
 
@@ -89,6 +89,8 @@ struct JointCovariance {
   Eigen::Matrix3d accel_bias = Eigen::Matrix3d::Zero();  ///< of the first stretch
   double first_height = 0;                               ///< m^2, camera at the first frame
   double last_height = 0;                                ///< m^2, camera at the last frame
+
+  JointCovariance scaled(double factor) const;
 };
 
 struct JointAnalysis {
@@ -100,7 +102,8 @@ struct JointAnalysis {
 
 class JointProblem {
  public:
-  /// Estimates into `state`, whose biases and timeshift_s are where the IMU is linearised. Both must outlive this object.
+  /// Estimates into `state`, whose biases and timeshift_s are where the IMU is linearised. Both must outlive
+  /// this object.
   JointProblem(const JointInput& input, JointState& state);
 
   /// False where Ceres found no usable solution.

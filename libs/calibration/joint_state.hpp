@@ -9,8 +9,8 @@
 
 namespace redbee::calibration {
 
-/// State of the IMU at the exposure of one frame. G is upright: z up along gravity; its origin lies on the ground below the first frame's
-/// camera, or at the target.
+/// State of the IMU at the exposure of one frame. G is upright: z up along gravity; its origin lies on the
+/// ground below the first frame's camera, or at the target.
 struct FrameState {
   double t_cam_s = 0;  ///< camera clock
   Eigen::Quaterniond q_GI = Eigen::Quaterniond::Identity();
@@ -28,7 +28,8 @@ struct JointState {
   double timeshift_s = 0;                          ///< the frames' states belong to t_cam + timeshift
   double timeshift_step_s = 0;                     ///< what is to be added to it, to first order
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< the ground's normal in G is (x, y, 1), normalised
-  Eigen::Quaterniond q_GT = Eigen::Quaterniond::Identity();  ///< target, where there is one; its origin is G's
+  Eigen::Quaterniond q_GT =
+      Eigen::Quaterniond::Identity();  ///< target, where there is one; its origin is G's
 
   Eigen::Vector3d groundNormal() const { return tilt.homogeneous().normalized(); }
   /// Index of the stretch that holds this time.

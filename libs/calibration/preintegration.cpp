@@ -5,8 +5,10 @@
 namespace redbee::calibration {
 namespace {
 
-/// One step between two samples: mean rate, and the mean of the specific forces at both ends, each turned by its own attitude.
-void step(Preintegration& sum, const ImuHistory::Sample& begin, const ImuHistory::Sample& end, const ImuNoise& noise) {
+/// One step between two samples: mean rate, and the mean of the specific forces at both ends, each turned by
+/// its own attitude.
+void step(Preintegration& sum, const ImuHistory::Sample& begin, const ImuHistory::Sample& end,
+          const ImuNoise& noise) {
   const double dt = end.t_s - begin.t_s;
   const Eigen::Vector3d turn = (0.5 * (begin.gyro + end.gyro) - sum.bias.gyro) * dt;
   const Eigen::Matrix3d turned = expSO3(turn);

@@ -1,10 +1,12 @@
-// IMU samples between two times, summed up in the first one's frame (Forster et al., "On-Manifold Preintegration", 2017).
+// IMU samples between two times, summed up in the first one's frame (Forster et al., "On-Manifold
+// Preintegration", 2017).
 //
 //     R_b = R_a R(b_g)
 //     v_b = v_a + g dt + R_a v(b_g, b_a)
 //     p_b = p_a + v_a dt + g dt^2 / 2 + R_a p(b_g, b_a)
 //
-// R, v, p depend on the biases; the first-order dependence around the biases that they were summed up with is kept.
+// R, v, p depend on the biases; the first-order dependence around the biases that they were summed up with is
+// kept.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,6 +37,7 @@ struct Preintegration {
 };
 
 /// Precondition: imu covers [from, to], from < to.
-Preintegration preintegrate(const ImuHistory& imu, double from_s, double to_s, const Bias& bias, const ImuNoise& noise);
+Preintegration preintegrate(const ImuHistory& imu, double from_s, double to_s, const Bias& bias,
+                            const ImuNoise& noise);
 
 }  // namespace redbee::calibration

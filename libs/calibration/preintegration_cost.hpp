@@ -23,8 +23,8 @@ struct PreintegrationCost {
   static constexpr int kResiduals = 9;
 
   template <typename T>
-  bool operator()(const T* q_GIa, const T* p_GIa, const T* v_GIa, const T* q_GIb, const T* p_GIb, const T* v_GIb,
-                  const T* gyro_bias, const T* accel_bias, T* residual) const {
+  bool operator()(const T* q_GIa, const T* p_GIa, const T* v_GIa, const T* q_GIb, const T* p_GIb,
+                  const T* v_GIb, const T* gyro_bias, const T* accel_bias, T* residual) const {
     using Quaternion = Eigen::Map<const Eigen::Quaternion<T>>;
     using Vector = Eigen::Map<const Vector3T<T>>;
     const Vector3T<T> d_gyro = Vector(gyro_bias) - sum.bias.gyro.cast<T>();

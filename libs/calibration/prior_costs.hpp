@@ -1,5 +1,5 @@
-// What is known beforehand, each with its standard deviation. They keep the problem solvable where the recording shows nothing; a
-// parameter whose deviation they still determine is reported as not found.
+// What is known beforehand, each with its standard deviation. They keep the problem solvable where the
+// recording shows nothing; a parameter whose deviation they still determine is reported as not found.
 #pragma once
 
 #include <Eigen/Core>
@@ -69,7 +69,8 @@ struct PlaceGaugeCost {
   }
 };
 
-/// Random walk of a bias from one stretch to the next: r = (b_next - b) / sigma, sigma = random walk density * sqrt(duration).
+/// Random walk of a bias from one stretch to the next: r = (b_next - b) / sigma, sigma = random walk density
+/// * sqrt(duration).
 struct BiasWalkCost {
   double sigma;
 

@@ -52,10 +52,11 @@ std::vector<HeightObservation> heightsOf(const std::vector<AltitudeSample>& alti
 
 /// The plane with most points; the joint solution finds the ground anew (ground_fit.hpp).
 std::optional<GroundHomography> firstHomography(const IndexedMatch& match, const CalibrationInput& input) {
-  const auto estimate = estimateHomography(*match.points, input.camera.width, input.camera.height, input.ransac);
+  const auto estimate =
+      estimateHomography(*match.points, input.camera.width, input.camera.height, input.ransac);
   if (!estimate) return std::nullopt;
-  GroundHomography ground{match.a, match.b, estimate->H, estimate->covariance.inverse(), estimate->inliers,
-                          estimate->rms_px};
+  GroundHomography ground{match.a,           match.b,         estimate->H, estimate->covariance.inverse(),
+                          estimate->inliers, estimate->rms_px};
   ground.information = 0.5 * (ground.information + ground.information.transpose()).eval();
   if (!ground.information.allFinite()) return std::nullopt;
   return ground;
@@ -87,7 +88,8 @@ void requireEnough(const Recording& recording, const CalibrationInput& input, si
   const std::string kind = input.target.empty() ? "ground homographies" : "views of the target";
   if (measured >= kMinMeasurements) return;
   throw CalibrationError("only " + std::to_string(measured) + " " + kind + " in " +
-                         std::to_string(recording.t_cam_s.size()) + " frames, " + std::to_string(kMinMeasurements) +
+                         std::to_string(recording.t_cam_s.size()) + " frames, " +
+                         std::to_string(kMinMeasurements) +
                          " are the least: too little texture, or no flat ground in view");
 }
 
@@ -106,10 +108,12 @@ Recording prepareRecording(const CalibrationInput& input) {
   for (const int64_t utime : frames) t.push_back(static_cast<double>(utime - origin) * 1e-6);
   const auto [begin, end] = coveredRun(t, *recording.imu, input.nominal.timeshift_s);
   if (end - begin < kMinFrames) {
-    throw CalibrationError("the IMU covers only " + std::to_string(end - begin) + " of " + std::to_string(t.size()) +
-                           " frames without a hole; " + std::to_string(kMinFrames) + " are the least");
+    throw CalibrationError("the IMU covers only " + std::to_string(end - begin) + " of " +
+                           std::to_string(t.size()) + " frames without a hole; " +
+                           std::to_string(kMinFrames) + " are the least");
   }
-  recording.t_cam_s.assign(t.begin() + static_cast<ptrdiff_t>(begin), t.begin() + static_cast<ptrdiff_t>(end));
+  recording.t_cam_s.assign(t.begin() + static_cast<ptrdiff_t>(begin),
+                           t.begin() + static_cast<ptrdiff_t>(end));
   std::map<int64_t, size_t> index;
   for (size_t k = begin; k < end; ++k) index[frames[k]] = k - begin;
 

@@ -20,7 +20,8 @@ struct IndexedMatch {
   const PointTracks* points = nullptr;
 };
 
-/// Frames on which the IMU and vision overlap without a hole. Shares the IMU and the correspondences with the input.
+/// Frames on which the IMU and vision overlap without a hole. Shares the IMU and the correspondences with the
+/// input.
 struct Recording {
   std::shared_ptr<const ImuHistory> imu;
   std::shared_ptr<const Camera> camera;

@@ -156,8 +156,8 @@ HandEye bestFromAllStarts(Aligner& aligner, double shift_s) {
   return solveHandEye(aligner.pairsAt(shift_s));
 }
 
-std::vector<RotationObservation> usable(const std::vector<RotationObservation>& observations, const ImuHistory& imu,
-                                        const RotationAlignmentOptions& options) {
+std::vector<RotationObservation> usable(const std::vector<RotationObservation>& observations,
+                                        const ImuHistory& imu, const RotationAlignmentOptions& options) {
   std::vector<RotationObservation> chosen;
   if (imu.size() < 2) return chosen;
   const double margin = options.max_shift_s + 2 * kFineReach_s;

@@ -1,9 +1,11 @@
 // Camera against gyro, from rotations alone: time shift and R_CI without a starting value.
 //
 // 1. The magnitudes of the two angular rates are correlated over the time shift; this needs no R_CI.
-// 2. R_CI and gyro bias follow in closed form (hand_eye.hpp). A homography admits two rotations; the one that agrees with
+// 2. R_CI and gyro bias follow in closed form (hand_eye.hpp). A homography admits two rotations; the one that
+// agrees with
 //    the gyro under the current R_CI is taken, and R_CI found again, from several starts.
-// 3. The time shift that leaves the least residual of step 2 is found by a parabola through the smallest of a curve.
+// 3. The time shift that leaves the least residual of step 2 is found by a parabola through the smallest of a
+// curve.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +17,8 @@
 
 namespace redbee::calibration {
 
-/// The camera's rotation between two exposures. Times are on the camera's clock, seconds since the common origin.
+/// The camera's rotation between two exposures. Times are on the camera's clock, seconds since the common
+/// origin.
 struct RotationObservation {
   double t_a_s;
   double t_b_s;
@@ -28,11 +31,11 @@ struct TimeShiftCurve {
 };
 
 struct RotationAlignment {
-  bool possible = false;        ///< enough observations inside the IMU's time; all below hold only then
-  double timeshift_s = 0;       ///< t_imu = t_cam + timeshift
-  double correlation = 0;       ///< of the rates' magnitudes at their best shift, -1..1
-  double rate_variation = 0;    ///< rad/s: standard deviation of the camera's rate, its signal
-  HandEye hand_eye;             ///< at timeshift_s
+  bool possible = false;             ///< enough observations inside the IMU's time; all below hold only then
+  double timeshift_s = 0;            ///< t_imu = t_cam + timeshift
+  double correlation = 0;            ///< of the rates' magnitudes at their best shift, -1..1
+  double rate_variation = 0;         ///< rad/s: standard deviation of the camera's rate, its signal
+  HandEye hand_eye;                  ///< at timeshift_s
   TimeShiftCurve correlation_curve;  ///< correlation of magnitudes
   TimeShiftCurve residual_curve;     ///< residual of the closed form [rad/s]
   std::vector<double> t_s;           ///< camera clock, middle of each interval used

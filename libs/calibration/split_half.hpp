@@ -9,6 +9,11 @@
 namespace redbee::calibration {
 
 /// Starts both halves at the whole's solution. Empty where a half is too short or not solvable.
-std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const CalibrationInput& input, const FlightSolution& whole);
+std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const CalibrationInput& input,
+                                      const FlightSolution& whole);
+
+/// How many times larger the halves' differences are than their deviations say, at least 1: what correlated
+/// errors (parallax, tracking bias) add that residuals do not show.
+double disagreement(const std::vector<SplitHalfEntry>& entries);
 
 }  // namespace redbee::calibration

@@ -26,8 +26,8 @@ struct Normal {
 };
 
 /// Sums over the corners; the derivative is by a left perturbation of R_CT and by p_CT.
-Normal normalEquations(const Camera& camera, const std::vector<Eigen::Vector2d>& ideal, const TargetView& view,
-                       const Eigen::Matrix3d& R, const Eigen::Vector3d& p) {
+Normal normalEquations(const Camera& camera, const std::vector<Eigen::Vector2d>& ideal,
+                       const TargetView& view, const Eigen::Matrix3d& R, const Eigen::Vector3d& p) {
   Normal sum;
   for (size_t i = 0; i < ideal.size(); ++i) {
     const Eigen::Vector3d turned = R * view.corners[i];
@@ -35,7 +35,8 @@ Normal normalEquations(const Camera& camera, const std::vector<Eigen::Vector2d>&
     const Eigen::Vector2d f(camera.K()(0, 0), camera.K()(1, 1));
     const Eigen::Vector2d residual = ideal[i] - (camera.K() * X).hnormalized();
     Eigen::Matrix<double, 2, 3> project;
-    project << f.x() / X.z(), 0, -f.x() * X.x() / (X.z() * X.z()), 0, f.y() / X.z(), -f.y() * X.y() / (X.z() * X.z());
+    project << f.x() / X.z(), 0, -f.x() * X.x() / (X.z() * X.z()), 0, f.y() / X.z(),
+        -f.y() * X.y() / (X.z() * X.z());
     Eigen::Matrix<double, 2, 6> J;
     J << -project * skew(turned), project;
     const double weight = std::min(1.0, kHuber_px / std::max(residual.norm(), 1e-9));

@@ -16,10 +16,14 @@ std::string number(double value) {
 
 const char* toString(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kFound: return "found";
-    case Verdict::kWeak: return "weak";
-    case Verdict::kRefused: return "refused";
-    case Verdict::kNotApplicable: return "not_applicable";
+    case Verdict::kFound:
+      return "found";
+    case Verdict::kWeak:
+      return "weak";
+    case Verdict::kRefused:
+      return "refused";
+    case Verdict::kNotApplicable:
+      return "not_applicable";
   }
   return "unknown";
 }
@@ -34,7 +38,8 @@ void judge(ParameterReport& report, const std::string& cause) {
     report.words = "estimated, but only to " + spread + "; a better recording would have more " + cause;
   } else {
     report.verdict = Verdict::kRefused;
-    report.words = "not shown by this recording (" + spread + "): it lacks " + cause + "; the nominal value stays";
+    report.words =
+        "not shown by this recording (" + spread + "): it lacks " + cause + "; the nominal value stays";
   }
 }
 

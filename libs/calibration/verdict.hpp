@@ -16,7 +16,7 @@ const char* toString(Verdict verdict);
 
 /// One parameter of one or more entries, all in the same unit.
 struct ParameterReport {
-  std::string name;             ///< as in the configuration where it has a key there: camera.R_CI
+  std::string name;  ///< as in the configuration where it has a key there: camera.R_CI
   std::string unit;
   std::vector<double> value;    ///< estimated; for R_CI the rotation vector from the nominal one, in C
   std::vector<double> sigma;    ///< one standard deviation each
@@ -25,10 +25,11 @@ struct ParameterReport {
   double found_below = 0;       ///< limits for worst_sigma
   double weak_below = 0;
   Verdict verdict = Verdict::kRefused;
-  std::string words;            ///< one sentence
+  std::string words;  ///< one sentence
 };
 
-/// Fills verdict and words from worst_sigma and its limits; `cause` says what a recording lacks that does not show this parameter.
+/// Fills verdict and words from worst_sigma and its limits; `cause` says what a recording lacks that does not
+/// show this parameter.
 void judge(ParameterReport& report, const std::string& cause);
 
 }  // namespace redbee::calibration

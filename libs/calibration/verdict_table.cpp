@@ -30,9 +30,19 @@ ParameterReport vectorReport(const std::string& name, const std::string& unit, c
   return report;
 }
 
+/// Below this the gyro's noise passes for rotation: deviations computed from it would mean nothing.
+constexpr double kLeastRateVariation = 0.01;  // rad/s
+
+void refuseWithoutRotation(ParameterReport& report, const Excitation& excitation) {
+  if (excitation.rate_variation >= kLeastRateVariation) return;
+  report.verdict = Verdict::kRefused;
+  report.words = "not shown by this recording: the camera hardly turns; the nominal value stays";
+}
+
 ParameterReport rotationReport(const CalibratedValues& values, const JointCovariance& covariance) {
   const Eigen::Vector3d turn = logSO3(values.estimated.R_CI * values.nominal.R_CI.transpose());
-  auto report = vectorReport("camera.R_CI", "deg", turn, Eigen::Vector3d::Zero(), covariance.rotation, 1 / kDegree);
+  auto report =
+      vectorReport("camera.R_CI", "deg", turn, Eigen::Vector3d::Zero(), covariance.rotation, 1 / kDegree);
   report.found_below = 0.1;
   report.weak_below = 1.0;
   judge(report, "rotation about at least two axes");
@@ -50,7 +60,8 @@ ParameterReport timeshiftReport(const CalibratedValues& values, const JointCovar
 }
 
 ParameterReport leverArmReport(const CalibratedValues& values, const JointCovariance& covariance) {
-  auto report = vectorReport("camera.p_IC", "m", values.estimated.p_IC, values.nominal.p_IC, covariance.p_IC, 1);
+  auto report =
+      vectorReport("camera.p_IC", "m", values.estimated.p_IC, values.nominal.p_IC, covariance.p_IC, 1);
   report.found_below = 0.01;
   report.weak_below = 0.03;
   judge(report, "strong rotation close to the ground");
@@ -58,7 +69,8 @@ ParameterReport leverArmReport(const CalibratedValues& values, const JointCovari
 }
 
 /// worst_sigma is relative to the height.
-ParameterReport heightReport(const CalibratedValues& values, const JointCovariance& covariance, bool applies) {
+ParameterReport heightReport(const CalibratedValues& values, const JointCovariance& covariance,
+                             bool applies) {
   using Matrix1d = Eigen::Matrix<double, 1, 1>;
   auto report = vectorReport("plane.height_m", "m", Matrix1d(values.estimated.start_height_m),
                              Matrix1d(values.nominal.start_height_m), Matrix1d(covariance.first_height), 1);
@@ -77,7 +89,8 @@ ParameterReport heightReport(const CalibratedValues& values, const JointCovarian
 }
 
 ParameterReport tiltReport(const CalibratedValues& values, const JointCovariance& covariance, bool applies) {
-  auto report = vectorReport("plane.tilt", "deg", values.tilt_rad, Eigen::Vector2d::Zero(), covariance.tilt, 1 / kDegree);
+  auto report = vectorReport("plane.tilt", "deg", values.tilt_rad, Eigen::Vector2d::Zero(), covariance.tilt,
+                             1 / kDegree);
   if (!applies) {
     report.verdict = Verdict::kNotApplicable;
     report.words = "no ground in a recording of a target";
@@ -90,8 +103,8 @@ ParameterReport tiltReport(const CalibratedValues& values, const JointCovariance
 }
 
 ParameterReport gyroBiasReport(const CalibratedValues& values, const JointCovariance& covariance) {
-  auto report = vectorReport("gyro_bias", "deg/s", values.gyro_bias, Eigen::Vector3d::Zero(), covariance.gyro_bias,
-                             1 / kDegree);
+  auto report = vectorReport("gyro_bias", "deg/s", values.gyro_bias, Eigen::Vector3d::Zero(),
+                             covariance.gyro_bias, 1 / kDegree);
   report.found_below = 0.05;
   report.weak_below = 0.25;
   judge(report, "texture and time");
@@ -99,7 +112,8 @@ ParameterReport gyroBiasReport(const CalibratedValues& values, const JointCovari
 }
 
 ParameterReport accelBiasReport(const CalibratedValues& values, const JointCovariance& covariance) {
-  auto report = vectorReport("accel_bias", "m/s^2", values.accel_bias, Eigen::Vector3d::Zero(), covariance.accel_bias, 1);
+  auto report = vectorReport("accel_bias", "m/s^2", values.accel_bias, Eigen::Vector3d::Zero(),
+                             covariance.accel_bias, 1);
   report.found_below = 0.03;
   report.weak_below = 0.1;
   judge(report, "rotation against gravity");
@@ -108,13 +122,19 @@ ParameterReport accelBiasReport(const CalibratedValues& values, const JointCovar
 
 }  // namespace
 
-std::vector<ParameterReport> parameterReports(const CalibrationResult& result, const JointCovariance& covariance,
+std::vector<ParameterReport> parameterReports(const CalibrationResult& result,
+                                              const JointCovariance& covariance,
                                               const CalibrationInput& input) {
   const bool ground = input.target.empty();
-  return {rotationReport(result.values, covariance),       timeshiftReport(result.values, covariance),
-          leverArmReport(result.values, covariance),       heightReport(result.values, covariance, ground),
-          tiltReport(result.values, covariance, ground),   gyroBiasReport(result.values, covariance),
-          accelBiasReport(result.values, covariance)};
+  std::vector<ParameterReport> reports{
+      rotationReport(result.values, covariance),     timeshiftReport(result.values, covariance),
+      leverArmReport(result.values, covariance),     heightReport(result.values, covariance, ground),
+      tiltReport(result.values, covariance, ground), gyroBiasReport(result.values, covariance),
+      accelBiasReport(result.values, covariance)};
+  constexpr int kNeedRotation = 3;  // R_CI, time shift, lever arm
+  for (int i = 0; i < kNeedRotation; ++i)
+    refuseWithoutRotation(reports[static_cast<size_t>(i)], result.excitation);
+  return reports;
 }
 
 void keepOrRefuse(CalibrationResult& result) {

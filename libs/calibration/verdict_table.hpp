@@ -9,7 +9,8 @@
 namespace redbee::calibration {
 
 /// All parameters in the order of the report, judged.
-std::vector<ParameterReport> parameterReports(const CalibrationResult& result, const JointCovariance& covariance,
+std::vector<ParameterReport> parameterReports(const CalibrationResult& result,
+                                              const JointCovariance& covariance,
                                               const CalibrationInput& input);
 
 /// Fills result.values.kept according to the verdicts.

@@ -39,7 +39,9 @@ void PixelMeasures::add(const cv::Mat& probability, const cv::Mat& truth) {
   ++frames_;
 }
 
-int64_t PixelMeasures::movingPixels() const { return std::accumulate(moving_.begin(), moving_.end(), int64_t{0}); }
+int64_t PixelMeasures::movingPixels() const {
+  return std::accumulate(moving_.begin(), moving_.end(), int64_t{0});
+}
 
 int64_t PixelMeasures::backgroundPixels() const {
   return std::accumulate(background_.begin(), background_.end(), int64_t{0});
@@ -67,8 +69,8 @@ OperatingPoint PixelMeasures::at(int threshold) const {
 
 double PixelMeasures::errorAtHalfRecall() const {
   const auto points = curve();
-  const auto reached =
-      std::find_if(points.begin(), points.end(), [](const OperatingPoint& point) { return point.recall >= 0.5; });
+  const auto reached = std::find_if(points.begin(), points.end(),
+                                    [](const OperatingPoint& point) { return point.recall >= 0.5; });
   if (reached == points.end()) return 1.0;
   if (reached == points.begin() || std::prev(reached)->recall == 0) return 1.0 - reached->precision;
   const OperatingPoint& before = *std::prev(reached);

@@ -1,5 +1,5 @@
-// The paper's measures (IV.C; method.md, "Measures"): precision and recall over the pixels of all labelled frames of a clip, while the
-// threshold on P_FG sweeps.
+// The paper's measures (IV.C; method.md, "Measures"): precision and recall over the pixels of all labelled
+// frames of a clip, while the threshold on P_FG sweeps.
 #pragma once
 
 #include <array>
@@ -18,7 +18,8 @@ struct OperatingPoint {
 /// Counts only: adding a frame costs one pass, and clips of any length fit.
 class PixelMeasures {
  public:
-  /// Both CV_8U of one size. Truth: 255 moves, 0 does not, every other value is ignored. Throws std::invalid_argument on anything else.
+  /// Both CV_8U of one size. Truth: 255 moves, 0 does not, every other value is ignored. Throws
+  /// std::invalid_argument on anything else.
   void add(const cv::Mat& probability, const cv::Mat& truth);
 
   int64_t frames() const { return frames_; }
@@ -26,7 +27,8 @@ class PixelMeasures {
   int64_t backgroundPixels() const;
   /// Thresholds 255 down to 1: recall rises along the curve. P_FG = 0 is never a detection.
   std::vector<OperatingPoint> curve() const;
-  /// 1 - precision where recall first reaches one half, linear between neighbouring thresholds; 1 where it never does.
+  /// 1 - precision where recall first reaches one half, linear between neighbouring thresholds; 1 where it
+  /// never does.
   double errorAtHalfRecall() const;
   /// The largest 2 P R / (P + R) on the curve; 0 where there is none.
   double bestF1() const;

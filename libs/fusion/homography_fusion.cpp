@@ -152,8 +152,8 @@ HomographyFusion::Sources HomographyFusion::anchorSources(const std::optional<In
   }
   if (visual && visual->inliers > 0 && visual->outliers >= 0) {
     const double ratio = 1.0 + static_cast<double>(visual->outliers) / visual->inliers;  // equation 7
-    std::optional<Estimate> step = stepFrom(
-        visual->utime_previous, visual->H, parameters_.visual_inflation * ratio * visual->covariance);
+    std::optional<Estimate> step = stepFrom(visual->utime_previous, visual->H,
+                                            parameters_.visual_inflation * ratio * visual->covariance);
     if (step) sources.visual = ontoAnchor(*step, ratio * parameters_.paper_P0);
   }
   return sources;

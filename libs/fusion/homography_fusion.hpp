@@ -33,8 +33,9 @@ struct FusionParameters {
   int max_gated_in_a_row = 5;  ///< after so many refusals the filter believes vision and starts a new epoch
   double min_overlap =
       0.3;  ///< share of the anchor frame still in view below which the filter is anchored anew
-  /// Scale of vision's covariance (kPropagated): the ground is only roughly a plane, and relief that passes for ground is a bias
-  /// that no residual shows. 8 makes a homography over ordinary relief (trees, kerbs) as uncertain as it is found to be.
+  /// Scale of vision's covariance (kPropagated): the ground is only roughly a plane, and relief that passes
+  /// for ground is a bias that no residual shows. 8 makes a homography over ordinary relief (trees, kerbs) as
+  /// uncertain as it is found to be.
   double visual_inflation = 8.0;
   double process_inflation = 1.0;  ///< scale of the inertial covariance when it serves as Q (kPropagated)
   FusionParameters();              ///< the paper's Q and P_0

@@ -38,7 +38,8 @@ struct InertialParameters {
       2.0;                       ///< s: how long that acceleration lasts; makes gravity's correction slow
   double max_imu_gap_s = 0.1;    ///< s: a longer hole in the IMU's samples is a gap
   double max_frame_gap_s = 2.0;  ///< s: frames further apart than this start anew
-  /// Over how many frames vision's errors repeat themselves (the same relief stays in view): a correction counts for one of them.
+  /// Over how many frames vision's errors repeat themselves (the same relief stays in view): a correction
+  /// counts for one of them.
   double feedback_correlation_frames = 8.0;
   double innovation_gate_probability = 0.999;  ///< chi-square gate of every correction
 };

@@ -1,4 +1,5 @@
-// Messages behind a small interface, so that a node runs over UDP multicast, in one process on memq://, or on a fake.
+// Messages behind a small interface, so that a node runs over UDP multicast, in one process on memq://, or on
+// a fake.
 #pragma once
 
 #include <chrono>
@@ -18,10 +19,11 @@ class Bus {
 
   virtual ~Bus() = default;
   virtual void publish(const std::string& channel, const std::vector<uint8_t>& data) = 0;
-  /// `channel` is a name, not a pattern. `capacity`: messages that wait for the handler before the newest is dropped.
+  /// `channel` is a name, not a pattern. `capacity`: messages that wait for the handler before the newest is
+  /// dropped.
   virtual void subscribe(const std::string& channel, int capacity, Handler handler) = 0;
-  /// Waits up to `timeout` for a message, then hands out all that are waiting. Number of messages handed out; 0 after the
-  /// timeout or a signal. Nothing that a handler throws gets through.
+  /// Waits up to `timeout` for a message, then hands out all that are waiting. Number of messages handed out;
+  /// 0 after the timeout or a signal. Nothing that a handler throws gets through.
   virtual int handle(std::chrono::milliseconds timeout) = 0;
   /// Exceptions that handlers let out so far: each was logged and cost its message.
   virtual int64_t handlerFailures() const { return 0; }
@@ -35,19 +37,20 @@ class Bus {
   template <typename Message>
   void subscribe(const std::string& channel, int capacity, std::function<void(const Message&)> handler,
                  std::function<void()> damaged) {
-    subscribe(channel, capacity, [handler = std::move(handler), damaged = std::move(damaged)](const uint8_t* data, int size) {
-      Message message;
-      if (decodeMessage(data, size, message)) {
-        handler(message);
-      } else if (damaged) {
-        damaged();
-      }
-    });
+    subscribe(channel, capacity,
+              [handler = std::move(handler), damaged = std::move(damaged)](const uint8_t* data, int size) {
+                Message message;
+                if (decodeMessage(data, size, message)) {
+                  handler(message);
+                } else if (damaged) {
+                  damaged();
+                }
+              });
   }
 };
 
-/// A bus on an LCM URL (udpm://..., memq://). Throws std::runtime_error where LCM cannot open it. Refuses anything but memq:// where
-/// the environment has REDBEE_NETWORK_POLICY=none.
+/// A bus on an LCM URL (udpm://..., memq://). Throws std::runtime_error where LCM cannot open it. Refuses
+/// anything but memq:// where the environment has REDBEE_NETWORK_POLICY=none.
 std::unique_ptr<Bus> makeLcmBus(const std::string& url);
 
 }  // namespace redbee

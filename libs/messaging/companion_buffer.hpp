@@ -8,9 +8,10 @@
 
 namespace redbee {
 
-/// Messages of one channel by frame time. A frame's companion is waited for while its publisher is believed alive: until a later
-/// message of the channel shows that it was lost, or message time has moved on by `patience_us`. Who has been waited for in vain is not
-/// waited for again until it speaks. So the answer depends on the messages alone while none is lost, and a dead publisher costs one wait.
+/// Messages of one channel by frame time. A frame's companion is waited for while its publisher is believed
+/// alive: until a later message of the channel shows that it was lost, or message time has moved on by
+/// `patience_us`. Who has been waited for in vain is not waited for again until it speaks. So the answer
+/// depends on the messages alone while none is lost, and a dead publisher costs one wait.
 template <typename Message>
 class CompanionBuffer {
  public:

@@ -68,7 +68,8 @@ class ConfigurationError : public std::runtime_error {
 /// camera that is not described, channels that share a name, files that include each other.
 Configuration loadConfiguration(const std::filesystem::path& file);
 
-/// Sets one key (`segmentation.threshold`) from YAML text, as a command line gives it. Throws ConfigurationError.
+/// Sets one key (`segmentation.threshold`) from YAML text, as a command line gives it. Throws
+/// ConfigurationError.
 void applySetting(Configuration& configuration, const std::string& key, const std::string& text);
 /// Sets all that a preset sets. False for a name that is no preset.
 bool applyPreset(Configuration& configuration, const std::string& name);

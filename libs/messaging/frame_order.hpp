@@ -7,8 +7,9 @@
 
 namespace redbee {
 
-/// A frame that is not newer than the last one came late or twice and is left out, unless time itself was set back: then the frames go
-/// on from an earlier time, and after `kRestartAfter` of them in a row, each newer than the one before, they are believed.
+/// A frame that is not newer than the last one came late or twice and is left out, unless time itself was set
+/// back: then the frames go on from an earlier time, and after `kRestartAfter` of them in a row, each newer
+/// than the one before, they are believed.
 class FrameOrder {
  public:
   enum class Verdict { kNext, kDiscard, kRestart };

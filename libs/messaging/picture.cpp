@@ -29,7 +29,8 @@ std::optional<cv::Mat> viewRaw(const image_t& message, int channels) {
   }
   // cv::Mat has no read-only view; the callers below only read.
   auto* data = const_cast<uint8_t*>(message.data.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-  return cv::Mat(message.height, message.width, CV_8UC(channels), data, static_cast<size_t>(message.row_stride));
+  return cv::Mat(message.height, message.width, CV_8UC(channels), data,
+                 static_cast<size_t>(message.row_stride));
 }
 
 std::optional<cv::Mat> convertRaw(const image_t& message, int channels, int code) {

@@ -21,8 +21,8 @@ enum PixelFormat : int32_t {
 /// Width and height that a JPEG's header declares; nothing where there is no such header. Decodes nothing.
 std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size);
 
-/// The picture as 8-bit grey, or as BGR. Nothing where the message lies about its size or format, or is cut short: sizes are compared
-/// with the header's before anything is decoded.
+/// The picture as 8-bit grey, or as BGR. Nothing where the message lies about its size or format, or is cut
+/// short: sizes are compared with the header's before anything is decoded.
 std::optional<cv::Mat> decodeGrey(const image_t& message);
 std::optional<cv::Mat> decodeColour(const image_t& message);
 

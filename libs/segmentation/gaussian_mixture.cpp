@@ -42,7 +42,10 @@ cv::Mat GaussianMixture::update(const cv::Mat& grey, const cv::Mat& valid) {
 
 bool GaussianMixture::learn(Pixel& pixel, float value) const {
   pixel.age = static_cast<uint16_t>(std::min(pixel.age + 1, history_));
-  const float rate = 1.0F / static_cast<float>(std::min(2 * pixel.age, history_));
+  // The weights change with the history alone: a fast start would take a mover for background in three
+  // frames. Mean and variance start as plain averages, so that a pixel seen for the first time is soon known.
+  const float rate = 1.0F / static_cast<float>(history_);
+  const float least_gain = 1.0F / static_cast<float>(pixel.age);
   const float prune = rate * kComplexityPrior;
   bool background = false;
   bool matched = false;
@@ -59,7 +62,7 @@ bool GaussianMixture::learn(Pixel& pixel, float value) const {
       if (distance2 < kMatchThreshold * gaussian.variance) {
         matched = true;
         gaussian.weight += rate;
-        const float gain = rate / gaussian.weight;
+        const float gain = std::min(std::max(rate / gaussian.weight, least_gain), 1.0F);
         gaussian.mean += gain * difference;
         gaussian.variance = std::clamp(gaussian.variance + gain * (distance2 - gaussian.variance),
                                        kMinVariance, kMaxVariance);

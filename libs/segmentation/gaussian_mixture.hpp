@@ -2,8 +2,8 @@
 // "Improved adaptive Gaussian mixture model for background subtraction", ICPR 2004; the paper's [3]).
 //
 // Two departures. Each pixel has its own age, for pixels come into a flying camera's view at different times:
-// the learning rate is 1 / (2 age) until the history is full. And the whole model can be moved by a
-// homography.
+// until the history is full, means and variances are plain averages of what was seen. And the whole model can
+// be moved by a homography.
 #pragma once
 
 #include <Eigen/Core>

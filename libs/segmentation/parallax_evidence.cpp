@@ -5,167 +5,167 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "segmentation/guided_filter.hpp"
+#include "segmentation/interval_difference.hpp"
 #include "segmentation/parallax_segment.hpp"
-#include "segmentation/photometric_test.hpp"
-#include "segmentation/warping.hpp"
 
 namespace redbee {
 namespace {
 
-PlaneMotion compose(const PlaneMotion& cb, const PlaneMotion& ba) {
-  return {cb.R_ba * ba.R_ba, cb.R_ba * ba.t_ba + cb.t_ba, ba.m_a, ba.h_a};
-}
+constexpr int kRegistrationReach = 1;  // px of the work: how badly a static pixel may be registered
+constexpr double kMarginPx = 16;       // full-size px: flow so near to what is not there is made up
 
-/// Inverse search follows patches of 8 px: flow within a patch's width of what is not there is made up.
-void growUnseen(cv::Mat& unseen) {
-  constexpr int kPatch = 8;
-  cv::rectangle(unseen, cv::Rect({}, unseen.size()), cv::Scalar(255), 1);
-  cv::dilate(unseen, unseen, cv::getStructuringElement(cv::MORPH_RECT, {kPatch + 1, kPatch + 1}));
+Eigen::Matrix3d toWork(double scale) {
+  // A pixel of the work is the mean of a block: its centre lies between theirs.
+  const double shift = -(scale - 1) / (2 * scale);
+  Eigen::Matrix3d work;
+  work << 1 / scale, 0, shift, 0, 1 / scale, shift, 0, 0, 1;
+  return work;
 }
 
 }  // namespace
 
+cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(int work_downscale) {
+  // Patches of 8 px at half the full size: a finer flow costs four times as much, a coarser one loses people.
+  constexpr int kIterations = 4;
+  constexpr int kStride = 5;
+  auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
+  dis->setFinestScale(work_downscale == 1 ? 1 : 0);
+  dis->setGradientDescentIterations(kIterations);
+  dis->setPatchStride(kStride);
+  return dis;
+}
+
 ParallaxEvidence::ParallaxEvidence(const SegmentationParameters& parameters)
-    : parameters_(parameters), dis_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST)) {}
+    : parameters_(parameters),
+      scale_(std::max(parameters.work_downscale, 1)),
+      work_(toWork(scale_)),
+      dis_(makeMotionFlow(parameters.work_downscale)),
+      travelling_(parameters) {}
 
 void ParallaxEvidence::reset() {
-  frames_.clear();
-  accumulated_.release();
+  frames_.reset();
+  travelling_.reset();
   unseen_.release();
 }
 
 void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion) {
-  last_step_ = ground;
-  for (Frame& frame : frames_) {
-    frame.ground = normaliseHomography(ground * frame.ground);
-    if (frame.still) {
-      frame.motion = motion;
-    } else if (frame.motion && motion) {
-      frame.motion = compose(*motion, *frame.motion);
-    } else {
-      frame.motion.reset();
-    }
-    frame.still = false;
-  }
-}
-
-const ParallaxEvidence::Frame* ParallaxEvidence::reference(int64_t utime) const {
-  const int64_t wanted = utime - std::llround(parameters_.baseline_s * 1e6);
-  const Frame* best = nullptr;
-  for (const Frame& frame : frames_) {
-    if (best == nullptr || std::abs(frame.utime - wanted) < std::abs(best->utime - wanted)) best = &frame;
-  }
-  return best;
+  last_step_ = normaliseHomography(work_ * ground * work_.inverse());
+  frames_.carry(last_step_, motion);
 }
 
 cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K) {
-  cv::Mat evidence;
-  if (const Frame* frame = reference(utime)) {
-    const cv::Mat aligned = alignReference(*frame, K);
-    const cv::Mat flow = denseFlow(grey, aligned);
-    evidence = judgeFlow(*frame, K, flow, grey, aligned);
-    evidence.setTo(0, unseen_);
-    const double frames =
-        static_cast<double>(utime - frame->utime) / static_cast<double>(utime - frames_.back().utime);
-    evidence = accumulate(evidence, flow, 1 / frames);
-    accumulated_ = evidence.clone();
+  cv::Mat small;
+  cv::resize(grey, small, {}, 1 / scale_, 1 / scale_, cv::INTER_AREA);
+  cv::Mat found;
+  if (frames_.newest() != nullptr) {
+    cv::resize(evidence(small, work_ * K, utime), found, grey.size(), 0, 0, cv::INTER_LINEAR);
+    cv::resize(unseen_, unseen_, grey.size(), 0, 0, cv::INTER_NEAREST);
   }
-  remember(utime, grey);
-  return evidence;
+  if (small.data == grey.data) small = grey.clone();
+  frames_.remember(utime, small, std::max(parameters_.appearance_span_s, parameters_.baseline_s));
+  return found;
 }
 
-void ParallaxEvidence::remember(int64_t utime, const cv::Mat& grey) {
-  const double kept = 1.5 * parameters_.baseline_s * 1e6;
-  while (!frames_.empty() && static_cast<double>(utime - frames_.front().utime) > kept) frames_.pop_front();
-  Frame frame;
-  frame.utime = utime;
-  frame.grey = grey.clone();
-  frames_.push_back(frame);
-}
-
-cv::Mat ParallaxEvidence::denseFlow(const cv::Mat& now, const cv::Mat& then) {
+cv::Mat ParallaxEvidence::evidence(const cv::Mat& grey, const Eigen::Matrix3d& K, int64_t utime) {
+  const EarlierFrame& frame = *frames_.aged(utime, parameters_.baseline_s);
+  const int margin = static_cast<int>(std::lround(kMarginPx / scale_));
+  const AlignedPicture reference = alignPicture(frame, K, margin);
+  unseen_ = reference.unseen;
   cv::Mat flow;
-  if (parameters_.flow_downscale <= 1) {
-    dis_->calc(now, then, flow);
-    return flow;
-  }
-  const double shrink = 1.0 / parameters_.flow_downscale;
-  cv::Mat small_now, small_then;
-  cv::resize(now, small_now, {}, shrink, shrink, cv::INTER_AREA);
-  cv::resize(then, small_then, {}, shrink, shrink, cv::INTER_AREA);
-  dis_->calc(small_now, small_then, flow);
-  cv::resize(flow, flow, now.size(), 0, 0, cv::INTER_LINEAR);
-  return flow * parameters_.flow_downscale;
+  dis_->calc(grey, reference.grey, flow);
+  const double frames =
+      static_cast<double>(utime - frame.utime) / static_cast<double>(utime - frames_.newest()->utime);
+  FlowVerdict verdict = judgeFlow(frame, K, grey, flow, frames);
+  verdict.evidence.off.setTo(cv::Scalar::all(0), unseen_);
+  verdict.evidence.appearance = unlikeStatic(grey, K, utime, reference, verdict.static_displaced);
+  travelling_.update(verdict.evidence, last_step_, unseen_);
+  const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
+  const cv::Mat motion = guidedFilter(grey, travelling_.motion(), radius, parameters_.fill_contrast);
+  cv::Mat product = cv::max(motion, 0);
+  if (parameters_.use_appearance) product = product.mul(travelling_.appearance());
+  cv::sqrt(product, product);
+  return cv::min(product, 1);
 }
 
-cv::Mat ParallaxEvidence::alignReference(const Frame& frame, const Eigen::Matrix3d& K) {
-  cv::Mat aligned = carryMap(frame.grey, frame.ground, cv::INTER_LINEAR);
-  unseen_ = ~overlapMask(frame.grey.size(), frame.ground);
-  if (!frame.motion) {
-    growUnseen(unseen_);
-    return aligned;
-  }
-  const Eigen::Matrix3d far = K * frame.motion->R_ba * K.inverse();
-  const cv::Mat aligned_far = carryMap(frame.grey, far, cv::INTER_LINEAR);
-  const cv::Mat unseen_far = ~overlapMask(frame.grey.size(), far);
-  // Ground is where m' R' K^-1 x > 0: a linear function of the current pixel.
-  const Eigen::RowVector3d horizon =
-      frame.motion->m_a.transpose() * frame.motion->R_ba.transpose() * K.inverse();
-  for (int y = 0; y < aligned.rows; ++y) {
-    for (int x = 0; x < aligned.cols; ++x) {
-      if (horizon.x() * x + horizon.y() * y + horizon.z() > 0) continue;
-      aligned.at<uint8_t>(y, x) = aligned_far.at<uint8_t>(y, x);
-      unseen_.at<uint8_t>(y, x) = unseen_far.at<uint8_t>(y, x);
-    }
-  }
-  growUnseen(unseen_);
-  return aligned;
+cv::Mat ParallaxEvidence::flowVariance(const cv::Mat& grey) const {
+  // At a quarter of the full size, about the flow's own grid. OpenCV's eigenvalue is that of the sum of
+  // squared Sobel responses over kBlock^2 pixels, scaled by (kSobelGain / 2 * kBlock * 255)^-2.
+  constexpr int kBlock = 5;
+  constexpr double kSobelGain = 8;
+  const double to_square_gradient = std::pow(kSobelGain / 2 * kBlock * 255 / (kBlock * kSobelGain), 2);
+  cv::Mat quarter, variance;
+  cv::resize(grey, quarter, {}, scale_ / 4, scale_ / 4, cv::INTER_AREA);
+  cv::cornerMinEigenVal(quarter, variance, kBlock);
+  const double noise2 = std::pow(parameters_.parallax_noise_px / scale_, 2);
+  const double floor2 = parameters_.min_gradient * parameters_.min_gradient;
+  variance = noise2 + noise2 * floor2 / (variance * to_square_gradient + 1e-3);
+  cv::resize(variance, variance, grey.size(), 0, 0, cv::INTER_LINEAR);
+  return variance;
 }
 
-cv::Mat ParallaxEvidence::judgeFlow(const Frame& frame, const Eigen::Matrix3d& K, const cv::Mat& flow,
-                                    const cv::Mat& now, const cv::Mat& then) const {
+ParallaxEvidence::FlowVerdict ParallaxEvidence::judgeFlow(const EarlierFrame& frame, const Eigen::Matrix3d& K,
+                                                          const cv::Mat& grey, const cv::Mat& flow,
+                                                          double frames) const {
   const ParallaxSegment segment(frame.motion, K, parameters_);
-  const float half2 = static_cast<float>(parameters_.evidence_sigmas * parameters_.evidence_sigmas);
-  cv::Mat evidence(flow.size(), CV_32F);
-  cv::Mat static_source(flow.size(), CV_32FC2);
-  cv::Mat moving_source(flow.size(), CV_32FC2);
+  const cv::Mat variance = flowVariance(grey);
+  const auto share = static_cast<float>(1 / frames);
+  FlowVerdict verdict{{cv::Mat(flow.size(), CV_32FC2), flow * share, {}}, cv::Mat(flow.size(), CV_32FC2)};
   for (int y = 0; y < flow.rows; ++y) {
     const cv::Vec2f* back = flow.ptr<cv::Vec2f>(y);
+    const float* noise = variance.ptr<float>(y);
+    cv::Vec2f* off = verdict.evidence.off.ptr<cv::Vec2f>(y);
+    cv::Vec2f* displaced = verdict.static_displaced.ptr<cv::Vec2f>(y);
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
-      const cv::Vec2f ground = pixel + back[x];
-      const ParallaxSegment::Verdict verdict = segment.judge(ground, -back[x]);
-      evidence.at<float>(y, x) = verdict.sigmas_squared / (verdict.sigmas_squared + half2);
-      moving_source.at<cv::Vec2f>(y, x) = ground;
-      static_source.at<cv::Vec2f>(y, x) = pixel - verdict.nearest;
+      const ParallaxSegment::Verdict judged = segment.judge(pixel + back[x], -back[x], noise[x]);
+      off[x] = judged.off_in_sigmas;
+      displaced[x] = judged.nearest;
     }
   }
-  if (!parameters_.use_photometric) return evidence;
-  cv::Mat as_static, as_moving;
-  cv::remap(then, as_static, static_source, {}, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  cv::remap(then, as_moving, moving_source, {}, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  return evidence.mul(photometricWeight(now, as_static, as_moving, parameters_));
+  return verdict;
 }
 
-cv::Mat ParallaxEvidence::accumulate(const cv::Mat& evidence, const cv::Mat& flow, double share) const {
-  if (accumulated_.empty() || parameters_.evidence_rate >= 1) return evidence;
-  const Eigen::Matrix3f back = last_step_.inverse().cast<float>();
-  const auto step = static_cast<float>(share);
-  cv::Mat source(flow.size(), CV_32FC2);
-  for (int y = 0; y < flow.rows; ++y) {
-    const cv::Vec2f* f = flow.ptr<cv::Vec2f>(y);
-    cv::Vec2f* to = source.ptr<cv::Vec2f>(y);
-    for (int x = 0; x < flow.cols; ++x) {
-      const float u = static_cast<float>(x) + step * f[x][0];
-      const float v = static_cast<float>(y) + step * f[x][1];
-      const Eigen::Vector3f p = back * Eigen::Vector3f(u, v, 1);
-      to[x] = {p.x() / p.z(), p.y() / p.z()};
+cv::Mat ParallaxEvidence::unlikeStatic(const cv::Mat& grey, const Eigen::Matrix3d& K, int64_t utime,
+                                       const AlignedPicture& reference,
+                                       const cv::Mat& static_displaced) const {
+  // The static scene as ground, and at the depth that the flow suggests.
+  const auto likeNeither = [&](const AlignedPicture& aligned, double age_ratio) {
+    const GreyInterval interval(aligned.grey, kRegistrationReach);
+    cv::Mat source(grey.size(), CV_32FC2);
+    const auto ratio = static_cast<float>(age_ratio);
+    for (int y = 0; y < source.rows; ++y) {
+      const cv::Vec2f* displaced = static_displaced.ptr<cv::Vec2f>(y);
+      cv::Vec2f* to = source.ptr<cv::Vec2f>(y);
+      for (int x = 0; x < source.cols; ++x) {
+        to[x] = cv::Vec2f(static_cast<float>(x), static_cast<float>(y)) - ratio * displaced[x];
+      }
     }
+    cv::Mat difference = cv::min(interval.outside(grey), interval.at(source).outside(grey));
+    difference.setTo(0, aligned.unseen);
+    return difference;
+  };
+  const auto unlikeGround = [&](const AlignedPicture& aligned) {
+    cv::Mat difference = GreyInterval(aligned.grey, kRegistrationReach).outside(grey);
+    difference.setTo(0, aligned.unseen);
+    return difference;
+  };
+  const auto aligned = [&](double age_s) { return alignPicture(*frames_.aged(utime, age_s), K, 1); };
+
+  constexpr double kStep = 2;
+  double age = kStep * parameters_.baseline_s;
+  AlignedPicture older = aligned(age);
+  cv::Mat difference = cv::min(likeNeither(reference, 1), likeNeither(older, kStep));
+  // Slow movers take long to leave their own place: the further pairs ask about the ground alone, for what
+  // the flow says of a depth does not reach so far back.
+  cv::Mat before = unlikeGround(older);
+  while (kStep * age <= parameters_.appearance_span_s) {
+    age *= kStep;
+    const cv::Mat now = unlikeGround(aligned(age));
+    difference = cv::max(difference, cv::min(before, now));
+    before = now;
   }
-  cv::Mat summed;
-  cv::remap(accumulated_, summed, source, {}, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::addWeighted(summed, 1 - parameters_.evidence_rate, evidence, parameters_.evidence_rate, 0, summed);
-  return summed;
+  return differenceEvidence(difference, parameters_.silhouette_window_px, parameters_.photometric_noise);
 }
 
 }  // namespace redbee

@@ -20,16 +20,16 @@ class ParallaxSegment {
                   const SegmentationParameters& parameters);
 
   struct Verdict {
-    cv::Vec2f nearest;     ///< px: the point of the segment that is nearest to the flow
-    float sigmas_squared;  ///< squared distance of the flow from the segment over its variance
+    cv::Vec2f nearest;        ///< px: the point of the segment that is nearest to the flow
+    cv::Vec2f off_in_sigmas;  ///< from there to the flow, over its standard deviation
+    float sigmasSquared() const { return off_in_sigmas.dot(off_in_sigmas); }
   };
   /// `ground`: where the scene point would be in the current picture if it lay on the ground [px]; `flow`:
-  /// from there to where it is [px].
-  Verdict judge(const cv::Vec2f& ground, const cv::Vec2f& flow) const;
+  /// from there to where it is [px], of variance `noise_variance` [px^2].
+  Verdict judge(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
 
  private:
   cv::Vec3f epipole_{0, 0, 0};  ///< K t over the nearest depth
-  float noise_variance_;        ///< px^2
   float direction_variance_;    ///< rad^2
 };
 

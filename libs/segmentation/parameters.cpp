@@ -5,6 +5,7 @@ namespace redbee {
 SegmentationParameters paperSegmentation() {
   SegmentationParameters parameters;
   parameters.method = SegmentationMethod::kTwoPlanes;
+  parameters.use_refinement = true;
   parameters.confirm_frames = 1;
   return parameters;
 }

@@ -22,23 +22,27 @@ struct SegmentationParameters {
   bool use_front_plane = true;  ///< false: Table II's "without front plane"
 
   // Parallax: flow between a frame and an earlier one, after the ground's (and above the horizon the
-  // rotation's) motion has been taken out.
-  double baseline_s = 0.125;  ///< s: how much earlier; longer shows slower movers and asks more of the flow
-  int flow_downscale = 1;     ///< 1, 2 or 4: flow on a picture this much smaller
+  // rotation's) motion has been taken out, and appearance against earlier frames.
+  int work_downscale = 2;     ///< 1, 2 or 4: all of it on a picture this much smaller
+  double baseline_s = 0.083;  ///< s: how much earlier; longer shows slower movers and asks more of the flow
   bool use_epipolar = true;   ///< false: any flow against the ground homography is foreground
-  double parallax_noise_px = 0.5;     ///< px, one sigma of the flow at a full-size picture
-  double direction_error = 0.05;      ///< rad, one sigma of the direction of travel; scales with the parallax
+  double parallax_noise_px = 0.5;  ///< px, one sigma of the flow over good texture, at the full-size picture
+  double min_gradient = 1.6;      ///< grey levels a px, of a picture four times smaller: texture at which the
+                                  ///< flow's variance doubles
+  double direction_error = 0.05;  ///< rad, one sigma of the direction of travel; scales with the parallax
   double nearest_depth_share = 0.15;  ///< of the height: no static surface is nearer to the camera than this
-  double evidence_sigmas = 3.0;  ///< distance from the parallax segment, in sigmas, that is half the evidence
-  bool use_photometric = true;   ///< false: the flow alone, without comparing grey values
-  double photometric_noise = 6.0;  ///< grey levels: differences of this size are noise
-  int photometric_window_px = 7;  ///< px, odd: does moving freely fit the picture better than standing still?
-  int silhouette_window_px = 3;   ///< px, odd: does standing still fit it at all?
-  double evidence_rate =
-      0.15;  ///< learning rate of the evidence that travels along the flow; 1: none travels
+  double evidence_sigmas = 2.5;  ///< distance from the parallax segment, in sigmas, that is half the evidence
+  double evidence_rate = 0.2;    ///< learning rate of the motion that travels along the flow; 1: none travels
+  bool use_appearance = true;    ///< false: motion alone, without comparing grey values
+  double appearance_span_s = 1.0;   ///< s: ages of the earlier pictures double from the baseline up to this
+  double appearance_rate = 0.5;     ///< learning rate of the appearance term along the flow
+  double photometric_noise = 10.0;  ///< grey levels: differences of this size are noise
+  int silhouette_window_px = 3;     ///< px of the smaller picture, odd: over which differences are averaged
+  double fill_radius_px = 8;        ///< px: reach of the edge-aware filter on the motion
+  double fill_contrast = 12;        ///< grey levels: contrast below this is no edge to it
 
   // Foreground refinement (paper III.B).
-  bool use_refinement = true;   ///< false: Table II's "without refinement": P_FG is the raw foreground
+  bool use_refinement = false;  ///< (13) to (16); false: P_FG is the raw foreground
   bool use_entropy = true;      ///< the entropy term P_E alone
   double alpha = 0.4;           ///< temporal learning rate (13)
   double beta = 0.4;            ///< spatial learning rate (14)
@@ -52,7 +56,7 @@ struct SegmentationParameters {
   double flow_noise_px = 0.4;  ///< px: flow below this has no direction and does not vote
 
   // Masks and objects.
-  double threshold = 0.15;     ///< on P_FG
+  double threshold = 0.5;      ///< on P_FG
   int opening_px = 3;          ///< px: 0 for none
   int closing_px = 7;          ///< px: 0 for none
   double min_area_px = 30;     ///< px^2: smaller components are no objects

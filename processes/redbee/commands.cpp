@@ -129,7 +129,6 @@ int runTool(int argc, char** argv) {
   addSimulateCommand(app);
   addCalibrateCommand(app);
   addDoctorCommand(app);
-  addCalibrateCommand(app);
   cv::setNumThreads(1);  // figures for one core, and the same sums on every machine
   try {
     app.parse(argc, argv);

@@ -1,8 +1,12 @@
+// The whole calibration against simulated truth.
 #include "calibration/calibration.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdlib>
 #include <iostream>
 
 #include "tests/calibration/simulated_recording.hpp"
@@ -10,39 +14,220 @@
 namespace redbee::calibration {
 namespace {
 
+using simulation::Channel;
 using simulation::Trajectory;
+using simulation::TrajectoryParameters;
 
 double rotationError_deg(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return logSO3(a * b.transpose()).norm() / kTestDegree;
 }
 
-void print(const CalibrationResult& result) {
-  for (const ParameterReport& p : result.parameters) {
-    std::cout << p.name << " [" << p.unit << "]:";
-    for (size_t i = 0; i < p.value.size(); ++i) std::cout << " " << p.value[i] << "+-" << p.sigma[i];
-    std::cout << "  " << toString(p.verdict) << ": " << p.words << "\n";
-  }
-  for (const SplitHalfEntry& entry : result.split_half) {
-    std::cout << "  halves: " << entry.name << " " << entry.difference << " +- " << entry.sigma << " " << entry.unit << "\n";
-  }
-  std::cout << "  vision scale " << result.vision_sigma_scale << " imu scale " << result.imu_sigma_scale << " points rms "
-            << result.points_rms_px << "\n";
+SimulationChoices briefly() {
+  SimulationChoices choices;
+  choices.duration_s = 6;
+  choices.grid_px = 40;
+  return choices;
 }
 
-TEST(Calibration, scratch) {
-  for (unsigned seed = 1; seed <= 4; ++seed) {
-    const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed);
-    const CalibrationResult result = calibrate(r.input);
-    std::cout << "seed " << seed << " truth: dt " << r.truth.timeshift_s << " h " << r.truth.start_height_m << " bg "
-              << r.gyro_bias.transpose() / kTestDegree << " ba " << r.accel_bias.transpose() << " p "
-              << r.truth.p_IC.transpose() << "\n";
-    std::cout << "closed form: rot err " << rotationError_deg(result.diagnostics.alignment.hand_eye.R_CI, r.truth.R_CI)
-              << " dt " << result.diagnostics.alignment.timeshift_s << " corr "
-              << result.diagnostics.alignment.correlation << " exc " << result.excitation.rotation.transpose() << " sig "
-              << result.diagnostics.alignment.hand_eye.sigma.transpose() / kTestDegree << "\n";
-    std::cout << "rot err " << rotationError_deg(result.values.estimated.R_CI, r.truth.R_CI) << "\n";
-    print(result);
+/// Squared errors over squared deviations, added up over recordings.
+struct Consistency {
+  double sum = 0;
+  int count = 0;
+  void add(double error, double sigma) {
+    sum += error * error / (sigma * sigma);
+    ++count;
   }
+  double rms() const { return std::sqrt(sum / count); }
+};
+
+/// REDBEE_CALIBRATION_SEEDS=50 in the environment flies them all; five take some seconds.
+unsigned numberOfSeeds() {
+  const char* number = std::getenv("REDBEE_CALIBRATION_SEEDS");
+  return number != nullptr ? static_cast<unsigned>(std::max(1, std::atoi(number))) : 5U;
+}
+
+TEST(Calibration, simulatedFlightsWithinTheLimitsAndTheirDeviations) {
+  const unsigned seeds = numberOfSeeds();
+  double worst_rotation = 0, worst_shift = 0, worst_height = 0;
+  Consistency rotation, shift, height, gyro, accel;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    SimulationChoices choices;
+    choices.duration_s = 8;
+    choices.grid_px = 40;
+    choices.outlier_share = 0.05;
+    const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed, choices);
+    const CalibrationResult result = calibrate(r.input);
+    const InertialExtrinsics& estimated = result.values.estimated;
+    worst_rotation = std::max(worst_rotation, rotationError_deg(estimated.R_CI, r.truth.R_CI));
+    worst_shift = std::max(worst_shift, std::abs(estimated.timeshift_s - r.truth.timeshift_s));
+    worst_height = std::max(worst_height, std::abs(estimated.start_height_m / r.truth.start_height_m - 1));
+    const Eigen::Vector3d turn = logSO3(estimated.R_CI * r.truth.R_CI.transpose()) / kTestDegree;
+    for (int i = 0; i < 3; ++i) {
+      const auto axis = static_cast<size_t>(i);
+      rotation.add(turn(i), result.parameter("camera.R_CI").sigma[axis]);
+      gyro.add((result.values.gyro_bias(i) - r.gyro_bias(i)) / kTestDegree,
+               result.parameter("gyro_bias").sigma[axis]);
+      accel.add(result.values.accel_bias(i) - r.accel_bias(i), result.parameter("accel_bias").sigma[axis]);
+    }
+    shift.add(estimated.timeshift_s - r.truth.timeshift_s, result.parameter("camera.timeshift_s").sigma[0]);
+    height.add(estimated.start_height_m - r.truth.start_height_m,
+               result.parameter("plane.height_m").sigma[0]);
+  }
+  std::cout << "worst of " << seeds << ": rotation " << worst_rotation << " deg, time shift "
+            << 1e3 * worst_shift << " ms, height " << 100 * worst_height
+            << " %\nrms of error / sigma: rotation " << rotation.rms() << ", time shift " << shift.rms()
+            << ", height " << height.rms() << ", gyro bias " << gyro.rms() << ", accelerometer bias "
+            << accel.rms() << "\n";
+  EXPECT_LT(worst_rotation, 0.1);
+  EXPECT_LT(worst_shift, 1e-3);
+  EXPECT_LT(worst_height, 0.02);
+  for (const Consistency* c : {&rotation, &shift, &height, &gyro, &accel}) {
+    EXPECT_GT(c->rms(), 0.25);
+    EXPECT_LT(c->rms(), 1.9);
+  }
+}
+
+/// Errors that all points of a quarter of the picture share do not average out over the points; the residuals
+/// show them.
+TEST(Calibration, deviationsGrowWithErrorsThatNeighbouringPointsShare) {
+  Consistency rotation;
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    SimulationChoices choices;
+    choices.duration_s = 8;
+    choices.grid_px = 40;
+    choices.common_noise_px = 0.1;
+    const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed, choices);
+    const CalibrationResult result = calibrate(r.input);
+    const Eigen::Vector3d turn =
+        logSO3(result.values.estimated.R_CI * r.truth.R_CI.transpose()) / kTestDegree;
+    for (int i = 0; i < 3; ++i)
+      rotation.add(turn(i), result.parameter("camera.R_CI").sigma[static_cast<size_t>(i)]);
+  }
+  std::cout << "rms of error / sigma with shared errors: " << rotation.rms() << "\n";
+  EXPECT_LT(rotation.rms(), 1.6);
+}
+
+TEST(Calibration, aNominalMountingAQuarterTurnOffDoesNotMatter) {
+  SimulatedRecording r = simulateRecording(Trajectory::calibration(11, 6), 11, briefly());
+  r.input.nominal.R_CI = Eigen::Matrix3d::Identity();
+  const CalibrationResult result = calibrate(r.input);
+  EXPECT_LT(rotationError_deg(result.values.kept.R_CI, r.truth.R_CI), 0.1);
+}
+
+TEST(Calibration, nothingIsRefusedWhereEverythingMoves) {
+  const SimulatedRecording r = simulateRecording(Trajectory::calibration(12, 6), 12, briefly());
+  const CalibrationResult result = calibrate(r.input);
+  for (const ParameterReport& report : result.parameters) {
+    EXPECT_EQ(report.verdict, Verdict::kFound) << report.name << ": " << report.words;
+  }
+  ASSERT_EQ(result.split_half.size(), 4U);
+  for (const SplitHalfEntry& entry : result.split_half) EXPECT_LT(entry.ratio(), 4) << entry.name;
+}
+
+TrajectoryParameters straightFlight(double speed) {
+  TrajectoryParameters p;
+  p.position[0] = {0, speed, {}};
+  p.position[1] = {0, 0, {}};
+  p.position[2] = {6, 0, {}};
+  return p;
+}
+
+TEST(Calibration, hoverRefusesRotationTimeShiftAndHeight) {
+  const SimulatedRecording r = simulateRecording(Trajectory(straightFlight(0)), 21, briefly());
+  const CalibrationResult result = calibrate(r.input);
+  for (const char* name : {"camera.timeshift_s", "plane.height_m", "camera.R_CI", "camera.p_IC"}) {
+    EXPECT_EQ(result.parameter(name).verdict, Verdict::kRefused)
+        << name << ": " << result.parameter(name).words;
+  }
+  EXPECT_EQ(result.values.kept.R_CI, r.input.nominal.R_CI);
+  EXPECT_EQ(result.values.kept.timeshift_s, r.input.nominal.timeshift_s);
+  EXPECT_EQ(result.values.kept.start_height_m, r.input.nominal.start_height_m);
+}
+
+TEST(Calibration, constantVelocityHidesTheHeightUntilAnAltimeterOrAPersonTellsIt) {
+  SimulatedRecording blind = simulateRecording(Trajectory(straightFlight(1.5)), 22, briefly());
+  EXPECT_EQ(calibrate(blind.input).parameter("plane.height_m").verdict, Verdict::kRefused);
+
+  SimulatedRecording told = blind;
+  told.input.start_height = MeasuredHeight{blind.truth.start_height_m, 0.05};
+  EXPECT_EQ(calibrate(told.input).parameter("plane.height_m").verdict, Verdict::kFound);
+
+  SimulationChoices choices = briefly();
+  choices.altimeter = true;
+  const SimulatedRecording measured = simulateRecording(Trajectory(straightFlight(1.5)), 22, choices);
+  const CalibrationResult result = calibrate(measured.input);
+  EXPECT_EQ(result.parameter("plane.height_m").verdict, Verdict::kFound);
+  EXPECT_NEAR(result.values.kept.start_height_m, measured.truth.start_height_m,
+              0.02 * measured.truth.start_height_m);
+}
+
+TEST(Calibration, turningAboutOneAxisDoesNotShowTheRotation) {
+  TrajectoryParameters p = straightFlight(0);
+  p.yaw_pitch_roll[0].sinusoids = {{0.4, 0.4, 0}, {0.1, 0.9, 1}};
+  const SimulatedRecording r = simulateRecording(Trajectory(p), 23, briefly());
+  const CalibrationResult result = calibrate(r.input);
+  const ParameterReport& report = result.parameter("camera.R_CI");
+  EXPECT_NE(report.verdict, Verdict::kFound) << report.words;
+  EXPECT_LT(result.excitation.rotation(1), 0.1 * result.excitation.rotation(0));
+}
+
+TEST(Calibration, aTargetInsteadOfGround) {
+  SimulatedRecording r = simulateRecording(Trajectory::calibration(31, 1.2), 31);
+  r.input.ground.clear();
+  const Trajectory trajectory = Trajectory::calibration(31, 1.2);
+  const Camera camera(r.input.camera);
+  std::mt19937 random(31);
+  std::normal_distribution<double> noise(0, 0.1);
+  for (const int64_t utime : r.input.frames) {
+    const double t = static_cast<double>(utime - r.input.frames.front()) * 1e-6 + r.truth.timeshift_s;
+    const simulation::TrajectoryState state = trajectory.at(t);
+    const Eigen::Matrix3d R_CG = r.truth.R_CI * state.R_GI.transpose();
+    const Eigen::Vector3d p_GC = state.p_GI + state.R_GI * r.truth.p_IC;
+    TargetView view;
+    view.utime = utime;
+    for (int i = 0; i < 64; ++i) {
+      const Eigen::Vector3d corner(0.6 + 0.15 * (i % 8), 0.5 - 0.15 * (i / 8), 0);
+      const Eigen::Vector3d X = R_CG * (corner - p_GC);
+      if (X.z() <= 0.1) continue;
+      const Eigen::Vector2d pixel = (camera.K() * X).hnormalized();
+      if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() > 639 || pixel.y() > 479) continue;
+      view.pixels.emplace_back(pixel.x() + noise(random), pixel.y() + noise(random));
+      view.corners.push_back(corner);
+    }
+    r.input.target.push_back(view);
+  }
+  const CalibrationResult result = calibrate(r.input);
+  std::cout << "target: rotation off by " << rotationError_deg(result.values.kept.R_CI, r.truth.R_CI)
+            << " deg, time shift by " << 1e3 * (result.values.kept.timeshift_s - r.truth.timeshift_s)
+            << " ms\n";
+  EXPECT_LT(rotationError_deg(result.values.kept.R_CI, r.truth.R_CI), 0.1);
+  EXPECT_NEAR(result.values.kept.timeshift_s, r.truth.timeshift_s, 1e-3);
+  EXPECT_EQ(result.parameter("plane.height_m").verdict, Verdict::kNotApplicable);
+}
+
+std::string complaintAbout(const CalibrationInput& input) {
+  try {
+    calibrate(input);
+  } catch (const CalibrationError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Calibration, saysWhyARecordingIsOfNoUse) {
+  const SimulatedRecording whole = simulateRecording(Trajectory::calibration(1, 6), 1);
+  CalibrationInput input = whole.input;
+  input.imu.clear();
+  EXPECT_EQ(complaintAbout(input), "there are no IMU samples");
+  input = whole.input;
+  input.frames.clear();
+  EXPECT_EQ(complaintAbout(input), "there are no frames");
+  input = whole.input;
+  for (ImuSample& sample : input.imu) sample.utime += 60'000'000;
+  EXPECT_THAT(complaintAbout(input), testing::HasSubstr("covers only 0 of 288 frames"));
+  input = whole.input;
+  for (GroundMatch& match : input.ground) match.points = {};
+  EXPECT_THAT(complaintAbout(input), testing::HasSubstr("too little texture"));
 }
 
 }  // namespace

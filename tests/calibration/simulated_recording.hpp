@@ -1,4 +1,5 @@
-// Calibration inputs with a known truth, without pictures: ground points moved by the exact homographies of an analytic flight.
+// Calibration inputs with a known truth, without pictures: ground points moved by the exact homographies of
+// an analytic flight.
 #pragma once
 
 #include <cmath>
@@ -25,9 +26,10 @@ struct SimulatedRecording {
 struct SimulationChoices {
   double duration_s = 12;
   double fps = 24;
-  double noise_px = 0.15;       ///< per axis, white
-  double common_noise_px = 0;   ///< per axis, shared by all points of a quarter of the picture: correlated errors
-  double outlier_share = 0;     ///< of the points
+  double noise_px = 0.15;  ///< per axis, white
+  double common_noise_px =
+      0;  ///< per axis, shared by all points of a quarter of the picture: correlated errors
+  double outlier_share = 0;  ///< of the points
   bool altimeter = false;
   double height_m = 6;
   int grid_px = 32;
@@ -48,7 +50,8 @@ class PointNoise {
   cv::Point2f disturbed(const Eigen::Vector2d& x, const CameraIntrinsics& camera) {
     const size_t quarter = (x.x() > camera.cx ? 1U : 0U) + (x.y() > camera.cy ? 2U : 0U);
     Eigen::Vector2d y = x + common_[quarter] + vector(choices_.noise_px);
-    if (uniform_(random_) < choices_.outlier_share) y += 40.0 * Eigen::Vector2d(uniform_(random_) - 0.5, uniform_(random_) - 0.5);
+    if (uniform_(random_) < choices_.outlier_share)
+      y += 40.0 * Eigen::Vector2d(uniform_(random_) - 0.5, uniform_(random_) - 0.5);
     return {static_cast<float>(y.x()), static_cast<float>(y.y())};
   }
 
@@ -62,7 +65,8 @@ class PointNoise {
   std::array<Eigen::Vector2d, 4> common_{};
 };
 
-inline PointTracks simulatedPoints(const Eigen::Matrix3d& H, const CameraIntrinsics& camera, int grid_px, PointNoise& noise) {
+inline PointTracks simulatedPoints(const Eigen::Matrix3d& H, const CameraIntrinsics& camera, int grid_px,
+                                   PointNoise& noise) {
   PointTracks tracks;
   noise.beginPair();
   for (int v = grid_px / 2; v < camera.height; v += grid_px) {
@@ -79,7 +83,8 @@ inline PointTracks simulatedPoints(const Eigen::Matrix3d& H, const CameraIntrins
   return tracks;
 }
 
-/// Camera looking 60 degrees down; mounted 1.5 to 3.5 degrees off and 5 cm away from nominal, time shift up to 8 ms: all by the seed.
+/// Camera looking 60 degrees down; mounted 1.5 to 3.5 degrees off and 5 cm away from nominal, time shift up
+/// to 8 ms: all by the seed.
 inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajectory, unsigned seed,
                                             const SimulationChoices& choices = {}) {
   std::mt19937 random(1000 + seed);
@@ -111,8 +116,8 @@ inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajec
   imu.seed = seed;
   input.imu = simulation::simulateImu(trajectory, -0.5, choices.duration_s + 0.5, kStart, imu);
   if (choices.altimeter) {
-    input.altimeter =
-        simulation::simulateAltimeter(trajectory, recording.truth, -0.5, choices.duration_s + 0.5, kStart, 50, 0.05, seed);
+    input.altimeter = simulation::simulateAltimeter(trajectory, recording.truth, -0.5,
+                                                    choices.duration_s + 0.5, kStart, 50, 0.05, seed);
   }
   const Eigen::Matrix3d K = Camera(input.camera).K();
   PointNoise noise(choices, seed);
@@ -121,12 +126,15 @@ inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajec
     input.frames.push_back(kStart + std::llround(k * 1e6 / choices.fps));
     if (k == 0) continue;
     const auto exposure = [&](int frame) {
-      return static_cast<double>(input.frames[static_cast<size_t>(frame)] - kStart) * 1e-6 + recording.truth.timeshift_s;
+      return static_cast<double>(input.frames[static_cast<size_t>(frame)] - kStart) * 1e-6 +
+             recording.truth.timeshift_s;
     };
-    const PlaneMotion motion = simulation::exactMotion(trajectory, recording.truth, exposure(k - 1), exposure(k));
+    const PlaneMotion motion =
+        simulation::exactMotion(trajectory, recording.truth, exposure(k - 1), exposure(k));
     if (k == 1) recording.truth.start_height_m = motion.h_a;
-    input.ground.push_back({input.frames[static_cast<size_t>(k - 1)], input.frames[static_cast<size_t>(k)],
-                            simulatedPoints(planeHomography(K, motion), input.camera, choices.grid_px, noise)});
+    input.ground.push_back(
+        {input.frames[static_cast<size_t>(k - 1)], input.frames[static_cast<size_t>(k)],
+         simulatedPoints(planeHomography(K, motion), input.camera, choices.grid_px, noise)});
   }
   return recording;
 }

@@ -36,8 +36,8 @@ TEST(PixelMeasures, RecallThatNeverReachesHalfIsFullError) {
 }
 
 TEST(PixelMeasures, HalfRecallIsInterpolatedBetweenNeighbouringThresholds) {
-  // Threshold 200: 1 of 4 found, precision 1. Threshold 100: 3 of 4 found with 3 false alarms, precision 1/2. Half recall lies in the
-  // middle of the two: precision 3/4.
+  // Threshold 200: 1 of 4 found, precision 1. Threshold 100: 3 of 4 found with 3 false alarms, precision 1/2.
+  // Half recall lies in the middle of the two: precision 3/4.
   PixelMeasures measures;
   measures.add(row({200, 100, 100, 0, 100, 100, 100, 0}), row({255, 255, 255, 255, 0, 0, 0, 0}));
   EXPECT_NEAR(measures.errorAtHalfRecall(), 0.25, 1e-12);

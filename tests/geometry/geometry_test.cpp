@@ -66,7 +66,13 @@ TEST(Rotation, NearestRotationUndoesANonRigidDisturbance) {
 
 TEST(Camera, UndistortInvertsDistortOverThePicture) {
   // EuRoC's camera, whose distortion moves the corners by more than 100 px.
-  const Camera camera({752, 480, 458.654, 457.296, 367.215, 248.375, {-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0}});
+  const Camera camera({752,
+                       480,
+                       458.654,
+                       457.296,
+                       367.215,
+                       248.375,
+                       {-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0}});
   for (int v = 0; v < 480; v += 60) {
     for (int u = 0; u < 752; u += 60) {
       const Eigen::Vector2d raw(u, v);
@@ -97,14 +103,14 @@ TEST(Homography, EveryJacobianMatchesDifferences) {
   const Eigen::Vector2d x(0.3, -0.6);
 
   const auto compose = composeJacobians(A, B);
-  const auto by_left = numericJacobian<8, 8>(
-      [&](const Vector8d& d) { return toVector(fromVector(toVector(A) + d) * B); });
-  const auto by_right = numericJacobian<8, 8>(
-      [&](const Vector8d& d) { return toVector(A * fromVector(toVector(B) + d)); });
+  const auto by_left =
+      numericJacobian<8, 8>([&](const Vector8d& d) { return toVector(fromVector(toVector(A) + d) * B); });
+  const auto by_right =
+      numericJacobian<8, 8>([&](const Vector8d& d) { return toVector(A * fromVector(toVector(B) + d)); });
   const auto inverse = numericJacobian<8, 8>(
       [&](const Vector8d& d) { return toVector(fromVector(toVector(A) + d).inverse()); });
-  const auto by_entries = numericJacobian<2, 8>(
-      [&](const Vector8d& d) { return transfer(fromVector(toVector(A) + d), x); });
+  const auto by_entries =
+      numericJacobian<2, 8>([&](const Vector8d& d) { return transfer(fromVector(toVector(A) + d), x); });
   const auto by_point = numericJacobian<2, 2>([&](const Eigen::Vector2d& d) { return transfer(A, x + d); });
   EXPECT_LT((compose.by_left - by_left).norm(), 1e-7);
   EXPECT_LT((compose.by_right - by_right).norm(), 1e-7);
@@ -123,9 +129,8 @@ TEST(Homography, PlaneMotionJacobiansMatchDifferences) {
     return toVector(planeHomography(K, other));
   };
   const auto J = planeHomographyJacobians(K, motion);
-  const auto rotation = numericJacobian<8, 3>([&](const Eigen::Vector3d& d) {
-    return moved([&](PlaneMotion& m) { m.R_ba = expSO3(d) * m.R_ba; });
-  });
+  const auto rotation = numericJacobian<8, 3>(
+      [&](const Eigen::Vector3d& d) { return moved([&](PlaneMotion& m) { m.R_ba = expSO3(d) * m.R_ba; }); });
   const auto translation = numericJacobian<8, 3>(
       [&](const Eigen::Vector3d& d) { return moved([&](PlaneMotion& m) { m.t_ba += d; }); });
   const auto normal = numericJacobian<8, 3>(

@@ -1,7 +1,7 @@
-// The bundled flight, replayed: homographies, areas and detections of every frame against the file in the repo, so that any change of the
-// output shows in the diff of a commit. REDBEE_UPDATE_GOLDEN=1 writes the file anew.
+// The bundled flight, replayed: homographies, areas and detections of every frame against the file in the
+// repo, so that any change of the output shows in the diff of a commit. REDBEE_UPDATE_GOLDEN=1 writes the
+// file anew.
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <cstdlib>
@@ -54,7 +54,8 @@ Rows rowsOf(const fs::path& results) {
 
 void write(const fs::path& file, const Rows& rows) {
   std::ofstream out(file);
-  out << "# utime [us], mask area [px], detections, ground homography (9): the bundled flight through the default configuration\n";
+  out << "# utime [us], mask area [px], detections, ground homography (9): the bundled flight through the "
+         "default configuration\n";
   for (const auto& [utime, row] : rows) {
     out << utime << ',' << row.area << ',' << row.detections;
     for (int i = 0; i < 9; ++i) {
@@ -108,7 +109,8 @@ TEST(Golden, TheBundledFlightGivesWhatItGave) {
     area_changes += std::abs(row.area - expected.area);
   }
   EXPECT_LE(other_counts, static_cast<int>(golden.size()) / 50);
-  EXPECT_LE(area_changes, area / 50) << "run with REDBEE_UPDATE_GOLDEN=1 if the change is meant, and commit the file";
+  EXPECT_LE(area_changes, area / 50)
+      << "run with REDBEE_UPDATE_GOLDEN=1 if the change is meant, and commit the file";
 }
 
 }  // namespace

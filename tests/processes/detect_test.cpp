@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "flight/input_error.hpp"
 #include "processes/redbee/evaluate.hpp"
@@ -42,8 +43,9 @@ class Commands : public testing::Test {
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
   static std::string text(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::ostringstream content;
+    content << std::ifstream(file).rdbuf();
+    return content.str();
   }
 
   static inline fs::path folder_;

@@ -6,8 +6,10 @@
 #include "geometry/so3.hpp"
 #include "segmentation/flow_entropy.hpp"
 #include "segmentation/foreground_probability.hpp"
+#include "segmentation/guided_filter.hpp"
+#include "segmentation/interval_difference.hpp"
 #include "segmentation/parallax_segment.hpp"
-#include "segmentation/photometric_test.hpp"
+#include "segmentation/travelling_evidence.hpp"
 
 namespace redbee {
 namespace {
@@ -79,6 +81,8 @@ TEST(ForegroundProbability, MapsTravelWithTheGround) {
   EXPECT_EQ(after.at<float>(15, 11), 0);
 }
 
+constexpr float kNoiseVariance = 0.25F;
+
 class Parallax : public ::testing::Test {
  protected:
   Parallax() {
@@ -93,7 +97,7 @@ class Parallax : public ::testing::Test {
     const Eigen::Vector2d flow = now - ground;
     return ParallaxSegment(motion_, K_, {})
         .judge({static_cast<float>(ground.x()), static_cast<float>(ground.y())},
-               {static_cast<float>(flow.x()), static_cast<float>(flow.y())});
+               {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance);
   }
 
   Eigen::Matrix3d K_;
@@ -105,7 +109,7 @@ TEST_F(Parallax, StaticPointsAtAnyDepthBeforeTheGroundAreExplained) {
     const Eigen::Vector3d ray = K_.inverse() * Eigen::Vector3d(150, 300, 1);
     const Eigen::Vector3d X = share * motion_.h_a / motion_.m_a.dot(ray) * ray;
     const Eigen::Vector2d now = project(motion_.R_ba * X + motion_.t_ba);
-    EXPECT_LT(judge({150, 300}, now).sigmas_squared, 0.01) << "at " << share << " of the way to the ground";
+    EXPECT_LT(judge({150, 300}, now).sigmasSquared(), 0.01) << "at " << share << " of the way to the ground";
   }
 }
 
@@ -116,25 +120,65 @@ TEST_F(Parallax, MotionAcrossTheLineOrBelowTheGroundIsNot) {
   const Eigen::Vector2d nearer = project(motion_.R_ba * (0.5 * X) + motion_.t_ba);
   const Eigen::Vector2d along = (nearer - ground).normalized();
   const Eigen::Vector2d across(-along.y(), along.x());
-  EXPECT_GT(judge({150, 300}, ground + 3 * across).sigmas_squared, 30);
-  EXPECT_GT(judge({150, 300}, ground - 3 * along).sigmas_squared, 20);
+  EXPECT_GT(judge({150, 300}, ground + 3 * across).sigmasSquared(), 30);
+  EXPECT_GT(judge({150, 300}, ground - 3 * along).sigmasSquared(), 20);
 }
 
-TEST(PhotometricTest, WithoutTextureFlowMeansNothing) {
-  const SegmentationParameters parameters;
-  const cv::Mat flat(40, 40, CV_8U, cv::Scalar(90));
-  EXPECT_EQ(cv::countNonZero(photometricWeight(flat, flat, flat, parameters)), 0);
+TEST(GreyInterval, ForgivesAPixelOfRegistrationButNotAnObject) {
+  cv::Mat scene(40, 40, CV_8U, cv::Scalar(60));
+  scene.colRange(20, 40).setTo(180);
+  cv::Mat shifted(40, 40, CV_8U, cv::Scalar(60));
+  shifted.colRange(21, 40).setTo(180);
+  EXPECT_EQ(cv::countNonZero(GreyInterval(scene, 1).outside(shifted)), 0);
+  shifted(cv::Rect(4, 4, 6, 6)).setTo(100);
+  const cv::Mat outside = GreyInterval(scene, 1).outside(shifted);
+  EXPECT_EQ(cv::countNonZero(outside), 36);
+  EXPECT_EQ(outside.at<uint8_t>(6, 6), 40);
+  const cv::Mat evidence = differenceEvidence(outside, 3, 40);
+  EXPECT_NEAR(evidence.at<float>(6, 6), 0.5, 1e-5);
+  EXPECT_EQ(evidence.at<float>(30, 30), 0);
 }
 
-TEST(PhotometricTest, WeighsWhatOnlyMotionExplains) {
-  const SegmentationParameters parameters;
-  const cv::Mat picture(40, 40, CV_8U, cv::Scalar(90));
-  cv::Mat as_static = picture.clone();
-  as_static(cv::Rect(10, 10, 20, 20)).setTo(150);
-  const cv::Mat weight = photometricWeight(picture, as_static, picture, parameters);
-  EXPECT_GT(weight.at<float>(20, 20), 0.9);
-  EXPECT_EQ(weight.at<float>(2, 2), 0);
-  EXPECT_EQ(cv::countNonZero(photometricWeight(picture, as_static, as_static, parameters)), 0);
+TEST(GuidedFilter, KeepsToTheEdgesOfThePicture) {
+  cv::Mat picture(40, 40, CV_8U, cv::Scalar(60));
+  picture.colRange(20, 40).setTo(180);
+  cv::Mat map = cv::Mat::zeros(40, 40, CV_32F);
+  map.colRange(22, 40).setTo(1);
+  const cv::Mat filtered = guidedFilter(picture, map, 4, 10);
+  EXPECT_LT(filtered.at<float>(20, 18), 0.1);
+  EXPECT_GT(filtered.at<float>(20, 21), 0.5) << "filled up to the edge";
+}
+
+class Travelling : public ::testing::Test {
+ protected:
+  static constexpr int kSize = 48;
+
+  /// Evidence of a square of 9 px at x that has moved by `off` standard deviations and `step` px.
+  void see(int x, float off, float step) {
+    FrameEvidence now{cv::Mat(kSize, kSize, CV_32FC2, cv::Scalar::all(0)),
+                      cv::Mat(kSize, kSize, CV_32FC2, cv::Scalar::all(0)),
+                      cv::Mat::zeros(kSize, kSize, CV_32F)};
+    const cv::Rect square(x, 20, 9, 9);
+    now.off(square).setTo(cv::Scalar(off, 0));
+    now.back_step(square).setTo(cv::Scalar(-step, 0));
+    now.appearance(square).setTo(1);
+    evidence_.update(now, kStill, cv::Mat::zeros(kSize, kSize, CV_8U));
+  }
+  float motionAt(int x) const { return evidence_.motion().at<float>(24, x); }
+
+  TravellingEvidence evidence_{SegmentationParameters{}};
+};
+
+TEST_F(Travelling, WhatMovesSteadilyAddsUpAndLeavesNoTrail) {
+  for (int k = 0; k <= 20; ++k) see(4 + k, 8, 1);
+  EXPECT_GT(motionAt(28), 0.7);
+  EXPECT_LT(motionAt(15), 0.1) << "where it was ten frames ago";
+  EXPECT_GT(evidence_.appearance().at<float>(24, 28), 0.9);
+}
+
+TEST_F(Travelling, WhatMovesToAndFroDoesNot) {
+  for (int k = 0; k <= 20; ++k) see(20 + k % 2, k % 2 == 0 ? -8.0F : 8.0F, k % 2 == 0 ? -1.0F : 1.0F);
+  EXPECT_LT(motionAt(24), 0.3);
 }
 
 }  // namespace

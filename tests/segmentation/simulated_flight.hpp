@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "segmentation/motion_segmenter.hpp"
 #include "simulation/flight_simulator.hpp"
@@ -25,37 +27,33 @@ inline simulation::Scenario halfSize(simulation::Scenario scenario) {
   return scenario;
 }
 
-/// The inputs of frames in order; the tracker sees every one.
-class InputSource {
- public:
-  explicit InputSource(const simulation::Scenario& scenario)
-      : simulator_(scenario), tracker_(TrackerParameters{}) {}
+/// A flight with what the segmentation is given of it and the truth, rendered once.
+struct RecordedFlight {
+  std::vector<SegmentationInput> inputs;
+  std::vector<simulation::RenderedPicture> truths;
 
-  const simulation::FlightSimulator& simulator() const { return simulator_; }
-  const simulation::RenderedPicture& truth() const { return truth_; }
-
-  SegmentationInput input(int k) {
-    const simulation::SimulatedFrame frame = simulator_.frame(k);
-    truth_ = frame.picture;
-    SegmentationInput input;
-    input.utime = frame.utime;
-    input.grey = frame.picture.grey;
-    input.K = simulator_.camera().K();
-    if (k > 0) {
-      input.utime_previous = simulator_.frameUtime(k - 1);
-      input.ground = simulator_.homography(k);
-      input.motion =
-          simulation::exactMotion(simulator_.scenario().trajectory, simulator_.scenario().extrinsics,
-                                  simulator_.exposureTime(k - 1), simulator_.exposureTime(k));
+  /// `front_patch`: the surface whose homography is given as the front plane's; nothing gives none.
+  RecordedFlight(const simulation::Scenario& scenario, int frames, std::optional<size_t> front_patch = {}) {
+    const simulation::FlightSimulator simulator(scenario);
+    PointTracker tracker{TrackerParameters{}};
+    for (int k = 0; k < frames; ++k) {
+      const simulation::SimulatedFrame frame = simulator.frame(k);
+      SegmentationInput input;
+      input.utime = frame.utime;
+      input.grey = frame.picture.grey;
+      input.K = simulator.camera().K();
+      if (k > 0) {
+        input.utime_previous = simulator.frameUtime(k - 1);
+        input.ground = simulator.homography(k);
+        if (front_patch) input.front = simulator.frontHomography(k, *front_patch);
+        input.motion = simulation::exactMotion(scenario.trajectory, scenario.extrinsics,
+                                               simulator.exposureTime(k - 1), simulator.exposureTime(k));
+      }
+      input.tracks = tracker.advance(input.grey, input.ground);
+      inputs.push_back(input);
+      truths.push_back(frame.picture);
     }
-    input.tracks = tracker_.advance(input.grey, input.ground);
-    return input;
   }
-
- private:
-  simulation::FlightSimulator simulator_;
-  PointTracker tracker_;
-  simulation::RenderedPicture truth_;
 };
 
 /// Pixels, pooled over frames.
@@ -88,19 +86,18 @@ struct PixelCounts {
   }
 };
 
-/// `change` may alter an input before it is used (drop the motion, add the front plane).
-inline PixelCounts fly(const simulation::Scenario& scenario, const SegmentationParameters& parameters,
-                       int frames, size_t patch,
-                       const std::function<void(int, InputSource&, SegmentationInput&)>& change = {}) {
-  InputSource source(scenario);
+/// `change` may alter an input before it is used (drop the motion). The first frames, while things settle, do
+/// not count.
+inline PixelCounts fly(const RecordedFlight& flight, const SegmentationParameters& parameters, size_t patch,
+                       const std::function<void(SegmentationInput&)>& change = {}) {
   MotionSegmenter segmenter(parameters);
   PixelCounts counts;
-  const int settled = 2 * parameters.learning_frames;
-  for (int k = 0; k < frames; ++k) {
-    SegmentationInput input = source.input(k);
-    if (change) change(k, source, input);
+  const size_t settled = 2 * static_cast<size_t>(parameters.learning_frames);
+  for (size_t k = 0; k < flight.inputs.size(); ++k) {
+    SegmentationInput input = flight.inputs[k];
+    if (change) change(input);
     const SegmentationOutput output = segmenter.step(input);
-    if (k >= settled) counts.add(source.truth(), output, patch);
+    if (k >= settled) counts.add(flight.truths[k], output, patch);
   }
   return counts;
 }

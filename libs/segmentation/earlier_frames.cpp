@@ -1,0 +1,84 @@
+#include "segmentation/earlier_frames.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "segmentation/warping.hpp"
+
+namespace redbee {
+namespace {
+
+PlaneMotion compose(const PlaneMotion& cb, const PlaneMotion& ba) {
+  return {cb.R_ba * ba.R_ba, cb.R_ba * ba.t_ba + cb.t_ba, ba.m_a, ba.h_a};
+}
+
+/// 255 above the horizon. Ground is where m' R' K^-1 x > 0, a linear function of the current pixel x.
+cv::Mat aboveHorizon(cv::Size size, const PlaneMotion& motion, const Eigen::Matrix3d& K) {
+  const Eigen::RowVector3d ground = motion.m_a.transpose() * motion.R_ba.transpose() * K.inverse();
+  cv::Mat above(size, CV_8U);
+  for (int y = 0; y < size.height; ++y) {
+    const double at_left = ground.y() * y + ground.z();
+    uint8_t* row = above.ptr(y);
+    for (int x = 0; x < size.width; ++x) row[x] = ground.x() * x + at_left > 0 ? 0 : 255;
+  }
+  return above;
+}
+
+void growUnseen(cv::Mat& unseen, int margin_px) {
+  cv::rectangle(unseen, cv::Rect({}, unseen.size()), cv::Scalar(255), 1);
+  const int side = 2 * margin_px + 1;
+  cv::dilate(unseen, unseen, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+}
+
+}  // namespace
+
+void EarlierFrames::carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion) {
+  for (EarlierFrame& frame : frames_) {
+    frame.ground = normaliseHomography(ground * frame.ground);
+    if (frame.still) {
+      frame.motion = motion;
+    } else if (frame.motion && motion) {
+      frame.motion = compose(*motion, *frame.motion);
+    } else {
+      frame.motion.reset();
+    }
+    frame.still = false;
+  }
+}
+
+void EarlierFrames::remember(int64_t utime, const cv::Mat& grey, double span_s) {
+  while (!frames_.empty() && static_cast<double>(utime - frames_.front().utime) > span_s * 1e6) {
+    frames_.pop_front();
+  }
+  EarlierFrame frame;
+  frame.utime = utime;
+  frame.grey = grey;
+  frames_.push_back(frame);
+}
+
+const EarlierFrame* EarlierFrames::aged(int64_t now, double age_s) const {
+  const int64_t wanted = now - std::llround(age_s * 1e6);
+  const EarlierFrame* best = nullptr;
+  for (const EarlierFrame& frame : frames_) {
+    if (best == nullptr || std::abs(frame.utime - wanted) < std::abs(best->utime - wanted)) best = &frame;
+  }
+  return best;
+}
+
+AlignedPicture alignPicture(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px) {
+  AlignedPicture aligned{carryMap(frame.grey, frame.ground, cv::INTER_LINEAR),
+                         ~overlapMask(frame.grey.size(), frame.ground)};
+  if (frame.motion) {
+    const cv::Mat above = aboveHorizon(frame.grey.size(), *frame.motion, K);
+    if (cv::countNonZero(above) > 0) {
+      const Eigen::Matrix3d far = K * frame.motion->R_ba * K.inverse();
+      carryMap(frame.grey, far, cv::INTER_LINEAR).copyTo(aligned.grey, above);
+      cv::Mat(~overlapMask(frame.grey.size(), far)).copyTo(aligned.unseen, above);
+    }
+  }
+  growUnseen(aligned.unseen, margin_px);
+  return aligned;
+}
+
+}  // namespace redbee

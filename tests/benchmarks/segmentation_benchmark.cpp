@@ -1,0 +1,123 @@
+// The segmentation's stages and the whole, a 640x480 simulated flight, one thread.
+#include <benchmark/benchmark.h>
+
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "segmentation/earlier_frames.hpp"
+#include "segmentation/guided_filter.hpp"
+#include "segmentation/interval_difference.hpp"
+#include "segmentation/motion_segmenter.hpp"
+#include "segmentation/object_tracker.hpp"
+#include "segmentation/parallax_evidence.hpp"
+#include "segmentation/two_plane_background.hpp"
+#include "simulation/scenarios.hpp"
+#include "tests/segmentation/simulated_flight.hpp"
+
+namespace {
+
+using namespace redbee;
+
+constexpr int kFrames = 30;
+
+const std::vector<SegmentationInput>& inputs() {
+  static const testing::RecordedFlight flight(simulation::twoPlanes(1), kFrames, simulation::kFacadePatch);
+  cv::setNumThreads(1);
+  return flight.inputs;
+}
+
+/// A segmenter starts anew at the end of the flight: one frame in thirty is cheaper than the others.
+void wholeStep(benchmark::State& state, const SegmentationParameters& parameters) {
+  inputs();
+  MotionSegmenter segmenter(parameters);
+  std::size_t k = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(segmenter.step(inputs()[k++ % kFrames]));
+}
+
+void defaultFullSize(benchmark::State& state) {
+  SegmentationParameters parameters;
+  parameters.work_downscale = 1;
+  wholeStep(state, parameters);
+}
+void defaultPreset(benchmark::State& state) { wholeStep(state, {}); }
+void defaultQuarterSize(benchmark::State& state) {
+  SegmentationParameters parameters;
+  parameters.work_downscale = 4;
+  wholeStep(state, parameters);
+}
+void paperPreset(benchmark::State& state) { wholeStep(state, paperSegmentation()); }
+BENCHMARK(defaultPreset)->Unit(benchmark::kMillisecond);
+BENCHMARK(defaultFullSize)->Unit(benchmark::kMillisecond);
+BENCHMARK(defaultQuarterSize)->Unit(benchmark::kMillisecond);
+BENCHMARK(paperPreset)->Unit(benchmark::kMillisecond);
+
+cv::Mat halfSize(const cv::Mat& grey) {
+  cv::Mat half;
+  cv::resize(grey, half, {}, 0.5, 0.5, cv::INTER_AREA);
+  return half;
+}
+
+void alignHalfSize(benchmark::State& state) {
+  EarlierFrame frame;
+  frame.grey = halfSize(inputs()[0].grey);
+  frame.ground(0, 2) = 1.3;
+  for (auto _ : state) benchmark::DoNotOptimize(alignPicture(frame, inputs()[0].K, 8));
+}
+BENCHMARK(alignHalfSize)->Unit(benchmark::kMillisecond);
+
+void intervalDifferenceHalfSize(benchmark::State& state) {
+  const cv::Mat then = halfSize(inputs()[0].grey), now = halfSize(inputs()[1].grey);
+  for (auto _ : state) benchmark::DoNotOptimize(differenceEvidence(GreyInterval(then, 1).outside(now), 3, 6));
+}
+BENCHMARK(intervalDifferenceHalfSize)->Unit(benchmark::kMillisecond);
+
+void guidedFilterHalfSize(benchmark::State& state) {
+  const cv::Mat grey = halfSize(inputs()[0].grey);
+  const cv::Mat map(grey.size(), CV_32F, cv::Scalar(0.5));
+  for (auto _ : state) benchmark::DoNotOptimize(guidedFilter(grey, map, 4, 12));
+}
+BENCHMARK(guidedFilterHalfSize)->Unit(benchmark::kMillisecond);
+
+void denseFlowHalfSize(benchmark::State& state) {
+  const cv::Mat then = halfSize(inputs()[0].grey), now = halfSize(inputs()[3].grey);
+  const cv::Ptr<cv::DISOpticalFlow> dis = makeMotionFlow(SegmentationParameters{}.work_downscale);
+  cv::Mat flow;
+  for (auto _ : state) dis->calc(now, then, flow);
+}
+BENCHMARK(denseFlowHalfSize)->Unit(benchmark::kMillisecond);
+
+void travelHalfSize(benchmark::State& state) {
+  const cv::Size half(320, 240);
+  const FrameEvidence now{cv::Mat(half, CV_32FC2, cv::Scalar(1, 0)),
+                          cv::Mat(half, CV_32FC2, cv::Scalar(0.5, 0)), cv::Mat::zeros(half, CV_32F)};
+  TravellingEvidence evidence{SegmentationParameters{}};
+  const cv::Mat unseen = cv::Mat::zeros(half, CV_8U);
+  for (auto _ : state) {
+    evidence.update(now, Eigen::Matrix3d::Identity(), unseen);
+    benchmark::DoNotOptimize(evidence.motion());
+  }
+}
+BENCHMARK(travelHalfSize)->Unit(benchmark::kMillisecond);
+
+void components(benchmark::State& state) {
+  cv::Mat probability = cv::Mat::zeros(480, 640, CV_32F);
+  for (int i = 0; i < 20; ++i) probability(cv::Rect(30 * i, 20 * i, 12, 25)).setTo(0.9);
+  const cv::Mat unknown = cv::Mat::zeros(480, 640, CV_8U);
+  for (auto _ : state) benchmark::DoNotOptimize(findComponents(probability, unknown, {}));
+}
+BENCHMARK(components)->Unit(benchmark::kMillisecond);
+
+void twoPlaneBackground(benchmark::State& state) {
+  TwoPlaneBackground background{paperSegmentation()};
+  background.learn(inputs()[0].grey);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const SegmentationInput& input = inputs()[1 + k++ % (kFrames - 1)];
+    background.carry(*input.ground, input.front);
+    benchmark::DoNotOptimize(background.learn(input.grey));
+  }
+}
+BENCHMARK(twoPlaneBackground)->Unit(benchmark::kMillisecond);
+
+}  // namespace
