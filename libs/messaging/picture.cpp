@@ -122,8 +122,8 @@ image_t jpegMessage(int64_t utime, const cv::Mat& picture, int quality) {
 
 std::vector<uint8_t> encodePng(const cv::Mat& map) {
   std::vector<uint8_t> bytes;
-  cv::imencode(".png", map, bytes,
-               {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_RLE});
+  // Without parameters OpenCV writes for speed; naming any level makes libpng try every filter on every row.
+  cv::imencode(".png", map, bytes);
   return bytes;
 }
 
