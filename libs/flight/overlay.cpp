@@ -51,8 +51,8 @@ std::string statusLine(const OverlayStatus& status) {
   if (status.fps > 0)
     used += std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %.1f fps", status.fps);
   if (!status.source.empty()) {
-    std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %s  epoch %d", status.source.c_str(),
-                  status.epoch);
+    std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %s  epoch %d",
+                  status.source.c_str(), status.epoch);
   }
   return std::string(text) + (status.message.empty() ? "" : "  " + status.message);
 }

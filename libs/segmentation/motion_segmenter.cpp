@@ -133,6 +133,9 @@ class MotionSegmenter::Implementation {
     output.status = SegmentationStatus::kGood;
     output.unknown = verdict.unknown;
     probability_map_.setTo(0, verdict.unknown);
+    // Less than this is noise, and would make most of the map's bytes on the wire.
+    constexpr double kNoise = 6.0 / 255;
+    cv::threshold(probability_map_, probability_map_, kNoise, 0, cv::THRESH_TOZERO);
     probability_map_.convertTo(output.probability, CV_8U, 255);
     ForegroundComponents found = findComponents(probability_map_, verdict.unknown, parameters_);
     output.mask = found.mask;

@@ -128,6 +128,13 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
                                visual->inliers, visual->outliers};
   }
   const FusedHomography fused = fusion_.step(utime, inertial_input, visual_input);
+  if (fused.has_innovation && inertial_input && visual_input &&
+      inertial_input->utime_previous == visual_input->utime_previous) {
+    calibration_.note(fused.test_ratio,
+                      meanTransferError(inertial_input->H, visual_input->H, configuration_.camera.width,
+                                        configuration_.camera.height));
+    health_.setCalibration(calibration_.verdict());
+  }
   publish(fused, inertial, visual);
   inertial_.forgetUpTo(utime);
   visual_.forgetUpTo(utime);

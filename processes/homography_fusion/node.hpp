@@ -6,6 +6,7 @@
 #include <map>
 
 #include "fusion/homography_fusion.hpp"
+#include "inertial/calibration_monitor.hpp"
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/frame_order.hpp"
@@ -39,6 +40,7 @@ class HomographyFusionNode : public Node {
   Configuration configuration_;
   HealthMonitor health_;
   HomographyFusion fusion_;
+  CalibrationMonitor calibration_;
   FrameOrder order_;
   std::map<int64_t, WorkTimer> pending_;  ///< frames by time, each with its first word's arrival
   CompanionBuffer<inertial_homography_t> inertial_;

@@ -98,6 +98,11 @@ void ImuIntegrationNode::applyFeedback() {
     return;
   }
   feedback_test_ratio_ = filter_.correct(observation).test_ratio;
+  if (!last_H_) return;
+  calibration_.note(
+      feedback_test_ratio_,
+      meanTransferError(*last_H_, observation.H, configuration_.camera.width, configuration_.camera.height));
+  health_.setCalibration(calibration_.verdict());
 }
 
 void ImuIntegrationNode::process() {
@@ -120,6 +125,7 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
   if (last_frame_utime_) feedback_.forgetUpTo(*last_frame_utime_);
   const InertialHomography result = filter_.advanceTo(frame.utime);
   last_frame_utime_ = frame.utime;
+  last_H_ = result.valid ? std::optional<Eigen::Matrix3d>(result.H) : std::nullopt;
 
   inertial_homography_t message{};
   message.utime = frame.utime;

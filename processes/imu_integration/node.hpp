@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 
+#include "inertial/calibration_monitor.hpp"
 #include "inertial/inertial_filter.hpp"
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
@@ -54,6 +55,8 @@ class ImuIntegrationNode : public Node {
   CompanionBuffer<fused_homography_t> feedback_;
   int64_t newest_utime_ = 0;
   std::optional<int64_t> last_frame_utime_;
+  std::optional<Eigen::Matrix3d> last_H_;  ///< what was said of the last frame
+  CalibrationMonitor calibration_;
   double feedback_test_ratio_ = 0;
   bool imu_alive_ = true;
   bool finishing_ = false;

@@ -1,5 +1,8 @@
 #include "processes/visual_homography/node.hpp"
 
+#include <Eigen/Cholesky>
+
+#include "geometry/chi_square.hpp"
 #include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
 #include "processes/work_timer.hpp"
@@ -97,11 +100,28 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
                          std::to_string(configuration_.camera.height));
     return;
   }
-  publish(estimator_->step(message.utime, rectifier_.toIdeal(*grey), prediction(message.utime)));
+  const auto predicted = prediction(message.utime);
+  const VisualHomography result = estimator_->step(message.utime, rectifier_.toIdeal(*grey), predicted);
+  publish(result);
+  if (predicted && result.ground) judgeCalibration(*predicted, result);
   // After a picture that nothing could be tracked in, the next one is tracked from an earlier frame: its
   // links are still needed.
   inertial_.forgetUpTo(estimator_->previousTime().value_or(message.utime));
   noteDone(health_, message.utime, frame.since, timer);
+}
+
+void VisualHomographyNode::judgeCalibration(const HomographyPrediction& prediction,
+                                            const VisualHomography& result) {
+  const ImageScaling scaling(configuration_.camera.width, configuration_.camera.height);
+  const Vector8d difference =
+      toVector(scaling.scale(result.ground->H)) - toVector(scaling.scale(prediction.H));
+  const Matrix8d S =
+      prediction.covariance + configuration_.fusion.visual_inflation * result.ground->covariance;
+  const double gate = chiSquareQuantile(configuration_.fusion.gate_probability, 8);
+  calibration_.note(difference.dot(S.ldlt().solve(difference)) / gate,
+                    meanTransferError(prediction.H, result.ground->H, configuration_.camera.width,
+                                      configuration_.camera.height));
+  health_.setCalibration(calibration_.verdict());
 }
 
 void VisualHomographyNode::publish(const VisualHomography& result) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "inertial/calibration_monitor.hpp"
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/node.hpp"
@@ -34,12 +35,15 @@ class VisualHomographyNode : public Node {
   void publish(const VisualHomography& result);
   void restart();
 
+  void judgeCalibration(const HomographyPrediction& prediction, const VisualHomography& result);
+
   Bus& bus_;
   Configuration configuration_;
   HealthMonitor health_;
   Camera camera_;
   Rectifier rectifier_;
   std::unique_ptr<VisualHomographyEstimator> estimator_;
+  CalibrationMonitor calibration_;
   PictureQueue pictures_;
   CompanionBuffer<inertial_homography_t> inertial_;
   int32_t sequence_ = 0;

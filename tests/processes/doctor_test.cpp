@@ -30,9 +30,7 @@ TEST(Doctor, ASilentCameraIsNamed) {
   EXPECT_NE(findings[0].what.find("NOSE_CAMERA"), std::string::npos);
 }
 
-TEST(Doctor, AnUrlThatLcmCannotOpenIsAFindingNotACrash) {
-  EXPECT_FALSE(findMulticast("nonsense://").good);
-}
+TEST(Doctor, AnUrlThatLcmCannotOpenIsAFindingNotACrash) { EXPECT_FALSE(findMulticast("nonsense://").good); }
 
 }  // namespace
 }  // namespace redbee
