@@ -20,6 +20,15 @@ std::string_view bytesOf(const std::vector<uint8_t>& data) {
   return {reinterpret_cast<const char*>(data.data()), data.size()};
 }
 
+/// A run of another flight, or with frames that this one skips, must not be taken for this one's.
+void removeMaps(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".png") old.push_back(entry.path());
+  }
+  for (const auto& file : old) std::filesystem::remove(file);
+}
+
 Detection detectionOf(const detection_t& message) {
   Detection detection;
   detection.id = message.id;
@@ -45,6 +54,7 @@ ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesy
     std::error_code error;
     std::filesystem::create_directories(folder_ / kind, error);
     if (error) throw InputError(folder_ / kind, error.message());
+    removeMaps(folder_ / kind);
   }
   const auto damaged = [this] { ++damaged_; };
   bus.subscribe<foreground_t>(

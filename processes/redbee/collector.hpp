@@ -17,7 +17,8 @@
 
 namespace redbee {
 
-/// Throws InputError where the folder cannot be written.
+/// Maps that an earlier run left in the folder are removed. Throws InputError where the folder cannot be
+/// written.
 class ResultCollector {
  public:
   ResultCollector(Bus& bus, const Channels& channels, std::filesystem::path folder);

@@ -88,6 +88,15 @@ TEST_F(Commands, SettingsFromTheCommandLineReachTheStack) {
   EXPECT_THROW(runDetect(options), InputError);
 }
 
+TEST_F(Commands, MapsOfAnEarlierRunAreNotLeftAmongThose) {
+  DetectOptions options = options_;
+  options.out = folder_ / "again";
+  fs::create_directories(options.out / "mask");
+  std::ofstream(options.out / "mask" / "7.png") << "stale";
+  runDetect(options);
+  EXPECT_FALSE(fs::exists(options.out / "mask" / "7.png"));
+}
+
 TEST_F(Commands, EvaluateMeasuresAgainstTheTruth) {
   const ClipMeasures clip = measureClip(folder_ / "truth", options_.out);
   EXPECT_EQ(clip.pixels.frames(), kFrames);

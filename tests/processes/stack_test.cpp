@@ -219,7 +219,8 @@ TEST(Stack, ACalibrationThatDoesNotFitIsSaid) {
   const Said& right = undisturbedAnswer();
   Flight flight = undisturbed();
   flight.configuration.inertial.extrinsics.R_CI =
-      expSO3({0.15, 0, 0}) * flight.configuration.inertial.extrinsics.R_CI;  // nine degrees
+      expSO3({0, 0, M_PI / 2}) *
+      flight.configuration.inertial.extrinsics.R_CI;  // axes swapped, the usual mistake
   const Said wrong = run(flight);
   for (const char* process : {"redbee-imu-integration", "redbee-homography-fusion"}) {
     EXPECT_EQ(right.health.at(process).calibration, "fits") << process;
