@@ -77,11 +77,21 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
         health_.noteSequence(configuration_.channels.fused_homography, m.sequence);
         if (finiteHomography(m)) {
           fused_.put(m.utime, m);
+          judgeCalibration(m);
         } else {
           health_.noteDamaged();
         }
       },
       damaged);
+}
+
+void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
+  if (fused.has_innovation == 0 || fused.has_motion == 0 || fused.has_observation == 0) return;
+  const PlaneMotion motion{matrix3(fused.R), vector3(fused.t), vector3(fused.normal), fused.plane_distance};
+  calibration_.note(fused.test_ratio,
+                    meanTransferError(planeHomography(camera_.K(), motion), matrix3(fused.H_observed),
+                                      configuration_.camera.width, configuration_.camera.height));
+  health_.setCalibration(calibration_.verdict());
 }
 
 void MotionSegmentationNode::restart() {

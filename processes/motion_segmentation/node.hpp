@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "inertial/calibration_monitor.hpp"
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/node.hpp"
@@ -35,6 +36,7 @@ class MotionSegmentationNode : public Node {
   SegmentationInput inputFor(const image_t& message, const cv::Mat& ideal) const;
   void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
   void publishOverlay(const image_t& message, const SegmentationOutput& output);
+  void judgeCalibration(const fused_homography_t& fused);
   void restart();
 
   Bus& bus_;
@@ -46,6 +48,7 @@ class MotionSegmentationNode : public Node {
   PictureQueue pictures_;
   CompanionBuffer<fused_homography_t> fused_;
   std::optional<Last> last_;
+  CalibrationMonitor calibration_;
   int32_t sequence_ = 0;
   int frames_since_overlay_ = 0;
 };

@@ -222,7 +222,8 @@ TEST(Stack, ACalibrationThatDoesNotFitIsSaid) {
       expSO3({0, 0, M_PI / 2}) *
       flight.configuration.inertial.extrinsics.R_CI;  // axes swapped, the usual mistake
   const Said wrong = run(flight);
-  for (const char* process : {"redbee-imu-integration", "redbee-homography-fusion"}) {
+  for (const char* process :
+       {"redbee-imu-integration", "redbee-homography-fusion", "redbee-motion-segmentation"}) {
     EXPECT_EQ(right.health.at(process).calibration, "fits") << process;
     EXPECT_NE(wrong.health.at(process).calibration, "fits") << process;
     std::cout << process << ": " << wrong.health.at(process).calibration << '\n';
