@@ -7,6 +7,7 @@ SegmentationParameters paperSegmentation() {
   parameters.method = SegmentationMethod::kTwoPlanes;
   parameters.use_refinement = true;
   parameters.confirm_frames = 1;
+  parameters.threshold = 0.5;  // the paper names none
   return parameters;
 }
 

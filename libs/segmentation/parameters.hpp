@@ -56,7 +56,7 @@ struct SegmentationParameters {
   double flow_noise_px = 0.4;  ///< px: flow below this has no direction and does not vote
 
   // Masks and objects.
-  double threshold = 0.5;      ///< on P_FG
+  double threshold = 0.6;      ///< on P_FG
   int opening_px = 3;          ///< px: 0 for none
   int closing_px = 7;          ///< px: 0 for none
   double min_area_px = 30;     ///< px^2: smaller components are no objects
