@@ -18,6 +18,9 @@ class WorkTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// The configuration's seconds in the messages' unit.
+inline int64_t microseconds(double seconds) { return static_cast<int64_t>(seconds * 1e6); }
+
 /// `arrival`: since the frame was taken in; `work`: since it was its turn.
 inline void noteDone(HealthMonitor& health, int64_t utime, const WorkTimer& arrival, const WorkTimer& work) {
   health.notePublished(utime);

@@ -13,8 +13,6 @@ constexpr int kImuQueue = 4000;
 constexpr size_t kMaxPending = 64;
 constexpr int8_t kVisualGood = 0;
 
-int64_t microseconds(double seconds) { return static_cast<int64_t>(seconds * 1e6); }
-
 }  // namespace
 
 HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& configuration)

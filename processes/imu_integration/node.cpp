@@ -11,8 +11,6 @@ constexpr int kFrameQueue = 64;
 constexpr int kImuQueue = 4000;
 constexpr size_t kMaxPendingFrames = 256;
 
-int64_t microseconds(double seconds) { return static_cast<int64_t>(seconds * 1e6); }
-
 }  // namespace
 
 ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configuration)

@@ -65,7 +65,7 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
       rectifier_(camera_),
       segmenter_(configuration.segmentation),
       pictures_(configuration.waits.max_backlog),
-      fused_(static_cast<int64_t>(configuration.waits.segmentation_s * 1e6), true) {
+      fused_(microseconds(configuration.waits.segmentation_s), true) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(

@@ -23,7 +23,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
       rectifier_(camera_),
       estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual)),
       pictures_(configuration.waits.max_backlog),
-      inertial_(static_cast<int64_t>(configuration.waits.visual_s * 1e6), configuration.has_imu) {
+      inertial_(microseconds(configuration.waits.visual_s), configuration.has_imu) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(
