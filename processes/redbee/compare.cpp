@@ -6,10 +6,12 @@
 
 #include "flight/atomic_file.hpp"
 #include "processes/redbee/commands.hpp"
+#include "processes/redbee/svg_plot.hpp"
 
 namespace redbee {
 
 void runCompare(const CompareOptions& options) {
+  SvgPlot::checkInstalled();
   const Comparison comparison(options.cells, readClipList(options.clips), readMethodList(options.methods),
                               options.extrinsics);
   const std::vector<Table> tables = comparisonTables(comparison);

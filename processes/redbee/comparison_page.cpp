@@ -69,8 +69,7 @@ std::string cellLine(const CellMeasures& cell) {
     return value ? std::string(", ") + label + " " + formatted(pattern, *value) : "";
   };
   return add("Error@50%", "error_at_half_recall", "%.3f") + add("best F1", "best_f1", "%.3f") +
-         add("objects found", "objects_found", "%.0f") + add("of", "objects_present", "%.0f") +
-         add("false area %", "false_area_percent", "%.3f");
+         add("objects found", "object_recall", "%.2f") + add("false area %", "false_area_percent", "%.3f");
 }
 
 void writeSet(std::ostream& html, const Comparison& comparison, const std::string& set,

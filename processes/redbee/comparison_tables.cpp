@@ -47,6 +47,11 @@ std::string headingOf(const std::string& set, const std::string& row) {
   return row == kGivenExtrinsics ? set : set + ", extrinsics " + row;
 }
 
+std::string textOf(const CellMeasures* cell, const char* name, const char* pattern, double scale = 1) {
+  const auto value = valueOf(cell, name);
+  return value ? formatted(pattern, scale * *value) : kNone;
+}
+
 std::string errorAndF1(const CellMeasures* cell) {
   const auto error = valueOf(cell, "error_at_half_recall");
   if (!error) return kNone;
@@ -102,19 +107,19 @@ Table decisionTable(const Comparison& comparison, const std::string& set, const 
   return table;
 }
 
-Table falseAreaTable(const Comparison& comparison, const std::string& set, const std::string& row) {
+Table objectTable(const Comparison& comparison, const std::string& set, const std::string& row) {
   Table table;
-  table.title = headingOf(set, row) + ": false alarms' area, % of the picture / false alarms a frame";
+  table.title =
+      headingOf(set, row) + ": objects found % / false alarms a frame / their area, % of the picture";
   table.columns = {"method"};
   for (const ListedClip& clip : comparison.clipsOf(set)) table.columns.push_back(clip.name);
   for (const std::string& method : comparison.methods()) {
     std::vector<std::string> cells{method};
     for (const ListedClip& clip : comparison.clipsOf(set)) {
       const CellMeasures* cell = comparison.cell(clip, row, method);
-      const auto area = valueOf(cell, "false_area_percent");
-      cells.push_back(!area ? kNone
-                            : formatted("%.3f", *area) + " / " +
-                                  formatted("%.2f", *valueOf(cell, "false_alarms_per_frame")));
+      cells.push_back(textOf(cell, "object_recall", "%.1f", 100) + " / " +
+                      textOf(cell, "false_alarms_per_frame", "%.2f") + " / " +
+                      textOf(cell, "false_area_percent", "%.3f"));
     }
     table.rows.push_back(cells);
   }
@@ -187,7 +192,7 @@ std::vector<Table> comparisonTables(const Comparison& comparison) {
         tables.push_back(accuracyTable(comparison, set, row));
         tables.push_back(decisionTable(comparison, set, row));
       }
-      tables.push_back(falseAreaTable(comparison, set, row));
+      tables.push_back(objectTable(comparison, set, row));
       tables.push_back(costTable(comparison, set, row));
     }
     if (rows.size() > 1) tables.push_back(extrinsicsTable(comparison, set));

@@ -11,6 +11,7 @@
 #include "processes/redbee/flight_pictures.hpp"
 #include "processes/redbee/hits_and_misses.hpp"
 #include "processes/redbee/measures_files.hpp"
+#include "processes/redbee/svg_plot.hpp"
 
 namespace redbee {
 namespace {
@@ -140,6 +141,7 @@ ClipMeasures measureClip(const EvaluateOptions& options) {
 }
 
 void runEvaluate(const EvaluateOptions& options) {
+  SvgPlot::checkInstalled();
   std::vector<ClipMeasures> measured;
   printHeader();
   for (const EvaluateOptions& clip : clipsOf(options)) {

@@ -1,6 +1,5 @@
 #include "processes/redbee/svg_plot.hpp"
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "flight/input_error.hpp"
 #include "processes/redbee/file_content.hpp"
 
 namespace redbee {
@@ -81,55 +81,68 @@ void SvgPlot::makeSquare(double low, double high) {
   high_ = high;
 }
 
-std::string SvgPlot::script() const {
+bool SvgPlot::isDrawable(const Series& series) {
+  return std::any_of(series.points.begin(), series.points.end(),
+                     [](const Eigen::Vector2d& point) { return point.allFinite(); });
+}
+
+std::string SvgPlot::settings() const {
   const bool square = low_ < high_;
   std::ostringstream out;
   out << "set terminal svg noenhanced size " << (square ? "480,480" : "900,300")
       << " font 'sans-serif,12' background '#ffffff'\n"
       << "set title " << quoted(title_) << "\nset xlabel " << quoted(x_label_) << "\nset ylabel "
-      << quoted(y_label_) << "\nset key below horizontal\nset grid lc rgb '#dddddd'\n";
-  const bool any = std::any_of(series_.begin(), series_.end(), [](const Series& series) {
-    return std::any_of(series.points.begin(), series.points.end(),
-                       [](const auto& p) { return p.allFinite(); });
-  });
-  const std::string range = square ? "[" + number(low_) + ":" + number(high_) + "]" : any ? "[*:*]" : "[0:1]";
+      << quoted(y_label_) << "\nset key below horizontal height 1\nset grid lc rgb '#dddddd'\n";
+  std::string range = "[0:1]";  // of a plot without anything on it
+  if (square) {
+    range = "[" + number(low_) + ":" + number(high_) + "]";
+  } else if (std::any_of(series_.begin(), series_.end(), isDrawable)) {
+    range = "[*:*]";
+  }
   out << "set xrange " << range << "\nset yrange " << range << (square ? "\nset size square\n" : "\n");
   for (const auto& [name, x] : marks_) {
     out << "set arrow from first " << number(x) << ", graph 0 to first " << number(x)
         << ", graph 1 nohead dashtype 2 lc rgb '#555555'\nset label " << quoted(name) << " at first "
         << number(x) << ", graph 0.95 offset 0.5,0 tc rgb '#555555'\n";
   }
-  std::string commands = "plot NaN notitle";
+  return out.str();
+}
+
+std::string SvgPlot::curves() const {
+  std::ostringstream data;
+  std::string command = "plot NaN notitle";
   for (size_t i = 0; i < series_.size(); ++i) {
     const Series& series = series_[i];
-    const bool drawable =
-        std::any_of(series.points.begin(), series.points.end(), [](const auto& p) { return p.allFinite(); });
-    if (!drawable) continue;
+    if (!isDrawable(series)) continue;
     const std::string block = "$series" + std::to_string(i);
-    out << block << " << END\n";
-    for (const auto& p : series.points) {
-      if (p.allFinite()) out << number(p.x()) << ' ' << number(p.y());
-      out << '\n';  // an empty line breaks the curve
+    data << block << " << END\n";
+    for (const Eigen::Vector2d& point : series.points) {
+      if (point.allFinite()) data << number(point.x()) << ' ' << number(point.y());
+      data << '\n';  // an empty line breaks the curve
     }
-    out << "END\n";
-    commands += ", " + block + " with " + (series.line ? "lines lw 1.3" : "points pt 7 ps 0.15") +
-                " lc rgb " + quoted(series.colour) +
-                (series.name.empty() ? " notitle" : " title " + quoted(series.name));
+    data << "END\n";
+    command += ", " + block + " with " + (series.line ? "lines lw 1.3" : "points pt 7 ps 0.15") + " lc rgb " +
+               quoted(series.colour) + (series.name.empty() ? " notitle" : " title " + quoted(series.name));
   }
-  out << commands << '\n';
-  return out.str();
+  return data.str() + command + "\n";
+}
+
+void SvgPlot::checkInstalled() {
+  const int status =
+      std::system("command -v gnuplot >/dev/null");  // NOLINT(concurrency-mt-unsafe): one thread
+  if (status != 0) {
+    throw InputError("gnuplot is not installed, it draws the curves: apt-get install gnuplot-nox");
+  }
 }
 
 std::string SvgPlot::svg() const {
   const ScratchFolder scratch;
   const fs::path input = scratch.path() / "plot.gp", output = scratch.path() / "plot.svg",
                  complaints = scratch.path() / "complaints";
-  std::ofstream(input) << script();
+  std::ofstream(input) << settings() << curves();
   const std::string command =
       "LC_ALL=C gnuplot '" + input.string() + "' >'" + output.string() + "' 2>'" + complaints.string() + "'";
   const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe): one thread draws
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    throw std::runtime_error("gnuplot is not installed, it draws the curves: apt-get install gnuplot-nox");
   if (status != 0) throw std::runtime_error("gnuplot failed: " + contentOf(complaints).substr(0, 200));
   return withoutDeclarations(contentOf(output));
 }

@@ -22,8 +22,12 @@ class SvgPlot {
   /// Both axes from `low` to `high` in the same unit; points beyond are not drawn.
   void makeSquare(double low, double high);
 
-  /// Throws std::runtime_error where gnuplot is not installed (saying how to mend it) or fails.
+  /// Throws std::runtime_error where gnuplot fails.
   std::string svg() const;
+
+  /// Throws InputError, saying how to mend it, where gnuplot is not installed: before long work, not after
+  /// it.
+  static void checkInstalled();
 
  private:
   struct Series {
@@ -32,7 +36,9 @@ class SvgPlot {
     std::string colour;
     bool line;
   };
-  std::string script() const;
+  static bool isDrawable(const Series& series);
+  std::string settings() const;
+  std::string curves() const;
 
   std::string title_, x_label_, y_label_;
   std::vector<Series> series_;
