@@ -2,6 +2,7 @@
 
 #include "flight/video_reader.hpp"
 #include "flight/video_writer.hpp"
+#include "messaging/configuration.hpp"
 #include "messaging/picture.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
@@ -57,6 +58,18 @@ TEST_F(ImportVideoTest, FramesKeepTheirTimesAndLooks) {
   }
   std::cout << "mean difference to the encoded pictures, worst frame: " << worst << " grey levels\n";
   EXPECT_LT(worst, 8);
+}
+
+TEST_F(ImportVideoTest, TheConfigurationBesideTheLogRunsOnVisionAlone) {
+  const ImportSummary summary = import();
+  const Configuration configuration =
+      loadConfiguration(writeVehicleConfiguration(summary.vehicle, options_.log));
+  EXPECT_FALSE(configuration.has_imu);
+  EXPECT_EQ(configuration.camera.width, 96);
+  EXPECT_DOUBLE_EQ(configuration.camera.cx, 47.5);
+  EXPECT_DOUBLE_EQ(configuration.camera.fx, 0.8 * 96);
+  ASSERT_EQ(summary.warnings.size(), 1u);
+  EXPECT_NE(summary.warnings[0].find("77 px are assumed"), std::string::npos) << summary.warnings[0];
 }
 
 TEST_F(ImportVideoTest, AChosenWidthKeepsTheAspect) {
