@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "messaging/build_version.hpp"
 #include "messaging/receive_buffer.hpp"
 
 namespace redbee {
@@ -13,6 +14,7 @@ int runProcess(int argc, char** argv, const std::string& name, const NodeFactory
   CLI::App app("REDBEE " REDBEE_VERSION ", " + name, name);
   std::string configuration_file;
   std::string url = kDefaultLcmUrl;
+  app.set_version_flag("--version", buildVersion());
   app.add_option("--config", configuration_file, "the vehicle's YAML file")->required();
   app.add_option("--lcm-url", url, "where the messages are")->capture_default_str();
   try {

@@ -21,7 +21,8 @@ class Node {
   virtual HealthMonitor& health() = 0;
 };
 
-/// Live: until `stop` is set, hands out messages, lets the node work and publishes its health.
+/// Live: until `stop` is set, hands out messages, lets the node work and publishes its health. An exception
+/// costs a frame; only std::bad_alloc gets through.
 void runNode(Bus& bus, Node& node, const std::string& health_channel, const std::atomic<bool>& stop);
 
 /// SIGINT and SIGTERM set the flag that this returns.
