@@ -1,4 +1,5 @@
-// CAMERA and FUSED_HOMOGRAPHY in; FOREGROUND, DETECTIONS and OVERLAY out.
+// CAMERA and FUSED_HOMOGRAPHY in, VISUAL_HOMOGRAPHY for when the fusion is away; FOREGROUND, DETECTIONS and
+// OVERLAY out.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "processes/picture_queue.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/visual_homography_t.hpp"
 #include "segmentation/motion_segmenter.hpp"
 #include "visual/rectifier.hpp"
 
@@ -29,11 +31,13 @@ class MotionSegmentationNode : public Node {
   struct Last {
     int64_t utime;
     int32_t epoch;
+    int64_t utime_anchor;
     Eigen::Matrix3d H_anchor;
   };
 
   void segment(const Arrived<image_t>& frame);
   SegmentationInput inputFor(const image_t& message, const cv::Mat& ideal) const;
+  void addVisual(SegmentationInput& input) const;
   void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
   void publishOverlay(const image_t& message, const SegmentationOutput& output);
   void judgeCalibration(const fused_homography_t& fused);
@@ -47,6 +51,7 @@ class MotionSegmentationNode : public Node {
   MotionSegmenter segmenter_;
   PictureQueue pictures_;
   CompanionBuffer<fused_homography_t> fused_;
+  CompanionBuffer<visual_homography_t> visual_;
   std::optional<Last> last_;
   CalibrationMonitor calibration_;
   int32_t sequence_ = 0;

@@ -26,7 +26,7 @@ class ProcessWatch {
   ProcessWatch& operator=(const ProcessWatch&) = delete;
 
   /// Without a word for so long, while others are heard, a process hangs.
-  static constexpr std::chrono::seconds kHangs{5};
+  static constexpr std::chrono::seconds kHangs{20};
 
   /// A process says how it fares. One that does not live on this host is not watched, nor is one that speaks
   /// but now and then (scripts: they have no configuration) thought to hang.

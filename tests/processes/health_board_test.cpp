@@ -46,7 +46,7 @@ TEST(HealthBoard, OneLineAProcessInTheOrderOfTheWork) {
   board.hear(word("a-camera-driver", HealthState::kGood, 5), kNow);
   const auto lines = board.table(kNow);
   EXPECT_THAT(lines[1].text, HasSubstr("imu-integration"));
-  EXPECT_THAT(lines[2].text, HasSubstr("visual-homography unheard"));
+  EXPECT_THAT(lines[2].text, HasSubstr("visual-homography   unheard"));
   EXPECT_EQ(lines[2].tone, Tone::kBad);
   EXPECT_THAT(lines[4].text, HasSubstr("motion-segmentation"));
   EXPECT_THAT(lines[5].text, HasSubstr("a-camera-driver"));

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "simulation/scenarios.hpp"

@@ -137,28 +137,32 @@ class Trial {
     return static_cast<double>(dark) / kFps;
   }
 
-  std::map<int, int> identities(int64_t from_frame, int64_t to_frame) const {
-    std::map<int, int> last;
+  Identities identities(int64_t from_frame, int64_t to_frame) const {
+    Identities all;
     for (int64_t k = from_frame; k <= to_frame; ++k) {
       const auto it = witness_.frames().find(flight_.utime(k));
       if (it == witness_.frames().end()) continue;
-      for (const auto& [car, id] : it->second.id_of_car) last[car] = id;
+      for (const auto& [car, ids] : it->second.ids_of_car) all[car].insert(ids.begin(), ids.end());
     }
-    return last;
+    return all;
   }
 
+  static bool haveCommon(const std::set<int>& a, const std::set<int>& b) {
+    return std::any_of(a.begin(), a.end(), [&](int id) { return b.count(id) > 0; });
+  }
+
+  /// Cars seen in the quarter of a second before and in the second after.
   void compareIdentities(int64_t utime, Figures& f) const {
     const int64_t k = flight_.frameAt(utime);
-    const auto before = identities(k - 12, k);
-    const auto after = identities(k + 1, k + 40);
-    for (const auto& [car, id] : after) {
-      const auto it = before.find(car);
-      if (it != before.end()) {
-        ++f.cars;
-        f.kept += it->second == id ? 1 : 0;
-      }
+    const Identities before = identities(k - 5, k);
+    for (const auto& [car, ids] : identities(k + 1, k + 24)) {
+      const auto same = before.find(car);
+      f.cars += same != before.end() ? 1 : 0;
+      f.kept += same != before.end() && haveCommon(same->second, ids) ? 1 : 0;
       f.reused += std::any_of(before.begin(), before.end(),
-                              [&, c = car, i = id](const auto& b) { return b.second == i && b.first != c; })
+                              [&, c = car, i = ids](const auto& b) {
+                                return b.first != c && haveCommon(b.second, i);
+                              })
                       ? 1
                       : 0;
     }

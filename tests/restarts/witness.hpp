@@ -18,13 +18,16 @@
 
 namespace redbee::test {
 
+/// By car, of the detections that lie on it: a car may be seen in pieces.
+using Identities = std::map<int, std::set<int>>;
+
 /// One frame as the stack told it.
 struct Told {
   std::chrono::steady_clock::time_point when;
   int status = -1;
-  double false_share = 0;        ///< of the picture: called moving, background in truth
-  double found_share = 0;        ///< of the movers' pixels
-  std::map<int, int> id_of_car;  ///< for the cars that a detection lies on
+  double false_share = 0;  ///< of the picture: called moving, background in truth
+  double found_share = 0;  ///< of the movers' pixels
+  Identities ids_of_car;
 };
 
 class Witness {
@@ -79,12 +82,11 @@ class Witness {
   }
 
   void take(const detections_t& m) {
-    const FrameTruth truth = flight_.truth(flight_.frameAt(m.utime));
-    for (const auto& [car, box] : truth.cars) {
+    for (const auto& [car, box] : flight_.truth(flight_.frameAt(m.utime)).cars) {
       for (const detection_t& d : m.detections) {
         const cv::Rect told(d.x, d.y, d.width, d.height);
-        const double overlap = (told & box).area() / static_cast<double>((told | box).area());
-        if (d.seen != 0 && overlap > 0.4) frames_[m.utime].id_of_car[car] = d.id;
+        if (d.seen != 0 && (told & box).area() > 0.5 * told.area())
+          frames_[m.utime].ids_of_car[car].insert(d.id);
       }
     }
   }
