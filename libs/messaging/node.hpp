@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <string>
 
 #include "messaging/bus.hpp"
@@ -19,6 +20,8 @@ class Node {
   /// No message will come any more: works off what is left without waiting for companions.
   virtual void finish() = 0;
   virtual HealthMonitor& health() = 0;
+  /// Keeps in this folder, from now on, what the process that takes its place needs. Most need nothing.
+  virtual void keepStateIn(const std::filesystem::path&) {}
 };
 
 /// Live: until `stop` is set, hands out messages, lets the node work and publishes its health. An exception

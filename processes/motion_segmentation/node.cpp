@@ -178,6 +178,7 @@ void MotionSegmentationNode::publish(const image_t& message, const SegmentationI
   output.probability = rectifier_.toRaw(output.probability);
   output.mask = rectifier_.toRaw(output.mask);
   output.unknown = rectifier_.toRaw(output.unknown);
+  for (Detection& detection : output.detections) detection.id = identities_.told(detection.id);
   if (camera_.isDistorted()) {
     for (Detection& detection : output.detections) detection.box = rawBox(camera_, detection.box);
   }

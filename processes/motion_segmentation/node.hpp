@@ -9,6 +9,7 @@
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/node.hpp"
+#include "processes/motion_segmentation/kept_identities.hpp"
 #include "processes/picture_queue.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
@@ -25,6 +26,9 @@ class MotionSegmentationNode : public Node {
   void process() override;
   void finish() override;
   HealthMonitor& health() override { return health_; }
+  void keepStateIn(const std::filesystem::path& folder) override {
+    identities_ = KeptIdentities(folder / "identities");
+  }
 
  private:
   /// The last frame that was segmented, and where it lay in its epoch.
@@ -53,6 +57,7 @@ class MotionSegmentationNode : public Node {
   CompanionBuffer<fused_homography_t> fused_;
   CompanionBuffer<visual_homography_t> visual_;
   std::optional<Last> last_;
+  KeptIdentities identities_;
   CalibrationMonitor calibration_;
   int32_t sequence_ = 0;
   int frames_since_overlay_ = 0;

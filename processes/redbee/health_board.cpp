@@ -91,7 +91,8 @@ void HealthBoard::hear(const process_health_t& health, Time now) {
 bool HealthBoard::isSilent(const Entry& entry, Time now) {
   const bool is_over = entry.last.state == static_cast<int8_t>(HealthState::kDead) ||
                        entry.last.state == static_cast<int8_t>(HealthState::kStopping);
-  return !is_over && now - entry.heard > kSilence;
+  const bool is_script = entry.last.configuration.empty();  // speaks when it has something to say
+  return !is_over && !is_script && now - entry.heard > kSilence;
 }
 
 int HealthBoard::good(Time now) const {

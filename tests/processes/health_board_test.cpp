@@ -69,6 +69,9 @@ TEST(HealthBoard, WhoSaidThatItStopsOrIsDeadIsNotSilent) {
   HealthBoard board;
   board.hear(word("redbee-a", HealthState::kStopping), kNow);
   board.hear(word("redbee-b", HealthState::kDead), kNow);
+  auto script = word("redbee-record", HealthState::kGood);
+  script.configuration.clear();
+  board.hear(script, kNow);
   EXPECT_THAT(textOf(board, kNow + seconds(60)), ::testing::Not(HasSubstr("silent")));
   EXPECT_EQ(board.table(kNow)[6].tone, Tone::kBad);
 }

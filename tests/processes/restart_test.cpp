@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <fstream>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +13,7 @@
 #include "processes/imu_integration/node.hpp"
 #include "processes/motion_segmentation/node.hpp"
 #include "processes/visual_homography/node.hpp"
+#include "tests/flight/scratch.hpp"
 #include "tests/processes/stack_fixture.hpp"
 
 namespace redbee::test {
@@ -218,6 +220,27 @@ INSTANTIATE_TEST_SUITE_P(Each, ProcessKilled,
                                            Case{"fusion", kFusion, 12, 0},
                                            Case{"segmentation", kSegmentation, 24, 16}),
                          [](const auto& each) { return each.param.name; });
+
+TEST(RestartedTracker, GivesNoIdentityTwice) {
+  const testing::ScratchFolder folder;
+  KeptIdentities first(folder.path() / "identities");
+  EXPECT_EQ(first.told(1), 1);
+  EXPECT_EQ(first.told(7), 7);
+  EXPECT_EQ(first.told(3), 3);
+  KeptIdentities second(folder.path() / "identities");
+  EXPECT_EQ(second.told(1), 8);
+  KeptIdentities third(folder.path() / "identities");
+  EXPECT_EQ(third.told(2), 10);
+}
+
+TEST(RestartedTracker, WhatCannotBeReadOrWrittenEndsNoFlight) {
+  const testing::ScratchFolder folder;
+  std::ofstream(folder.path() / "identities") << "seven";
+  EXPECT_EQ(KeptIdentities(folder.path() / "identities").told(1), 1);
+  KeptIdentities nowhere(folder.path() / "no such folder" / "identities");
+  EXPECT_EQ(nowhere.told(1), 1);
+  EXPECT_EQ(nowhere.told(2), 2);
+}
 
 TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
   const auto bus = makeLcmBus("memq://");

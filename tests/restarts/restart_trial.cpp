@@ -203,6 +203,16 @@ class Trial {
     return good;
   }
 
+  /// Which kill a frame came after, and how long.
+  std::string since(int64_t utime) const {
+    const auto next =
+        std::find_if(kills_.begin(), kills_.end(), [&](const Kill& kill) { return kill.utime >= utime; });
+    if (next == kills_.begin()) return "before any kill";
+    const Kill& last = *std::prev(next);
+    return std::to_string(static_cast<double>(utime - last.utime) * 1e-6) + " s after " + last.process +
+           ", frame " + std::to_string(flight_.frameAt(utime) % kLoopFrames) + " of the loop";
+  }
+
   bool masksWereNeverWild() {
     int wild = 0;
     std::vector<double> shares;
@@ -211,7 +221,9 @@ class Trial {
       if (told.status != 0) continue;
       shares.push_back(told.false_share);
       found.push_back(told.found_share);
-      wild += told.false_share > kWildShare ? 1 : 0;
+      if (told.false_share <= kWildShare) continue;
+      ++wild;
+      std::printf("wild: %.1f %% false, %s\n", 100 * told.false_share, since(utime).c_str());
     }
     std::printf("%zu trusted masks: false area median %.2f %%, worst %.2f %%; movers found, median %.0f %%\n",
                 shares.size(), 100 * at(shares, 0.5), 100 * at(shares, 1), 100 * at(found, 0.5));
