@@ -1,5 +1,8 @@
 package redbee.spy;
 
+import java.awt.Dimension;
+import java.awt.Point;
+import java.awt.Toolkit;
 import java.io.IOException;
 import java.util.concurrent.atomic.AtomicReference;
 import javax.swing.JFrame;
@@ -16,10 +19,10 @@ public final class Main {
   public static void main(String[] arguments) {
     String url = arguments[0];
     lcm.spy.Spy.main(new String[] {"--lcm-url=" + url});
-    for (int i = 1; i < arguments.length; ++i) show(url, arguments[i]);
+    for (int i = 1; i < arguments.length; ++i) show(url, arguments[i], i - 1);
   }
 
-  private static void show(String url, String channel) {
+  private static void show(String url, String channel, int number) {
     AtomicReference<Object> newest = new AtomicReference<>();
     try {
       new LCM(url).subscribe(channel, (lcm, name, data) -> take(data, newest));
@@ -31,9 +34,18 @@ public final class Main {
       JFrame frame = new JFrame(channel);
       frame.add(new PicturePanel(newest::get));
       frame.pack();
-      frame.setLocationByPlatform(true);
+      frame.setLocation(besideTheTable(frame, number));
       frame.setVisible(true);
     });
+  }
+
+  // As far as the screen has room: right of the spy's own window, one below the other.
+  private static Point besideTheTable(JFrame frame, int number) {
+    final int tableWidth = 810; // lcm-spy's 800, and a frame
+    Dimension screen = Toolkit.getDefaultToolkit().getScreenSize();
+    int x = Math.max(0, Math.min(tableWidth, screen.width - frame.getWidth()));
+    int rows = Math.max(1, screen.height / frame.getHeight());
+    return new Point(x, number % rows * frame.getHeight());
   }
 
   private static void take(LCMDataInputStream data, AtomicReference<Object> newest) {
