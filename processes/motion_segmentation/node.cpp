@@ -1,6 +1,7 @@
 #include "processes/motion_segmentation/node.hpp"
 
 #include <Eigen/LU>
+#include <opencv2/imgproc.hpp>
 
 #include "flight/overlay.hpp"
 #include "messaging/picture.hpp"
@@ -116,11 +117,10 @@ void MotionSegmentationNode::finish() {
   pictures_.workOffAll([this](const Arrived<image_t>& frame) { segment(frame); });
 }
 
-SegmentationInput MotionSegmentationNode::inputFor(const image_t& message, const cv::Mat& ideal) const {
+SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const {
   SegmentationInput input;
   input.utime = message.utime;
   input.utime_previous = last_ ? last_->utime : message.utime;
-  input.grey = ideal;
   input.K = camera_.K();
   if (!last_) return input;
   const fused_homography_t* fused = fused_.find(message.utime);
@@ -156,12 +156,8 @@ void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
 void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   const WorkTimer timer;
   const image_t& message = frame.content;
-  cv::Mat grey = decodeGrey(message).value_or(cv::Mat());
-  if (grey.cols != configuration_.camera.width || grey.rows != configuration_.camera.height) {
-    if (grey.empty()) health_.noteDamaged();
-    grey = cv::Mat::zeros(configuration_.camera.height, configuration_.camera.width, CV_8U);
-  }
-  const SegmentationInput input = inputFor(message, rectifier_.toIdeal(grey));
+  SegmentationInput input = inputFor(message);
+  decodeInto(input, message);
   publish(message, input, segmenter_.step(input));
   if (const fused_homography_t* fused = fused_.find(message.utime)) {
     last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->H_anchor)};
@@ -171,6 +167,24 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   fused_.forgetUpTo(message.utime);
   visual_.forgetUpTo(message.utime);
   noteDone(health_, message.utime, frame.since, timer);
+}
+
+void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
+  const bool wants_colour =
+      configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
+  const cv::Mat picture = (wants_colour ? decodeColour(message) : decodeGrey(message)).value_or(cv::Mat());
+  const cv::Size size(configuration_.camera.width, configuration_.camera.height);
+  if (picture.size() != size) {
+    if (picture.empty()) health_.noteDamaged();
+    input.grey = cv::Mat::zeros(size, CV_8U);
+    return;
+  }
+  if (!wants_colour) {
+    input.grey = rectifier_.toIdeal(picture);
+    return;
+  }
+  input.colour = rectifier_.toIdeal(picture);
+  cv::cvtColor(input.colour, input.grey, cv::COLOR_BGR2GRAY);
 }
 
 void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input,

@@ -40,8 +40,10 @@ class MotionSegmentationNode : public Node {
   };
 
   void segment(const Arrived<image_t>& frame);
-  SegmentationInput inputFor(const image_t& message, const cv::Mat& ideal) const;
+  SegmentationInput inputFor(const image_t& message) const;
   void addVisual(SegmentationInput& input) const;
+  /// Black where there is no picture of the camera's size.
+  void decodeInto(SegmentationInput& input, const image_t& message);
   void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
   void publishOverlay(const image_t& message, const SegmentationOutput& output);
   void judgeCalibration(const fused_homography_t& fused);

@@ -113,7 +113,7 @@ void ResultCollector::writeHomographies() const {
   csv.close();
 }
 
-void ResultCollector::writeTables(double wall_s, int64_t peak_resident_bytes) const {
+void ResultCollector::writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const {
   if (!first_failure_.empty()) throw InputError(first_failure_);
   writeDetections();
   writeHomographies();
@@ -133,6 +133,8 @@ void ResultCollector::writeTables(double wall_s, int64_t peak_resident_bytes) co
   }
   const int64_t good =
       std::count_if(status_.begin(), status_.end(), [](const auto& s) { return s.second == 0; });
+  nlohmann::json cpu_ms_per_frame;  // null where several processes ran
+  if (usage && frames() > 0) cpu_ms_per_frame = 1000 * usage->cpu_s / static_cast<double>(frames());
   const auto per_second = [](double milliseconds) { return milliseconds > 0 ? 1000 / milliseconds : 0; };
   writeJson(
       folder_ / "summary.json",
@@ -145,7 +147,8 @@ void ResultCollector::writeTables(double wall_s, int64_t peak_resident_bytes) co
        {"skipped", skipped},
        {"given_up", given_up},
        {"stages", stages},
-       {"peak_rss_bytes", peak_resident_bytes > 0 ? peak_resident_bytes : resident}});
+       {"cpu_ms_per_frame", cpu_ms_per_frame},
+       {"peak_rss_bytes", usage ? usage->peak_resident_bytes : resident}});
 }
 
 }  // namespace redbee

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "messaging/bus.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/health.hpp"
+#include "processes/redbee/process_usage.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
@@ -28,9 +30,9 @@ class ResultCollector {
   /// The latest word of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }
 
-  /// `wall_s`: how long the run took. `peak_resident_bytes`: of the process that ran it; 0: the sum over the
-  /// processes heard.
-  void writeTables(double wall_s, int64_t peak_resident_bytes) const;
+  /// `wall_s`: how long the run took. `usage`: of the process that ran it; nothing where several did:
+  /// resident memory is then the sum over the processes heard.
+  void writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const;
 
  private:
   void takeForeground(const foreground_t& message);

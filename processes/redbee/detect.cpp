@@ -10,7 +10,7 @@
 #include "processes/imu_integration/node.hpp"
 #include "processes/motion_segmentation/node.hpp"
 #include "processes/redbee/collector.hpp"
-#include "processes/redbee/peak_memory.hpp"
+#include "processes/redbee/process_usage.hpp"
 #include "processes/visual_homography/node.hpp"
 
 namespace redbee {
@@ -110,7 +110,7 @@ int64_t runDetect(const DetectOptions& options) {
   stack.publishHealth();
   progress.finish();
   if (!log.complaint().empty()) std::fprintf(stderr, "warning: %s\n", log.complaint().c_str());
-  collector.writeTables(wall_s, peakResidentBytes());
+  collector.writeTables(wall_s, processUsage());
   return collector.frames();
 }
 

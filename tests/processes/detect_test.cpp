@@ -98,11 +98,11 @@ TEST_F(Commands, MapsOfAnEarlierRunAreNotLeftAmongThose) {
 }
 
 TEST_F(Commands, EvaluateMeasuresAgainstTheTruth) {
-  const ClipMeasures clip = measureClip(folder_ / "truth", options_.out);
+  const ClipMeasures clip = measureClip({folder_ / "truth", options_.out, {}});
   EXPECT_EQ(clip.pixels.frames(), kFrames);
   EXPECT_EQ(clip.truth_without_result, 0);
   EXPECT_GT(clip.pixels.movingPixels(), 0);
-  EXPECT_THROW(measureClip(folder_ / "nowhere", options_.out), InputError);
+  EXPECT_THROW(measureClip({folder_ / "nowhere", options_.out, {}}), InputError);
 }
 
 TEST_F(Commands, OverlayAndReportAreWritten) {
