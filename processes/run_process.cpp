@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "messaging/build_version.hpp"
 #include "messaging/receive_buffer.hpp"
 
 namespace redbee {
@@ -13,8 +14,11 @@ int runProcess(int argc, char** argv, const std::string& name, const NodeFactory
   CLI::App app("REDBEE " REDBEE_VERSION ", " + name, name);
   std::string configuration_file;
   std::string url = kDefaultLcmUrl;
+  std::string state_folder;
+  app.set_version_flag("--version", buildVersion());
   app.add_option("--config", configuration_file, "the vehicle's YAML file")->required();
   app.add_option("--lcm-url", url, "where the messages are")->capture_default_str();
+  app.add_option("--state-dir", state_folder, "keep there what must survive a restart of this process");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -28,6 +32,7 @@ int runProcess(int argc, char** argv, const std::string& name, const NodeFactory
     const Configuration configuration = loadConfiguration(configuration_file);
     const auto bus = makeLcmBus(url);
     const auto node = factory(*bus, configuration);
+    if (!state_folder.empty()) node->keepStateIn(state_folder);
     spdlog::info("{}: configuration {} ({}), {}", name, configuration_file, configurationHash(configuration),
                  url);
     runNode(*bus, *node, configuration.channels.health, stopOnSignals());

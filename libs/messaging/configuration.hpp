@@ -28,13 +28,14 @@ struct Channels {
   std::string health = "PROCESS_HEALTH";
 };
 
-/// How long each process waits for the companions of a frame, in message time.
+/// How long each process waits for the companions of a frame, in message time. Who waits for a process that
+/// itself waits for another must have the longer patience, or one death makes both give up.
 struct WaitParameters {
   double inertial_s = 0.25;      ///< s, for the fused homography of the frame before
   double visual_s = 0.25;        ///< s, for the inertial homography
-  double fusion_s = 0.25;        ///< s, for either homography
-  double segmentation_s = 0.25;  ///< s, for the fused homography
-  int max_backlog = 8;           ///< frames that may wait; beyond it the oldest are skipped
+  double fusion_s = 0.3;         ///< s, for either homography
+  double segmentation_s = 0.45;  ///< s, for the fused homography
+  int max_backlog = 14;          ///< frames that may wait; beyond it the oldest are skipped
 };
 
 struct Configuration {

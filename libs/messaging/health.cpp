@@ -8,7 +8,33 @@
 #include <utility>
 #include <vector>
 
+#include "messaging/build_version.hpp"
+
 namespace redbee {
+
+const char* toString(HealthState state) {
+  switch (state) {
+    case HealthState::kStarting:
+      return "starting";
+    case HealthState::kGood:
+      return "good";
+    case HealthState::kDegraded:
+      return "degraded";
+    case HealthState::kStopping:
+      return "stopping";
+    case HealthState::kDead:
+      return "dead";
+  }
+  return "?";
+}
+
+std::optional<HealthState> healthStateOf(const std::string& name) {
+  for (int8_t number = 0; number <= static_cast<int8_t>(HealthState::kDead); ++number) {
+    const auto state = static_cast<HealthState>(number);
+    if (name == toString(state)) return state;
+  }
+  return std::nullopt;
+}
 
 void SequenceCounter::note(int32_t sequence) {
   if (!started_) return startAt(sequence);
@@ -67,6 +93,7 @@ HealthMonitor::HealthMonitor(std::string process, std::string configuration_hash
 
 void HealthMonitor::noteInput(int64_t utime) {
   noteReceived(utime);
+  ++inputs_;
   rate_in_.note(utime);
 }
 
@@ -97,6 +124,12 @@ void HealthMonitor::setCalibration(const std::string& verdict) {
   calibration_ = verdict;
 }
 
+void HealthMonitor::setQuiet(double seconds) {
+  const bool was_quiet = isQuiet();
+  quiet_s_ = seconds;
+  changed_ = changed_ || isQuiet() != was_quiet;
+}
+
 bool HealthMonitor::takeChange() { return std::exchange(changed_, false); }
 
 int64_t HealthMonitor::lost() const {
@@ -110,16 +143,25 @@ int64_t HealthMonitor::lost(const std::string& channel) const {
   return it == sequences_.end() ? 0 : it->second.lost();
 }
 
+void HealthMonitor::describeState(process_health_t& message) const {
+  message.state = static_cast<int8_t>(state_);
+  message.message = state_message_;
+  message.rate_in = rate_in_.hertz();
+  message.rate_out = rate_out_.hertz();
+  if (!isQuiet()) return;
+  message.rate_in = message.rate_out = 0;
+  if (state_ == HealthState::kStopping) return;
+  if (state_ == HealthState::kGood) message.state = static_cast<int8_t>(HealthState::kDegraded);
+  message.message = "no input for " + std::to_string(static_cast<int64_t>(quiet_s_)) + " s";
+}
+
 process_health_t HealthMonitor::nextMessage() {
   process_health_t message{};
   message.utime = newest_utime_;
   message.process = process_;
   message.pid = static_cast<int32_t>(getpid());
   message.sequence = sequence_++;
-  message.state = static_cast<int8_t>(state_);
-  message.message = state_message_;
-  message.rate_in = rate_in_.hertz();
-  message.rate_out = rate_out_.hertz();
+  describeState(message);
   message.latency_median = latencyMedian();
   message.latency_p99 = latencyP99();
   message.work_mean = work_count_ > 0 ? work_sum_ / static_cast<double>(work_count_) : 0;
@@ -132,7 +174,7 @@ process_health_t HealthMonitor::nextMessage() {
   message.damaged = damaged_;
   message.late = late_;
   message.resident = residentBytes();
-  message.version = REDBEE_VERSION;
+  message.version = buildVersion();
   message.configuration = configuration_hash_;
   message.calibration = calibration_;
   return message;

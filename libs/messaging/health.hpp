@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -61,7 +62,11 @@ class LatencyWindow {
 };
 
 /// Numbers as in process_health_t.
-enum class HealthState : int8_t { kStarting = 0, kGood = 1, kDegraded = 2, kStopping = 3 };
+enum class HealthState : int8_t { kStarting = 0, kGood = 1, kDegraded = 2, kStopping = 3, kDead = 4 };
+/// "starting", "good", "degraded", "stopping", "dead".
+const char* toString(HealthState state);
+/// Nothing for a word that names no state.
+std::optional<HealthState> healthStateOf(const std::string& name);
 
 /// Collects what process_health_t tells. One per node, used by its one thread.
 class HealthMonitor {
@@ -75,7 +80,7 @@ class HealthMonitor {
   void noteReceived(int64_t utime);
   void notePublished(int64_t utime);
   void noteSkipped(int64_t frames = 1) { skipped_ += frames; }
-  void noteDamaged() { ++damaged_; }
+  void noteDamaged(int64_t messages = 1) { damaged_ += messages; }
   void noteLate(int64_t inputs = 1) { late_ += inputs; }
   /// `sequence` of a message on `channel`: holes count as lost messages.
   void noteSequence(const std::string& channel, int32_t sequence) { sequences_[channel].note(sequence); }
@@ -89,10 +94,16 @@ class HealthMonitor {
   void setState(HealthState state, const std::string& message = "");
   /// Whether the calibration fits the flight, in words. A change of it is a change to tell at once.
   void setCalibration(const std::string& verdict);
+  /// The driving input has been away for so long [s, of the reader's clock]. From kQuietAfter_s on that is
+  /// what the health says, and the rates, which know message time only, are zero.
+  void setQuiet(double seconds);
+  static constexpr double kQuietAfter_s = 1.0;
   HealthState state() const { return state_; }
   /// True once after each change, and once after construction.
   bool takeChange();
 
+  /// Messages of the driving input.
+  int64_t inputs() const { return inputs_; }
   int64_t received() const { return received_; }
   int64_t published() const { return published_; }
   int64_t skipped() const { return skipped_; }
@@ -110,6 +121,9 @@ class HealthMonitor {
   process_health_t nextMessage();
 
  private:
+  bool isQuiet() const { return quiet_s_ >= kQuietAfter_s; }
+  void describeState(process_health_t& message) const;
+
   std::string process_;
   std::string configuration_hash_;
   std::string calibration_;
@@ -118,6 +132,8 @@ class HealthMonitor {
   bool changed_ = true;
   int64_t newest_utime_ = 0;
   int32_t sequence_ = 0;
+  double quiet_s_ = 0;
+  int64_t inputs_ = 0;
   int64_t received_ = 0;
   int64_t published_ = 0;
   int64_t skipped_ = 0;

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <csignal>
 #include <exception>
+#include <new>
+#include <opencv2/core.hpp>
 
 namespace redbee {
 namespace {
@@ -18,24 +20,51 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only
 
 extern "C" void requestStop(int) { stop_requested = true; }
 
-/// What escapes one frame's work must not end the flight: the node goes on with the next and says so.
+/// What escapes one frame's work must not end the flight: the node goes on with the next and says so. But a
+/// process that is out of memory would go on failing for ever: it ends, and is started again with a clean
+/// heap.
 void processGuarded(Node& node) {
   try {
     node.process();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
+    const auto* from_opencv = dynamic_cast<const cv::Exception*>(&error);
+    if (from_opencv != nullptr && from_opencv->code == cv::Error::StsNoMem) throw std::bad_alloc();
     spdlog::error("a frame could not be worked on: {}", error.what());
     node.health().setState(HealthState::kDegraded, std::string("internal error: ") + error.what());
   }
 }
 
+/// How long the input that drives a node has been away.
+class QuietTimer {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  double seconds(int64_t inputs, Clock::time_point now) {
+    if (inputs != inputs_) last_ = now;
+    inputs_ = inputs;
+    return std::chrono::duration<double>(now - last_).count();
+  }
+
+ private:
+  int64_t inputs_ = 0;
+  Clock::time_point last_ = Clock::now();
+};
+
 }  // namespace
 
 void runNode(Bus& bus, Node& node, const std::string& health_channel, const std::atomic<bool>& stop) {
   auto next_health = std::chrono::steady_clock::now();
+  QuietTimer quiet;
+  int64_t failures = 0;
   while (!stop) {
     bus.handle(kPatience);
+    node.health().noteDamaged(bus.handlerFailures() - failures);
+    failures = bus.handlerFailures();
     processGuarded(node);
     const auto now = std::chrono::steady_clock::now();
+    node.health().setQuiet(quiet.seconds(node.health().inputs(), now));
     const bool due = now >= next_health;
     if (node.health().takeChange() || due) bus.publish(health_channel, node.health().nextMessage());
     if (due) next_health = now + kHealthPeriod;

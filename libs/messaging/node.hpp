@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <string>
 
 #include "messaging/bus.hpp"
@@ -19,9 +20,12 @@ class Node {
   /// No message will come any more: works off what is left without waiting for companions.
   virtual void finish() = 0;
   virtual HealthMonitor& health() = 0;
+  /// Keeps in this folder, from now on, what the process that takes its place needs. Most need nothing.
+  virtual void keepStateIn(const std::filesystem::path&) {}
 };
 
-/// Live: until `stop` is set, hands out messages, lets the node work and publishes its health.
+/// Live: until `stop` is set, hands out messages, lets the node work and publishes its health. An exception
+/// costs a frame; only std::bad_alloc gets through.
 void runNode(Bus& bus, Node& node, const std::string& health_channel, const std::atomic<bool>& stop);
 
 /// SIGINT and SIGTERM set the flag that this returns.

@@ -47,7 +47,6 @@ void HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
 }
 
 void HomographyFusionNode::takeVisual(const visual_homography_t& message) {
-  health_.noteInput(message.utime);
   health_.noteSequence(configuration_.channels.visual_homography, message.sequence);
   if (!finiteHomography(message) && message.status == kVisualGood) {
     health_.noteDamaged();
@@ -64,6 +63,7 @@ void HomographyFusionNode::expect(int64_t utime) {
   if (is_companion_of_last) return;  // came after its frame was given up
   const int64_t newest_frame = pending_.empty() ? order_.last().value_or(utime) : pending_.rbegin()->first;
   if (newest_frame - utime > FrameOrder::kSetBack) restart();
+  health_.noteInput(utime);
   pending_.emplace(utime, WorkTimer());
   if (pending_.size() > kMaxPending) {
     pending_.erase(pending_.begin());

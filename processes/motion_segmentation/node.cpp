@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kFrameQueue = 64;
 constexpr int kOverlayQuality = 80;
+constexpr int8_t kVisualGood = 0;
 
 detections_t detectionsMessage(const SegmentationOutput& output) {
   detections_t message{};
@@ -66,7 +67,8 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
       rectifier_(camera_),
       segmenter_(configuration.segmentation),
       pictures_(configuration.waits.max_backlog),
-      fused_(microseconds(configuration.waits.segmentation_s), true) {
+      fused_(microseconds(configuration.waits.segmentation_s), true),
+      visual_(0, false) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(
@@ -84,6 +86,12 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
         }
       },
       damaged);
+  bus_.subscribe<visual_homography_t>(
+      channels.visual_homography, kFrameQueue,
+      [this](const visual_homography_t& m) {
+        if (finiteHomography(m)) visual_.put(m.utime, m);
+      },
+      damaged);
 }
 
 void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
@@ -97,6 +105,7 @@ void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
 
 void MotionSegmentationNode::restart() {
   fused_.clear();
+  visual_.clear();
   last_.reset();
 }
 
@@ -113,8 +122,12 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const
   input.utime = message.utime;
   input.utime_previous = last_ ? last_->utime : message.utime;
   input.K = camera_.K();
+  if (!last_) return input;
   const fused_homography_t* fused = fused_.find(message.utime);
-  if (fused == nullptr || !last_ || fused->source == 0) return input;
+  if (fused == nullptr || fused->source == 0) {
+    addVisual(input);
+    return input;
+  }
   if (fused->utime_previous == last_->utime) {
     input.ground = matrix3(fused->H);
     input.tracks = tracksOf(*fused);
@@ -123,11 +136,21 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const
       input.motion =
           PlaneMotion{matrix3(fused->R), vector3(fused->t), vector3(fused->normal), fused->plane_distance};
     }
-  } else if (fused->epoch == last_->epoch) {
-    // A frame between was missed: the anchor bridges it (method.md, "Fusion").
+  } else if (fused->epoch == last_->epoch && fused->utime_anchor == last_->utime_anchor) {
+    // A frame between was missed: the anchor bridges it (method.md, "Fusion"). A fusion that was started
+    // again counts its epochs anew, but not its anchors.
     input.ground = normaliseHomography(matrix3(fused->H_anchor) * last_->H_anchor.inverse());
   }
   return input;
+}
+
+/// While the fusion is away or knows nothing yet (its process was started again): vision's own homography
+/// keeps background and identities.
+void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
+  const visual_homography_t* visual = visual_.find(input.utime);
+  if (visual == nullptr || visual->status != kVisualGood || visual->utime_previous != last_->utime) return;
+  input.ground = matrix3(visual->H);
+  input.tracks = tracksOf(*visual);
 }
 
 void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
@@ -137,11 +160,12 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   decodeInto(input, message);
   publish(message, input, segmenter_.step(input));
   if (const fused_homography_t* fused = fused_.find(message.utime)) {
-    last_ = Last{message.utime, fused->epoch, matrix3(fused->H_anchor)};
+    last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->H_anchor)};
   } else {
-    last_ = Last{message.utime, -1, Eigen::Matrix3d::Identity()};
+    last_ = Last{message.utime, -1, 0, Eigen::Matrix3d::Identity()};
   }
   fused_.forgetUpTo(message.utime);
+  visual_.forgetUpTo(message.utime);
   noteDone(health_, message.utime, frame.since, timer);
 }
 
@@ -168,6 +192,7 @@ void MotionSegmentationNode::publish(const image_t& message, const SegmentationI
   output.probability = rectifier_.toRaw(output.probability);
   output.mask = rectifier_.toRaw(output.mask);
   output.unknown = rectifier_.toRaw(output.unknown);
+  for (Detection& detection : output.detections) detection.id = identities_.told(detection.id);
   if (camera_.isDistorted()) {
     for (Detection& detection : output.detections) detection.box = rawBox(camera_, detection.box);
   }
@@ -190,8 +215,13 @@ void MotionSegmentationNode::publish(const image_t& message, const SegmentationI
   detections.sequence = sequence_++;
   bus_.publish(configuration_.channels.detections, detections);
   publishOverlay(message, output);
-  const bool good = output.status == SegmentationStatus::kGood;
-  health_.setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(output.status));
+  if (output.status != SegmentationStatus::kGood) {
+    health_.setState(HealthState::kDegraded, toString(output.status));
+  } else if (fused_.find(output.utime) == nullptr) {
+    health_.setState(HealthState::kDegraded, "the fusion is away: homography from vision");
+  } else {
+    health_.setState(HealthState::kGood);
+  }
 }
 
 void MotionSegmentationNode::publishOverlay(const image_t& message, const SegmentationOutput& output) {

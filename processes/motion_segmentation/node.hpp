@@ -1,4 +1,5 @@
-// CAMERA and FUSED_HOMOGRAPHY in; FOREGROUND, DETECTIONS and OVERLAY out.
+// CAMERA and FUSED_HOMOGRAPHY in, VISUAL_HOMOGRAPHY for when the fusion is away; FOREGROUND, DETECTIONS and
+// OVERLAY out.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +9,11 @@
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/node.hpp"
+#include "processes/motion_segmentation/kept_identities.hpp"
 #include "processes/picture_queue.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/visual_homography_t.hpp"
 #include "segmentation/motion_segmenter.hpp"
 #include "visual/rectifier.hpp"
 
@@ -23,17 +26,22 @@ class MotionSegmentationNode : public Node {
   void process() override;
   void finish() override;
   HealthMonitor& health() override { return health_; }
+  void keepStateIn(const std::filesystem::path& folder) override {
+    identities_ = KeptIdentities(folder / "identities");
+  }
 
  private:
   /// The last frame that was segmented, and where it lay in its epoch.
   struct Last {
     int64_t utime;
     int32_t epoch;
+    int64_t utime_anchor;
     Eigen::Matrix3d H_anchor;
   };
 
   void segment(const Arrived<image_t>& frame);
   SegmentationInput inputFor(const image_t& message) const;
+  void addVisual(SegmentationInput& input) const;
   /// Black where there is no picture of the camera's size.
   void decodeInto(SegmentationInput& input, const image_t& message);
   void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
@@ -49,7 +57,9 @@ class MotionSegmentationNode : public Node {
   MotionSegmenter segmenter_;
   PictureQueue pictures_;
   CompanionBuffer<fused_homography_t> fused_;
+  CompanionBuffer<visual_homography_t> visual_;
   std::optional<Last> last_;
+  KeptIdentities identities_;
   CalibrationMonitor calibration_;
   int32_t sequence_ = 0;
   int frames_since_overlay_ = 0;

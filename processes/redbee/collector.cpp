@@ -7,6 +7,7 @@
 #include "flight/atomic_file.hpp"
 #include "flight/input_error.hpp"
 #include "flight/results.hpp"
+#include "messaging/build_version.hpp"
 #include "processes/conversions.hpp"
 
 namespace redbee {
@@ -137,7 +138,7 @@ void ResultCollector::writeTables(double wall_s, const std::optional<ProcessUsag
   const auto per_second = [](double milliseconds) { return milliseconds > 0 ? 1000 / milliseconds : 0; };
   writeJson(
       folder_ / "summary.json",
-      {{"version", REDBEE_VERSION},
+      {{"version", buildVersion()},
        {"frames", frames()},
        {"frames_good", good},
        {"fps", per_second(slowest_ms)},  // frames over wall time of the slowest stage, decoding included

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "flight/input_error.hpp"
+#include "messaging/build_version.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/receive_buffer.hpp"
 #include "processes/redbee/calibrate.hpp"
@@ -124,7 +125,7 @@ void addDoctorCommand(CLI::App& app) {
 int runTool(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("redbee"));
   CLI::App app("REDBEE " REDBEE_VERSION ": moving objects, seen from a drone", "redbee");
-  app.set_version_flag("--version", REDBEE_VERSION);
+  app.set_version_flag("--version", buildVersion());
   app.require_subcommand(1);
   addImportCommand(app);
   addDetectCommand(app);
@@ -138,6 +139,9 @@ int runTool(int argc, char** argv) {
   addSimulateCommand(app);
   addCalibrateCommand(app);
   addDoctorCommand(app);
+  addTopCommand(app);
+  addWatchCommand(app);
+  addAnnounceCommand(app);
   cv::setNumThreads(1);  // figures for one core, and the same sums on every machine
   try {
     app.parse(argc, argv);

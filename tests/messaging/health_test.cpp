@@ -121,5 +121,40 @@ TEST(HealthMonitor, changeIsToldOnce) {
   EXPECT_TRUE(health.takeChange());
 }
 
+TEST(HealthMonitor, anInputThatStaysAwayIsSaidAndHasNoRate) {
+  HealthMonitor health("redbee-test", "");
+  health.setState(HealthState::kGood);
+  for (int i = 0; i < 10; ++i) health.noteInput(1000000 + i * 40000);
+  health.takeChange();
+  health.setQuiet(0.9);
+  EXPECT_FALSE(health.takeChange());
+  EXPECT_NEAR(health.nextMessage().rate_in, 25, 1e-9);
+  health.setQuiet(3.4);
+  EXPECT_TRUE(health.takeChange());
+  const auto quiet = health.nextMessage();
+  EXPECT_EQ(quiet.state, 2);
+  EXPECT_EQ(quiet.message, "no input for 3 s");
+  EXPECT_EQ(quiet.rate_in, 0);
+  health.setQuiet(0);
+  EXPECT_TRUE(health.takeChange());
+  EXPECT_EQ(health.nextMessage().state, 1);
+}
+
+TEST(HealthMonitor, stoppingIsNotOverwrittenByQuiet) {
+  HealthMonitor health("redbee-test", "");
+  health.setQuiet(9);
+  health.setState(HealthState::kStopping);
+  EXPECT_EQ(health.nextMessage().state, 3);
+  EXPECT_EQ(health.nextMessage().message, "");
+}
+
+TEST(HealthState, namesAreReadBack) {
+  for (int8_t number = 0; number <= 4; ++number) {
+    const auto state = static_cast<HealthState>(number);
+    EXPECT_EQ(healthStateOf(toString(state)), state);
+  }
+  EXPECT_FALSE(healthStateOf("splendid"));
+}
+
 }  // namespace
 }  // namespace redbee

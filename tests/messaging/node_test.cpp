@@ -5,6 +5,8 @@
 
 #include <csignal>
 #include <functional>
+#include <new>
+#include <opencv2/core.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -25,8 +27,10 @@ class RecordingBus : public Bus {
   }
   void subscribe(const std::string&, int, Handler) override {}
   int handle(std::chrono::milliseconds) override { return 0; }
+  int64_t handlerFailures() const override { return failures; }
 
   std::vector<process_health_t> health;
+  int64_t failures = 0;
 };
 
 /// Does one thing per call of process(), then sets the stop flag.
@@ -75,6 +79,23 @@ TEST(RunNode, goesOnAfterAFrameThatThrew) {
   EXPECT_TRUE(reached);
   EXPECT_EQ(bus.health.front().state, 2);
   EXPECT_THAT(bus.health.front().message, ::testing::HasSubstr("singular matrix"));
+}
+
+TEST(RunNode, endsWhenMemoryIsGoneSoThatTheProcessIsStartedAgain) {
+  RecordingBus bus;
+  ScriptedNode node({[](HealthMonitor&) { throw std::bad_alloc(); }, [](HealthMonitor&) {}});
+  EXPECT_THROW(runNode(bus, node, "HEALTH", node.stop), std::bad_alloc);
+  ScriptedNode other(
+      {[](HealthMonitor&) { CV_Error(cv::Error::StsNoMem, "no room"); }, [](HealthMonitor&) {}});
+  EXPECT_THROW(runNode(bus, other, "HEALTH", other.stop), std::bad_alloc);
+}
+
+TEST(RunNode, aMessageThatItsHandlerThrewOutCountsAsDamaged) {
+  RecordingBus bus;
+  bus.failures = 3;
+  ScriptedNode node({[](HealthMonitor&) {}, [](HealthMonitor&) {}});
+  runNode(bus, node, "HEALTH", node.stop);
+  EXPECT_EQ(bus.health.back().damaged, 3);
 }
 
 TEST(RunNode, doesNothingWhenStoppedBefore) {

@@ -1,0 +1,9 @@
+// Which build this is.
+#pragma once
+
+namespace redbee {
+
+/// Release and commit, "0.1.0+7a7631e21c"; ".changed" behind it where the sources were not as committed.
+const char* buildVersion();
+
+}  // namespace redbee

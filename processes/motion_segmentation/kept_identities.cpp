@@ -1,0 +1,42 @@
+#include "processes/motion_segmentation/kept_identities.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <fstream>
+#include <utility>
+
+#include "flight/atomic_file.hpp"
+
+namespace redbee {
+
+KeptIdentities::KeptIdentities(std::filesystem::path file) : file_(std::move(file)) {
+  std::ifstream stream(file_);
+  if (!stream) return;
+  if (!(stream >> before_) || before_ < 0) {
+    spdlog::warn("{}: holds no identity: they start at 1", file_.string());
+    before_ = 0;
+  }
+  highest_ = before_;
+}
+
+int KeptIdentities::told(int id) {
+  const int number = before_ + id;
+  if (number > highest_) {
+    highest_ = number;
+    keep();
+  }
+  return number;
+}
+
+void KeptIdentities::keep() {
+  if (file_.empty()) return;
+  try {
+    writeAtomically(file_, std::to_string(highest_) + "\n");
+  } catch (const std::exception& error) {
+    spdlog::warn("identities may be given twice after a restart: {}", error.what());
+    file_.clear();
+  }
+}
+
+}  // namespace redbee

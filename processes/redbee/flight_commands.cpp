@@ -1,0 +1,55 @@
+// The subcommands beside the running processes.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "messaging/receive_buffer.hpp"
+#include "processes/redbee/announce.hpp"
+#include "processes/redbee/commands.hpp"
+#include "processes/redbee/top.hpp"
+#include "processes/redbee/watch.hpp"
+
+namespace redbee {
+
+void addTopCommand(CLI::App& app) {
+  auto options = std::make_shared<TopOptions>();
+  options->url = kDefaultLcmUrl;
+  auto* command = app.add_subcommand("top", "how the processes fare, until q is pressed");
+  command->add_option("--lcm-url", options->url, "where the messages are")
+      ->envname("LCM_DEFAULT_URL")
+      ->capture_default_str();
+  command->add_option("--channel", options->channel, "of PROCESS_HEALTH")->capture_default_str();
+  auto* once =
+      command->add_flag("--once", options->once, "print one table and end; exit 1 where nobody is heard");
+  command->add_option("--listen", options->listen_s, "s, how long to listen for it")
+      ->check(CLI::PositiveNumber)
+      ->needs(once)
+      ->capture_default_str();
+  command->callback([options] {
+    if (runTop(*options) == 0 && options->once) throw CLI::RuntimeError(1);
+  });
+}
+
+void addWatchCommand(CLI::App& app) {
+  auto options = std::make_shared<WatchOptions>();
+  options->url = kDefaultLcmUrl;
+  auto* command = app.add_subcommand("watch", "tell at once when a process dies, until SIGINT or SIGTERM");
+  command->add_option("--config", options->configuration, "the vehicle's YAML file")->required();
+  command->add_option("--lcm-url", options->url, "where the messages are")->capture_default_str();
+  command->callback([options] { runWatch(*options); });
+}
+
+void addAnnounceCommand(CLI::App& app) {
+  auto options = std::make_shared<AnnounceOptions>();
+  options->url = kDefaultLcmUrl;
+  auto* command = app.add_subcommand("announce", "one word on PROCESS_HEALTH, for scripts");
+  command->add_option("--lcm-url", options->url, "where the messages are")->capture_default_str();
+  command->add_option("--channel", options->channel, "of PROCESS_HEALTH")->capture_default_str();
+  command->add_option("--process", options->process, "who speaks")->required();
+  command->add_option("--process-id", options->process_id, "of who speaks")->capture_default_str();
+  command->add_option("--state", options->state, "starting, good, degraded, stopping or dead")
+      ->capture_default_str();
+  command->add_option("--message", options->message, "one line");
+  command->callback([options] { runAnnounce(*options); });
+}
+
+}  // namespace redbee

@@ -1,0 +1,201 @@
+// A process of the stack is killed in the middle of a flight and comes back: in flight time, and the same on
+// every machine. What supervisor adds is in tests/integration/survives_kills.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iostream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "processes/conversions.hpp"
+#include "tests/flight/scratch.hpp"
+#include "tests/processes/mortal_stack.hpp"
+#include "tests/processes/stack_fixture.hpp"
+
+namespace redbee::test {
+namespace {
+
+constexpr int kFrames = 110;
+constexpr int kKilledAt = 50;
+constexpr int kDownFrames = 8;  ///< a third of a second: what supervisor needs
+
+struct Seen {
+  std::map<int64_t, int> told_at;  ///< frame by the newest frame that had been sent when it was told
+  Said said;
+};
+
+/// `kills`: who dies at which frame; each is back kDownFrames later.
+Seen flyWith(const Flight& flight, const std::map<int, Which>& kills) {
+  const auto bus = makeLcmBus("memq://");
+  Seen seen;
+  int frame = -1;
+  bus->subscribe<foreground_t>(
+      "FOREGROUND", 64,
+      [&](const foreground_t& m) {
+        seen.said.foreground[m.utime] = m;
+        seen.told_at[m.utime] = frame;
+      },
+      nullptr);
+  bus->subscribe<detections_t>(
+      "DETECTIONS", 64, [&](const detections_t& m) { seen.said.detections[m.utime] = m; }, nullptr);
+  bus->subscribe<fused_homography_t>(
+      "FUSED_HOMOGRAPHY", 64, [&](const fused_homography_t& m) { seen.said.fused[m.utime] = m; }, nullptr);
+  MortalStack stack(*bus, flight.configuration);
+  for (const Arrival& arrival : flight.arrivals) {
+    if (arrival.channel == "CAMERA") {
+      ++frame;
+      if (const auto kill = kills.find(frame); kill != kills.end()) stack.kill(kill->second);
+      if (const auto kill = kills.find(frame - kDownFrames); kill != kills.end()) stack.start(kill->second);
+    }
+    bus->publish(arrival.channel, arrival.data);
+    stack.settle();
+  }
+  return seen;
+}
+
+const Flight& walk() {
+  static const Flight flight = fly(simulation::twoPlanes(3), kFrames);
+  return flight;
+}
+
+int64_t utimeOf(int k) { return walk().frame_utimes[static_cast<size_t>(k)]; }
+
+bool isGood(const Said& said, int k) {
+  const auto it = said.foreground.find(utimeOf(k));
+  return it != said.foreground.end() && it->second.status == 0;
+}
+
+/// How long nothing that can be trusted was told, in frames that had been sent by then: what an autopilot
+/// sees.
+int framesInTheDark(const Seen& seen, int killed_at) {
+  int longest = 0;
+  int last = killed_at;
+  for (int k = killed_at; k < kFrames; ++k) {
+    if (!isGood(seen.said, k)) continue;
+    longest = std::max(longest, seen.told_at.at(utimeOf(k)) - last);
+    last = std::max(last, seen.told_at.at(utimeOf(k)));
+  }
+  return longest;
+}
+
+int untrusted(const Said& said, int from, int to) {
+  int count = 0;
+  for (int k = from; k < to; ++k) count += isGood(said, k) ? 0 : 1;
+  return count;
+}
+
+/// No mask that is called good is wilder than a few percent of the picture.
+void expectNoWrongMask(const Said& said) {
+  for (int k = 0; k < kFrames; ++k) {
+    if (!isGood(said, k)) continue;
+    const cv::Mat mask = cv::imdecode(said.foreground.at(utimeOf(k)).mask, cv::IMREAD_GRAYSCALE);
+    EXPECT_LT(cv::countNonZero(mask & (walk().masks[static_cast<size_t>(k)] == 0)), 640 * 480 / 25)
+        << "frame " << k;
+  }
+}
+
+/// Identities of what is told at frame k, by the truth's mover: here there is one.
+std::optional<int> identityAt(const Said& said, int k) {
+  const auto it = said.detections.find(utimeOf(k));
+  if (it == said.detections.end()) return std::nullopt;
+  const cv::Rect truth = cv::boundingRect(walk().masks[static_cast<size_t>(k)] == 255);
+  for (const detection_t& d : it->second.detections) {
+    const cv::Rect box(d.x, d.y, d.width, d.height);
+    if (d.seen != 0 && (box & truth).area() > 0.3 * (box | truth).area()) return d.id;
+  }
+  return std::nullopt;
+}
+
+std::optional<int> firstIdentity(const Said& said, int from, int to, int step = 1) {
+  for (int k = from; k != to; k += step) {
+    if (const auto id = identityAt(said, k)) return id;
+  }
+  return std::nullopt;
+}
+
+struct Case {
+  const char* name;
+  Which which;
+  int dark;       ///< frames at most without a trusted answer, 24 a second
+  int untrusted;  ///< frames at most that never get a mask
+};
+
+class ProcessKilled : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ProcessKilled, TheOthersGoOnAndNothingWrongIsSaid) {
+  const Case& c = GetParam();
+  const Seen seen = flyWith(walk(), {{kKilledAt, c.which}});
+  expectNoWrongMask(seen.said);
+  const int dark = framesInTheDark(seen, kKilledAt - 1);
+  const int lost = untrusted(seen.said, kKilledAt, kFrames - 10);
+  std::cout << c.name << ": " << dark << " frames in the dark, " << lost << " without a mask\n";
+  EXPECT_LE(dark, c.dark);
+  EXPECT_LE(lost, c.untrusted);
+  const auto before = firstIdentity(seen.said, kKilledAt - 1, kKilledAt - 15, -1);
+  const auto after = firstIdentity(seen.said, kKilledAt + 1, kFrames);
+  ASSERT_TRUE(before && after);
+  if (c.which != kSegmentation) {
+    EXPECT_EQ(*before, *after);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, ProcessKilled,
+                         ::testing::Values(Case{"imu", kImu, 12, 0}, Case{"visual", kVisual, 12, 0},
+                                           Case{"fusion", kFusion, 12, 0},
+                                           Case{"segmentation", kSegmentation, 24, 16}),
+                         [](const auto& each) { return each.param.name; });
+
+TEST(RestartedTracker, GivesNoIdentityTwice) {
+  const testing::ScratchFolder folder;
+  KeptIdentities first(folder.path() / "identities");
+  EXPECT_EQ(first.told(1), 1);
+  EXPECT_EQ(first.told(7), 7);
+  EXPECT_EQ(first.told(3), 3);
+  KeptIdentities second(folder.path() / "identities");
+  EXPECT_EQ(second.told(1), 8);
+  KeptIdentities third(folder.path() / "identities");
+  EXPECT_EQ(third.told(2), 10);
+}
+
+TEST(RestartedTracker, WhatCannotBeReadOrWrittenEndsNoFlight) {
+  const testing::ScratchFolder folder;
+  std::ofstream(folder.path() / "identities") << "seven";
+  EXPECT_EQ(KeptIdentities(folder.path() / "identities").told(1), 1);
+  KeptIdentities nowhere(folder.path() / "no such folder" / "identities");
+  EXPECT_EQ(nowhere.told(1), 1);
+  EXPECT_EQ(nowhere.told(2), 2);
+}
+
+TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
+  const auto bus = makeLcmBus("memq://");
+  std::map<int64_t, int> status;
+  bus->subscribe<foreground_t>(
+      "FOREGROUND", 64, [&](const foreground_t& m) { status[m.utime] = m.status; }, nullptr);
+  MotionSegmentationNode node(*bus, walk().configuration);
+  const auto tell = [&](int k, int64_t utime_previous, int64_t utime_anchor) {
+    fused_homography_t fused{};
+    fused.utime = utimeOf(k);
+    fused.utime_previous = utime_previous;
+    fused.sequence = k;
+    fused.source = static_cast<int8_t>(FusionSource::kVisual);
+    fused.epoch = 1;
+    fused.utime_anchor = utime_anchor;
+    fill(fused.H, walk().homographies[static_cast<size_t>(k)]);
+    fill(fused.H_anchor, walk().homographies[static_cast<size_t>(k)]);
+    bus->publish("FUSED_HOMOGRAPHY", fused);
+    for (const Arrival& arrival : walk().arrivals) {
+      if (arrival.channel == "CAMERA" && arrival.utime == utimeOf(k))
+        bus->publish(arrival.channel, arrival.data);
+    }
+    bus->handle(std::chrono::milliseconds(0));
+    node.process();
+    bus->handle(std::chrono::milliseconds(0));
+  };
+  for (int k = 1; k < 15; ++k) tell(k, utimeOf(k - 1), utimeOf(0));
+  EXPECT_EQ(status.at(utimeOf(14)), 0);
+  tell(17, utimeOf(16), utimeOf(16));  // frames were lost, and the fusion counts its epochs anew
+  EXPECT_NE(status.at(utimeOf(17)), 0) << "the homographies to two different anchors do not compose";
+}
+
+}  // namespace
+}  // namespace redbee::test

@@ -1,0 +1,109 @@
+// Sees what the stack says while it is disturbed, and holds it against the truth.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "messaging/bus.hpp"
+#include "redbee/detections_t.hpp"
+#include "redbee/foreground_t.hpp"
+#include "redbee/process_health_t.hpp"
+#include "tests/restarts/looped_flight.hpp"
+
+namespace redbee::test {
+
+/// By car, of the detections that lie on it: a car may be seen in pieces.
+using Identities = std::map<int, std::set<int>>;
+
+/// One frame as the stack told it.
+struct Told {
+  std::chrono::steady_clock::time_point when;
+  int status = -1;
+  double false_share = 0;  ///< of the picture: called moving, background in truth
+  double found_share = 0;  ///< of the movers' pixels
+  Identities ids_of_car;
+};
+
+class Witness {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  Witness(Bus& bus, const LoopedFlight& flight) : flight_(flight) {
+    bus.subscribe<foreground_t>(
+        "FOREGROUND", 64, [this](const foreground_t& m) { take(m); }, nullptr);
+    bus.subscribe<detections_t>(
+        "DETECTIONS", 64, [this](const detections_t& m) { take(m); }, nullptr);
+    bus.subscribe<process_health_t>(
+        "PROCESS_HEALTH", 256, [this](const process_health_t& m) { take(m); }, nullptr);
+  }
+
+  const std::map<int64_t, Told>& frames() const { return frames_; }
+  /// Every process number that a process has had, oldest first.
+  const std::vector<int>& pids(const std::string& process) const {
+    static const std::vector<int> none;
+    const auto it = pids_.find(process);
+    return it == pids_.end() ? none : it->second;
+  }
+  const std::map<std::string, process_health_t>& health() const { return health_; }
+  int deathsTold() const { return deaths_; }
+
+  /// The first frame after `utime` that has a trusted mask.
+  std::optional<std::pair<int64_t, Told>> firstGoodAfter(int64_t utime) const {
+    for (auto it = frames_.upper_bound(utime); it != frames_.end(); ++it) {
+      if (it->second.status == 0) return *it;
+    }
+    return std::nullopt;
+  }
+  bool allGood(int64_t from_utime, int frames) const {
+    int good = 0;
+    for (auto it = frames_.lower_bound(from_utime); it != frames_.end(); ++it) {
+      good = it->second.status == 0 ? good + 1 : 0;
+    }
+    return good >= frames;
+  }
+
+ private:
+  void take(const foreground_t& m) {
+    Told& told = frames_[m.utime];
+    told.when = Clock::now();
+    told.status = m.status;
+    const cv::Mat mask = cv::imdecode(m.mask, cv::IMREAD_GRAYSCALE);
+    const cv::Mat truth = flight_.truth(flight_.frameAt(m.utime)).moving;
+    if (mask.size() != truth.size()) return;
+    told.false_share = cv::countNonZero(mask & (truth == 0)) / static_cast<double>(mask.total());
+    told.found_share =
+        cv::countNonZero(mask & truth) / std::max(1.0, static_cast<double>(cv::countNonZero(truth)));
+  }
+
+  void take(const detections_t& m) {
+    for (const auto& [car, box] : flight_.truth(flight_.frameAt(m.utime)).cars) {
+      for (const detection_t& d : m.detections) {
+        const cv::Rect told(d.x, d.y, d.width, d.height);
+        if (d.seen != 0 && (told & box).area() > 0.5 * told.area())
+          frames_[m.utime].ids_of_car[car].insert(d.id);
+      }
+    }
+  }
+
+  void take(const process_health_t& m) {
+    constexpr int8_t kDead = 4;
+    deaths_ += m.state == kDead ? 1 : 0;
+    health_[m.process] = m;
+    auto& pids = pids_[m.process];
+    if (m.state != kDead && (pids.empty() || pids.back() != m.pid)) pids.push_back(m.pid);
+  }
+
+  const LoopedFlight& flight_;
+  std::map<int64_t, Told> frames_;
+  std::map<std::string, std::vector<int>> pids_;
+  std::map<std::string, process_health_t> health_;
+  int deaths_ = 0;
+};
+
+}  // namespace redbee::test
