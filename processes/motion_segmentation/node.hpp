@@ -8,11 +8,10 @@
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/node.hpp"
+#include "processes/foreground_publisher.hpp"
 #include "processes/picture_queue.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
-#include "segmentation/motion_segmenter.hpp"
-#include "visual/rectifier.hpp"
 
 namespace redbee {
 
@@ -34,23 +33,20 @@ class MotionSegmentationNode : public Node {
 
   void segment(const Arrived<image_t>& frame);
   SegmentationInput inputFor(const image_t& message, const cv::Mat& ideal) const;
-  void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
-  void publishOverlay(const image_t& message, const SegmentationOutput& output);
+  void publish(const image_t& message, const SegmentationInput& input, const SegmentationOutput& output);
   void judgeCalibration(const fused_homography_t& fused);
   void restart();
 
   Bus& bus_;
   Configuration configuration_;
   HealthMonitor health_;
-  Camera camera_;
-  Rectifier rectifier_;
+  RectifiedCamera camera_;
+  ForegroundPublisher publisher_;
   MotionSegmenter segmenter_;
   PictureQueue pictures_;
   CompanionBuffer<fused_homography_t> fused_;
   std::optional<Last> last_;
   CalibrationMonitor calibration_;
-  int32_t sequence_ = 0;
-  int frames_since_overlay_ = 0;
 };
 
 }  // namespace redbee

@@ -17,8 +17,7 @@ int64_t runCollect(const CollectOptions& options) {
   while (!stop) bus->handle(std::chrono::milliseconds(50));
   while (bus->handle(std::chrono::milliseconds(50)) > 0) {
   }
-  constexpr int64_t kSumOfProcesses = 0;
-  collector.writeTables(timer.milliseconds() / 1000, kSumOfProcesses);
+  collector.writeTables({timer.milliseconds() / 1000});
   return collector.frames();
 }
 

@@ -112,7 +112,7 @@ void ResultCollector::writeHomographies() const {
   csv.close();
 }
 
-void ResultCollector::writeTables(double wall_s, int64_t peak_resident_bytes) const {
+void ResultCollector::writeTables(const RunCost& cost) const {
   if (!first_failure_.empty()) throw InputError(first_failure_);
   writeDetections();
   writeHomographies();
@@ -124,6 +124,9 @@ void ResultCollector::writeTables(double wall_s, int64_t peak_resident_bytes) co
   int64_t resident = 0;
   for (const auto& [process, health] : health_) {
     stages[process] = stageJson(health);
+    const auto processor = cost.processor_ms.find(process);
+    if (processor != cost.processor_ms.end() && health.published > 0)
+      stages[process]["processor_mean_ms"] = processor->second / static_cast<double>(health.published);
     slowest_ms = std::max(slowest_ms, health.work_mean);
     lost += health.lost + health.damaged;
     skipped += health.skipped;
@@ -139,12 +142,12 @@ void ResultCollector::writeTables(double wall_s, int64_t peak_resident_bytes) co
        {"frames", frames()},
        {"frames_good", good},
        {"fps", per_second(slowest_ms)},  // frames over wall time of the slowest stage, decoding included
-       {"wall_s", wall_s},
+       {"wall_s", cost.wall_s},
        {"lost", lost},
        {"skipped", skipped},
        {"given_up", given_up},
        {"stages", stages},
-       {"peak_rss_bytes", peak_resident_bytes > 0 ? peak_resident_bytes : resident}});
+       {"peak_rss_bytes", cost.peak_resident_bytes > 0 ? cost.peak_resident_bytes : resident}});
 }
 
 }  // namespace redbee

@@ -17,6 +17,14 @@
 
 namespace redbee {
 
+/// What a run took, as far as its messages do not tell.
+struct RunCost {
+  double wall_s = 0;
+  int64_t peak_resident_bytes = 0;  ///< of the process that ran it; 0: the sum over the processes heard
+  /// Processor time by the name of the stage [ms]; of a run in one process only.
+  std::map<std::string, double> processor_ms = {};
+};
+
 /// Maps that an earlier run left in the folder are removed. Throws InputError where the folder cannot be
 /// written.
 class ResultCollector {
@@ -28,9 +36,7 @@ class ResultCollector {
   /// The latest word of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }
 
-  /// `wall_s`: how long the run took. `peak_resident_bytes`: of the process that ran it; 0: the sum over the
-  /// processes heard.
-  void writeTables(double wall_s, int64_t peak_resident_bytes) const;
+  void writeTables(const RunCost& cost) const;
 
  private:
   void takeForeground(const foreground_t& message);

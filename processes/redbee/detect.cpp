@@ -1,6 +1,8 @@
 #include "processes/redbee/detect.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <thread>
 
 #include "flight/input_error.hpp"
@@ -11,6 +13,7 @@
 #include "processes/motion_segmentation/node.hpp"
 #include "processes/redbee/collector.hpp"
 #include "processes/redbee/peak_memory.hpp"
+#include "processes/redbee/rival_node.hpp"
 #include "processes/visual_homography/node.hpp"
 
 namespace redbee {
@@ -38,17 +41,33 @@ class Pace {
   Clock::time_point start_ = Clock::now();
 };
 
+bool isRival(const std::string& method) {
+  const std::vector<std::string> rivals = rivalNames();
+  return std::find(rivals.begin(), rivals.end(), method) != rivals.end();
+}
+
+InProcessStack makeStack(Bus& bus, const Configuration& configuration, const std::string& method) {
+  return isRival(method) ? InProcessStack(bus, configuration, method) : InProcessStack(bus, configuration);
+}
+
 Configuration configurationFor(const DetectOptions& options) {
   Configuration configuration = loadConfiguration(options.configuration);
-  if (options.method != "redbee" && !applyPreset(configuration, options.method)) {
-    throw InputError("--method " + options.method + ": unknown; known are redbee, default and paper");
+  const std::vector<std::string> known = methodNames();
+  if (std::find(known.begin(), known.end(), options.method) == known.end()) {
+    throw InputError("--method " + options.method + ": unknown; known are " + methodList());
   }
+  applyPreset(configuration, options.method);
   for (const std::string& assignment : options.settings) {
     const size_t equals = assignment.find('=');
     if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected key=value");
     applySetting(configuration, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   return configuration;
+}
+
+/// Processor time of the whole process, on which the nodes work one at a time.
+double millisecondsSince(std::clock_t start) {
+  return 1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 bool isInput(const Channels& channels, const std::string& channel) {
@@ -59,29 +78,63 @@ bool isInput(const Channels& channels, const std::string& channel) {
 
 InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration)
     : bus_(bus), health_channel_(configuration.channels.health) {
-  if (configuration.has_imu) nodes_.push_back(std::make_unique<ImuIntegrationNode>(bus, configuration));
-  nodes_.push_back(std::make_unique<VisualHomographyNode>(bus, configuration));
-  nodes_.push_back(std::make_unique<HomographyFusionNode>(bus, configuration));
-  nodes_.push_back(std::make_unique<MotionSegmentationNode>(bus, configuration));
+  if (configuration.has_imu) add<ImuIntegrationNode>(configuration);
+  add<VisualHomographyNode>(configuration);
+  add<HomographyFusionNode>(configuration);
+  add<MotionSegmentationNode>(configuration);
+}
+
+InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration, const std::string& rival)
+    : bus_(bus), health_channel_(configuration.channels.health) {
+  if (configuration.has_imu && makeRival(rival)->wantsMotion()) {
+    add<ImuIntegrationNode>(configuration);
+    add<VisualHomographyNode>(configuration);
+    add<HomographyFusionNode>(configuration);
+  }
+  add<RivalNode>(configuration, rival);
 }
 
 void InProcessStack::settle() {
   do {
-    for (const auto& node : nodes_) node->process();
+    for (Worker& worker : workers_) {
+      const std::clock_t start = std::clock();
+      worker.node->process();
+      worker.processor_ms += millisecondsSince(start);
+    }
   } while (bus_.handle(std::chrono::milliseconds(0)) > 0);
 }
 
 void InProcessStack::finish() {
   settle();
-  for (const auto& node : nodes_) {
-    node->finish();
+  for (Worker& worker : workers_) {
+    const std::clock_t start = std::clock();
+    worker.node->finish();
+    worker.processor_ms += millisecondsSince(start);
     settle();
   }
 }
 
 void InProcessStack::publishHealth() {
-  for (const auto& node : nodes_) bus_.publish(health_channel_, node->health().nextMessage());
+  for (Worker& worker : workers_) bus_.publish(health_channel_, worker.node->health().nextMessage());
   settle();
+}
+
+std::map<std::string, double> InProcessStack::processorMilliseconds() const {
+  std::map<std::string, double> milliseconds;
+  for (const Worker& worker : workers_) milliseconds[worker.node->health().process()] = worker.processor_ms;
+  return milliseconds;
+}
+
+std::vector<std::string> methodNames() {
+  std::vector<std::string> names{"redbee", "default", "paper"};
+  for (const std::string& rival : rivalNames()) names.push_back(rival);
+  return names;
+}
+
+std::string methodList() {
+  std::string list;
+  for (const std::string& name : methodNames()) list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
 int64_t runDetect(const DetectOptions& options) {
@@ -89,7 +142,7 @@ int64_t runDetect(const DetectOptions& options) {
   LogReader log(options.log);
   const auto bus = makeLcmBus("memq://");
   ResultCollector collector(*bus, configuration.channels, options.out);
-  InProcessStack stack(*bus, configuration);
+  InProcessStack stack = makeStack(*bus, configuration, options.method);
   Progress progress("detecting in " + options.log.filename().string(), "MB", options.quiet);
   Pace pace(options.rate);
   const auto start = Clock::now();
@@ -110,7 +163,7 @@ int64_t runDetect(const DetectOptions& options) {
   stack.publishHealth();
   progress.finish();
   if (!log.complaint().empty()) std::fprintf(stderr, "warning: %s\n", log.complaint().c_str());
-  collector.writeTables(wall_s, peakResidentBytes());
+  collector.writeTables({wall_s, peakResidentBytes(), stack.processorMilliseconds()});
   return collector.frames();
 }
 

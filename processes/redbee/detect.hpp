@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,32 +14,51 @@
 
 namespace redbee {
 
-/// All four nodes on one bus, worked until nothing moves any more.
+/// All four nodes on one bus, worked until nothing moves any more; or a rival and what it needs.
 class InProcessStack {
  public:
   InProcessStack(Bus& bus, const Configuration& configuration);
+  /// `rival`: one of rivalNames(). One that wants the camera's motion gets all nodes but the segmentation
+  /// where there is an IMU, since vision and fusion keep the inertial filter right.
+  InProcessStack(Bus& bus, const Configuration& configuration, const std::string& rival);
   /// Hands out what waits on the bus and lets the nodes work, until there is nothing left to do.
   void settle();
   /// No message will come any more.
   void finish();
   /// Each node tells its health once.
   void publishHealth();
+  /// Processor time that each node has worked so far [ms], by the name in its health.
+  std::map<std::string, double> processorMilliseconds() const;
 
  private:
+  struct Worker {
+    std::unique_ptr<Node> node;
+    double processor_ms = 0;
+  };
+  template <typename NodeType, typename... Arguments>
+  void add(const Arguments&... arguments) {
+    workers_.push_back({std::make_unique<NodeType>(bus_, arguments...)});
+  }
+
   Bus& bus_;
   std::string health_channel_;
-  std::vector<std::unique_ptr<Node>> nodes_;
+  std::vector<Worker> workers_;
 };
 
 struct DetectOptions {
   std::filesystem::path log;
   std::filesystem::path configuration;
   std::filesystem::path out;
-  std::string method = "redbee";      ///< "redbee": as configured; else a preset on top of the configuration
+  std::string method = "redbee";      ///< one of methodNames()
   std::vector<std::string> settings;  ///< key=value, on top of all
   double rate = 0;                    ///< times the log's own speed; 0: as fast as it goes
   bool quiet = false;
 };
+
+/// "redbee": as configured; presets on top of the configuration; rivals.
+std::vector<std::string> methodNames();
+/// The same in one line, to be read.
+std::string methodList();
 
 /// Frames that got a mask. Throws InputError or ConfigurationError on bad input, one line each.
 int64_t runDetect(const DetectOptions& options);
