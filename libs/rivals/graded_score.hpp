@@ -1,7 +1,6 @@
 // One scale for all rivals' scores.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
 
@@ -13,7 +12,7 @@ inline constexpr int kDecisionScore = 128;
 /// `ratio`: a statistic over its decision threshold, >= 0. 0 gives 0, 1 gives kDecisionScore, infinity gives
 /// 255: 255 r / (1 + r), so that a sweep over the 8 bits sees ratios from 1/250 to 250.
 inline uint8_t gradedScore(float ratio) {
-  return ratio > 0 ? static_cast<uint8_t>(std::lround(255.0F - 255.0F / (1.0F + ratio))) : uint8_t{0};
+  return ratio > 0 ? static_cast<uint8_t>(255.5F - 255.0F / (1.0F + ratio)) : uint8_t{0};
 }
 
 /// The same for a map: CV_32F statistic to CV_8U score.

@@ -19,7 +19,7 @@ constexpr double kRankTolerance = 1e-10;
 
 /// Columns: orthonormal basis of the row space.
 Eigen::MatrixXd rowSpace(const Eigen::MatrixXd& X) {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(X, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(X, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& values = svd.singularValues();
   const Eigen::Index rank = (values.array() > kRankTolerance * values(0)).count();
   return svd.matrixV().leftCols(rank);
@@ -27,7 +27,7 @@ Eigen::MatrixXd rowSpace(const Eigen::MatrixXd& X) {
 
 /// Nearest matrix of small nuclear norm: singular values less `by`.
 Eigen::MatrixXd shrinkSingularValues(const Eigen::MatrixXd& M, double by) {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd kept = (svd.singularValues().array() - by).max(0.0);
   return svd.matrixU() * kept.asDiagonal() * svd.matrixV().transpose();
 }
@@ -74,7 +74,7 @@ std::vector<int> lrrClusters(const Eigen::MatrixXd& X, int count) {
   // Z = B Z_r with B orthonormal: its left singular vectors are B times those of the few rows of Z_r.
   const LowRankRepresentation answer = lowRankRepresentation(with_ones);
   const Eigen::MatrixXd basis = rowSpace(with_ones);
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(basis.transpose() * answer.Z, Eigen::ComputeThinU);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis.transpose() * answer.Z, Eigen::ComputeThinU);
   const Eigen::VectorXd& values = svd.singularValues();
   const Eigen::Index rank = std::max<Eigen::Index>(1, (values.array() > 1e-4 * values(0)).count());
   Eigen::MatrixXd U = basis * svd.matrixU().leftCols(rank) * values.head(rank).cwiseSqrt().asDiagonal();

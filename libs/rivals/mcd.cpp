@@ -162,14 +162,16 @@ void Mcd::update(const cv::Mat& grey) {
 
 cv::Mat Mcd::score(const cv::Mat& grey) const {
   cv::Mat score = cv::Mat::zeros(grey.size(), CV_8U);
-  for (int y = 0; y < blocks_.height * kBlockPx; ++y) {
-    const auto* pixel = grey.ptr<uint8_t>(y);
-    auto* to = score.ptr<uint8_t>(y);
-    for (int x = 0; x < blocks_.width * kBlockPx; ++x) {
-      const GreyGaussian& background = model(y / kBlockPx, x / kBlockPx)[0];
+  for (int row = 0; row < blocks_.height; ++row) {
+    for (int column = 0; column < blocks_.width; ++column) {
+      const GreyGaussian& background = model(row, column)[0];
       if (background.age <= kJudgedFromAge) continue;
-      const float sigmas = std::abs(pixel[x] - background.mean) / std::sqrt(background.variance);
-      to[x] = gradedScore(sigmas / kForegroundSigmas);
+      const float unit = 1 / (kForegroundSigmas * std::sqrt(background.variance));
+      for (int y = row * kBlockPx; y < (row + 1) * kBlockPx; ++y) {
+        const auto* pixel = grey.ptr<uint8_t>(y) + column * kBlockPx;
+        auto* to = score.ptr<uint8_t>(y) + column * kBlockPx;
+        for (int x = 0; x < kBlockPx; ++x) to[x] = gradedScore(std::abs(pixel[x] - background.mean) * unit);
+      }
     }
   }
   return score;

@@ -14,6 +14,7 @@ namespace redbee {
 namespace {
 
 constexpr float kDistanceUnitPx = 1;
+constexpr double kSameMotionPx = 1;
 constexpr double kSpreadShare = 0.5;
 constexpr double kReach = 0.75;  // of the tracks' spacing
 constexpr Eigen::Index kAffineRank = 3;
@@ -97,6 +98,25 @@ int backgroundLabel(const Eigen::MatrixXd& X, const std::vector<int>& labels, in
   return best;
 }
 
+std::vector<bool> backgroundTracks(const Eigen::MatrixXd& X, const std::vector<int>& labels, int count) {
+  const int background = backgroundLabel(X, labels, count);
+  std::vector<bool> still;
+  for (const int label : labels) still.push_back(label == background);
+  const Eigen::VectorXd distance = distanceFromAffineMotion(X, still);
+  for (int label = 0; label < count; ++label) {
+    std::vector<double> own;
+    for (size_t i = 0; i < labels.size(); ++i) {
+      if (labels[i] == label) own.push_back(distance(static_cast<Eigen::Index>(i)));
+    }
+    if (own.empty() || label == background) continue;
+    const auto middle = own.begin() + static_cast<std::ptrdiff_t>(own.size() / 2);
+    std::nth_element(own.begin(), middle, own.end());
+    for (size_t i = 0; i < labels.size(); ++i)
+      still[i] = still[i] || (labels[i] == label && *middle < kSameMotionPx);
+  }
+  return still;
+}
+
 Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& X, const std::vector<bool>& of) {
   const auto members = std::count(of.begin(), of.end(), true);
   if (members <= kAffineRank) return Eigen::VectorXd::Zero(X.cols());
@@ -127,9 +147,7 @@ RivalOutput TrajectoryRival::judge(const RivalInput& input) {
   const Eigen::MatrixXd X = window_.trajectories();
   if (X.cols() < 4 * kMotions) return output;
   const std::vector<int> labels = clustering_(X, kMotions);
-  const int background = backgroundLabel(X, labels, kMotions);
-  std::vector<bool> still;
-  for (const int label : labels) still.push_back(label == background);
+  const std::vector<bool> still = backgroundTracks(X, labels, kMotions);
   const Eigen::VectorXd distance = distanceFromAffineMotion(X, still);
   std::vector<cv::Point2f> points;
   std::vector<uint8_t> scores;

@@ -21,15 +21,16 @@ struct TwoMotions {
 };
 
 /// Points of a body 1 m across, 5 m away, that turns and travels; seen at f = 500 px, perspective or affine.
-Eigen::MatrixXd bodyTrajectories(std::mt19937& random, const Eigen::Vector3d& centre, const Eigen::Vector3d& turn,
-                                 const Eigen::Vector3d& travel, bool perspective) {
+Eigen::MatrixXd bodyTrajectories(std::mt19937& random, const Eigen::Vector3d& centre,
+                                 const Eigen::Vector3d& turn, const Eigen::Vector3d& travel,
+                                 bool perspective) {
   std::uniform_real_distribution<double> within(-0.8, 0.8);
   Eigen::MatrixXd X(2 * kFrames, kEach);
   for (Eigen::Index i = 0; i < kEach; ++i) {
     const Eigen::Vector3d point(within(random), within(random), within(random));
     for (Eigen::Index f = 0; f < kFrames; ++f) {
       const auto t = static_cast<double>(f);
-      const Eigen::Vector3d at = expSo3(t * turn) * point + centre + t * travel;
+      const Eigen::Vector3d at = expSO3(t * turn) * point + centre + t * travel;
       const double depth = perspective ? at.z() : centre.z();
       X.block<2, 1>(2 * f, i) = 500 * at.head<2>() / depth;
     }
@@ -128,10 +129,22 @@ TEST(Background, IsTheLargestClusterAmongThoseSpreadOut) {
   std::vector<int> labels;
   for (Eigen::Index i = 0; i < 12; ++i) {
     const bool crowd = i >= 5;
-    X.col(i).tail<2>() = crowd ? Eigen::Vector2d(200 + i, 100 + i % 3) : Eigen::Vector2d(150 * (i % 3), 200 * (i % 2));
+    X.col(i).tail<2>() =
+        crowd ? Eigen::Vector2d(200 + i, 100 + i % 3) : Eigen::Vector2d(150 * (i % 3), 200 * (i % 2));
     labels.push_back(crowd ? 0 : 1);
   }
   EXPECT_EQ(backgroundLabel(X, labels, 2), 1) << "though the crowd in one place is larger";
+}
+
+TEST(Background, TakesBackWhatWasSplitOff) {
+  const Eigen::MatrixXd X = twoMotions(false);
+  std::vector<int> labels(2 * kEach, 0);
+  std::fill(labels.begin() + 2 * kEach / 3, labels.begin() + kEach, 1);
+  std::fill(labels.begin() + kEach, labels.end(), 2);
+  Eigen::MatrixXd wide = X;
+  wide.leftCols(kEach) *= 2;  // so that the first motion is the one spread out
+  const std::vector<bool> still = backgroundTracks(wide, labels, 3);
+  for (size_t i = 0; i < still.size(); ++i) EXPECT_EQ(still[i], i < kEach) << i;
 }
 
 TEST(AffineMotion, ExplainsItsOwnTrajectoriesAlone) {

@@ -85,7 +85,7 @@ class Ego : public ::testing::Test {
  protected:
   Ego() {
     K_ << 500, 0, 320, 0, 500, 240, 0, 0, 1;
-    motion_.R_ba = expSo3(Eigen::Vector3d(0.01, -0.02, 0.005));
+    motion_.R_ba = expSO3(Eigen::Vector3d(0.01, -0.02, 0.005));
     motion_.t_ba = {0.05, 0.02, -0.1};
     motion_.m_a = Eigen::Vector3d(0, 0.8, 0.6);
     motion_.h_a = 4;

@@ -158,8 +158,8 @@ TEST_P(Rivals, AChangeOfSizeStartsAnewAndIsSurvived) {
 TEST(RivalNames, AreDistinctAndMade) {
   const std::vector<std::string> names = rivalNames();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
-  for (const char* name : {"meier", "aurora", "homography-mog2", "mcd", "datmo", "difference", "flow-residual",
-                           "rv", "ssc", "lrr"}) {
+  for (const char* name : {"meier", "aurora", "homography-mog2", "mcd", "datmo", "difference",
+                           "flow-residual", "rv", "ssc", "lrr"}) {
     EXPECT_NE(makeRival(name), nullptr) << name;
   }
   EXPECT_EQ(makeRival("nobody"), nullptr);

@@ -19,7 +19,7 @@ struct SceneFrame {
 struct SceneOptions {
   cv::Size size{480, 360};
   int frames = 16;
-  cv::Point2d patch_step{3, 1.5};    ///< px a frame of the first frame's grid
+  cv::Point2d patch_step{3, 1.5};  ///< px a frame of the first frame's grid
   bool has_patch = true;
   bool camera_moves = true;
   bool has_motion = true;  ///< false: as without an IMU
@@ -40,7 +40,7 @@ inline cv::Mat texture(cv::Size size, uint64_t seed, const cv::Scalar& tint) {
 inline PlaneMotion sceneStep(bool camera_moves) {
   const double scale = camera_moves ? 1 : 0;
   PlaneMotion step;
-  step.R_ba = expSo3(scale * Eigen::Vector3d(0.001, -0.002, 0.003));
+  step.R_ba = expSO3(scale * Eigen::Vector3d(0.001, -0.002, 0.003));
   step.t_ba = scale * Eigen::Vector3d(0.02, -0.012, -0.01);
   step.m_a = Eigen::Vector3d(0, 0, 1);
   step.h_a = 5;
