@@ -10,6 +10,7 @@
 namespace redbee {
 namespace {
 
+constexpr int kSmoothPx = 7;
 constexpr int kMedianPx = 5;
 constexpr float kDeviations = 1;  // published
 
@@ -46,13 +47,15 @@ cv::Mat RecursiveDensity::update(const cv::Mat& colour) {
       const float spread = std::max(0.0F, moments[0] - mean.dot(mean));
       const float density = 1 / (1 + off.dot(off) + spread);
       density_.at<float>(y, x) = density;
-      if (count > static_cast<float>(parameters_.learning_frames)) {
+      const float judged = count - static_cast<float>(parameters_.learning_frames);
+      if (judged > 0) {
         const float variance = moments[2] - moments[1] * moments[1];
         const float deviation = std::max(parameters_.least_deviation, std::sqrt(std::max(0.0F, variance)));
         below.at<float>(y, x) = std::max(0.0F, (moments[1] - density) / deviation);
       }
-      moments[1] += fresh * (density - moments[1]);
-      moments[2] += fresh * (density * density - moments[2]);
+      const float share = 1 / std::max(1.0F, judged + 1);
+      moments[1] += share * (density - moments[1]);
+      moments[2] += share * (density * density - moments[2]);
     }
   }
   return below;
@@ -77,7 +80,9 @@ RivalOutput Aurora::judge(const RivalInput& input) {
     output.background = *registration;
     output.status = RivalStatus::kGood;
   }
-  cv::medianBlur(gradedScore(density_->update(input.colour), kDeviations), output.score, kMedianPx);
+  cv::Mat smooth;
+  cv::GaussianBlur(input.colour, smooth, {kSmoothPx, kSmoothPx}, 0);
+  cv::medianBlur(gradedScore(density_->update(smooth), kDeviations), output.score, kMedianPx);
   return output;
 }
 

@@ -7,6 +7,8 @@
 //   D_k = 1 / (1 + |x_k - mu_k|^2 + S_k - |mu_k|^2),
 // and foreground where D_k < mean(D) - deviation(D), both over the pixel's own past. Score: kDecisionScore
 // there, graded by (mean - D_k) / deviation. Their grouping of the foreground pixels is a median filter here.
+// Mean and deviation of D begin when a pixel is first judged: the first densities are all 1. Pictures are
+// smoothed first, or what the carrying blurs would be foreground wherever there is fine texture.
 #pragma once
 
 #include "rivals/registration.hpp"

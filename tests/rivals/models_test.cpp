@@ -107,7 +107,7 @@ TEST(RecursiveDensity, EqualsTheDensityOfAllValues) {
     const cv::Mat below = density.update(cv::Mat(1, 1, CV_8UC3, cv::Scalar(colour)));
     const double expected = batchDensity(values);
     EXPECT_NEAR(density.density().at<float>(0, 0), expected, 1e-4 * expected) << k;
-    if (k >= 10) {
+    if (k >= parameters.learning_frames) {
       double mean = 0, squares = 0;
       for (const double d : past) {
         mean += d / static_cast<double>(past.size());
@@ -116,7 +116,7 @@ TEST(RecursiveDensity, EqualsTheDensityOfAllValues) {
       const double deviation = std::max<double>(parameters.least_deviation, std::sqrt(squares - mean * mean));
       EXPECT_NEAR(below.at<float>(0, 0), std::max(0.0, (mean - expected) / deviation), 1e-2);
     }
-    past.push_back(expected);
+    if (k + 1 >= parameters.learning_frames) past.push_back(expected);
   }
 }
 

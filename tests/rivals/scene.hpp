@@ -27,9 +27,9 @@ struct SceneOptions {
 
 inline cv::Mat texture(cv::Size size, uint64_t seed, const cv::Scalar& tint) {
   cv::RNG random(seed);
-  cv::Mat coarse(size / 6, CV_32FC3), fine(size / 2, CV_32FC3), map;
-  random.fill(coarse, cv::RNG::UNIFORM, -70, 70);
-  random.fill(fine, cv::RNG::UNIFORM, -25, 25);
+  cv::Mat coarse(size / 12, CV_32FC3), fine(size / 5, CV_32FC3), map;
+  random.fill(coarse, cv::RNG::UNIFORM, -50, 50);
+  random.fill(fine, cv::RNG::UNIFORM, -15, 15);
   cv::resize(coarse, coarse, size, 0, 0, cv::INTER_CUBIC);
   cv::resize(fine, fine, size, 0, 0, cv::INTER_CUBIC);
   cv::Mat(coarse + fine + tint).convertTo(map, CV_8UC3);
@@ -50,8 +50,8 @@ inline PlaneMotion sceneStep(bool camera_moves) {
 inline std::vector<SceneFrame> makeScene(const SceneOptions& options) {
   const cv::Size canvas = options.size * 2;
   const cv::Matx33d to_first(1, 0, -options.size.width / 2.0, 0, 1, -options.size.height / 2.0, 0, 0, 1);
-  const cv::Mat ground = texture(canvas, 1, cv::Scalar(90, 110, 100));
-  const cv::Mat coat = texture(canvas, 2, cv::Scalar(150, 120, 130));
+  const cv::Mat ground = texture(canvas, 1, cv::Scalar(70, 90, 80));
+  const cv::Mat coat = texture(canvas, 2, cv::Scalar(190, 160, 170));
   cv::Mat outline = cv::Mat::zeros(canvas, CV_8U);
   const cv::Rect patch(canvas.width / 2 - 90, canvas.height / 2 - 60, 100, 80);
   if (options.has_patch) outline(patch).setTo(255);
