@@ -10,7 +10,7 @@
 namespace redbee {
 namespace {
 
-constexpr int kSmoothPx = 7;
+constexpr int kSmoothPx = 3;
 constexpr int kMedianPx = 5;
 constexpr float kDeviations = 1;  // published
 

@@ -20,7 +20,7 @@ namespace redbee {
 class RecursiveDensity {
  public:
   struct Parameters {
-    float unit = 32;     ///< grey levels: distance at which the density has halved; not published, tuned
+    float unit = 128;    ///< grey levels: distance at which the density has halved; not published, tuned
     float longest = 60;  ///< frames, k is held here; the paper's grows for ever, this forgets; tuned
     float least_deviation = 0.05F;  ///< of the density: what is flatter than noise does not stand out; tuned
     int learning_frames = 4;        ///< a pixel seen less often is not judged

@@ -176,7 +176,10 @@ std::unique_ptr<Rival> makeLrr() {
 
 std::unique_ptr<Rival> makeSsc() {
   const auto clustering = [](const Eigen::MatrixXd& X, int count) { return sscClusters(scaled(X), count); };
-  return std::make_unique<TrajectoryRival>(clustering, TrajectoryWindowParameters{});
+  // Its N x N iterations allow for fewer tracks than the others'.
+  TrajectoryWindowParameters parameters;
+  parameters.grid_px = 24;
+  return std::make_unique<TrajectoryRival>(clustering, parameters);
 }
 
 }  // namespace redbee

@@ -37,7 +37,7 @@ Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& X, const std::ve
 
 class TrajectoryRival : public Rival {
  public:
-  static constexpr int kMotions = 3;
+  static constexpr int kMotions = 5;
 
   TrajectoryRival(TrajectoryClustering clustering, const TrajectoryWindowParameters& parameters);
 

@@ -11,8 +11,8 @@
 namespace redbee {
 
 struct TrajectoryWindowParameters {
-  int grid_px = 24;  ///< px: one track to a cell of this side, re-seeded where there is none
-  int frames = 8;    ///< of the window
+  int grid_px = 16;  ///< px: one track to a cell of this side, re-seeded where there is none
+  int frames = 6;    ///< of the window
 };
 
 class TrajectoryWindow {

@@ -20,11 +20,15 @@ struct Expected {
 };
 
 /// At least, at least and at most. What each cannot do: a difference is hollow, densities and variances of
-/// textured blocks are wide, and votes for epipolar lines mean little on a plane, where they are not fixed.
+/// textured blocks are wide, votes for epipolar lines mean little on a plane, where they are not fixed, and
+/// in some frames low rank joins the patch to a piece of the ground.
 Expected expectedOf(const std::string& rival) {
-  if (rival == "difference") return {0.85, 0.2, 0.02};
+  if (rival == "aurora") return {0.6, 0.2, 0.1};
+  if (rival == "difference") return {0.85, 0.05, 0.02};
+  if (rival == "lrr") return {0.6, 0.3, 0.03};
+  if (rival == "mcd") return {0.75, 0.2, 0.03};
   if (rival == "rv") return {0.6, 0.2, 0.05};
-  return {0.85, 0.4, 0.1};
+  return {0.85, 0.4, 0.05};
 }
 
 const std::vector<SceneFrame>& patchScene() {
@@ -104,8 +108,7 @@ TEST_P(Rivals, WorksWithoutAnImu) {
   std::vector<SceneFrame> scene = patchScene();
   for (SceneFrame& frame : scene) frame.input.motion.reset();
   const RankStatistic statistic = watch(*rival_, scene);
-  EXPECT_GT(statistic.shareAbove(true, kDecisionScore),
-            3 * statistic.shareAbove(false, kDecisionScore) + 0.1);
+  EXPECT_GT(statistic.shareAbove(true, kDecisionScore), 4 * statistic.shareAbove(false, kDecisionScore));
 }
 
 TEST_P(Rivals, SameInputGivesSameScores) {
@@ -132,8 +135,8 @@ TEST_P(Rivals, BlackPicturesAreNeverGood) {
   for (size_t k = 0; k < 9; ++k) rival_->step(input(k));
   for (size_t k = 9; k < 12; ++k) {
     RivalInput black = input(k);
-    black.grey = cv::Mat::zeros(black.grey.size(), CV_8U);
-    black.colour = cv::Mat::zeros(black.grey.size(), CV_8UC3);
+    black.grey = cv::Mat(black.grey.size(), CV_8U, cv::Scalar(0));
+    black.colour = cv::Mat(black.grey.size(), CV_8UC3, cv::Scalar::all(0));
     black.motion.reset();
     const RivalOutput output = rival_->step(black);
     EXPECT_NE(output.status, RivalStatus::kGood);
