@@ -13,7 +13,7 @@
 namespace redbee::test {
 namespace {
 
-constexpr size_t kSettled = 11;  // frames
+constexpr size_t kSettled = 8;  // frames
 
 struct Expected {
   double auc, patch, rest;
