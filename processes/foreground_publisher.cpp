@@ -53,11 +53,11 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
 }  // namespace
 
 void ForegroundPublisher::publish(const image_t& picture, int64_t utime_previous, SegmentationOutput output) {
-  output.probability = camera_.rectifier.toRaw(output.probability);
-  output.mask = camera_.rectifier.toRaw(output.mask);
-  output.unknown = camera_.rectifier.toRaw(output.unknown);
-  if (camera_.camera.isDistorted()) {
-    for (Detection& detection : output.detections) detection.box = rawBox(camera_.camera, detection.box);
+  output.probability = camera_.rectifier().toRaw(output.probability);
+  output.mask = camera_.rectifier().toRaw(output.mask);
+  output.unknown = camera_.rectifier().toRaw(output.unknown);
+  if (camera_.camera().isDistorted()) {
+    for (Detection& detection : output.detections) detection.box = rawBox(camera_.camera(), detection.box);
   }
   foreground_t foreground{};
   foreground.utime = output.utime;

@@ -5,18 +5,11 @@
 
 #include "messaging/bus.hpp"
 #include "messaging/configuration.hpp"
+#include "processes/rectified_camera.hpp"
 #include "redbee/image_t.hpp"
 #include "segmentation/motion_segmenter.hpp"
-#include "visual/rectifier.hpp"
 
 namespace redbee {
-
-/// The camera of a node: what pictures are made ideal with, and answers raw again.
-struct RectifiedCamera {
-  explicit RectifiedCamera(const CameraIntrinsics& intrinsics) : camera(intrinsics), rectifier(camera) {}
-  Camera camera;
-  Rectifier rectifier;
-};
 
 class ForegroundPublisher {
  public:

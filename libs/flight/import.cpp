@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "flight/atomic_file.hpp"
@@ -73,6 +74,20 @@ std::filesystem::path writeVehicleConfiguration(const VehicleDescription& vehicl
   writeAtomically(path, "# What the recording says of its vehicle; all else has the reference's values.\n" +
                             vehicleYaml(vehicle));
   return path;
+}
+
+void assumeIntrinsics(ImportSummary& summary) {
+  constexpr double kFocalShare = 0.8;
+  const VehicleDescription& vehicle = summary.vehicle;
+  CameraIntrinsics camera;
+  camera.width = vehicle.width;
+  camera.height = vehicle.height;
+  camera.fx = camera.fy = kFocalShare * std::max(vehicle.width, vehicle.height);
+  camera.cx = (vehicle.width - 1) / 2.0;
+  camera.cy = (vehicle.height - 1) / 2.0;
+  summary.vehicle.intrinsics = camera;
+  summary.warnings.push_back("the focal length is not known: " + std::to_string(std::lround(camera.fx)) +
+                             " px are assumed, 0.8 of the longer side");
 }
 
 std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, int64_t first_frame,

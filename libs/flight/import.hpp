@@ -55,6 +55,11 @@ std::string vehicleYaml(const VehicleDescription& vehicle);
 std::filesystem::path writeVehicleConfiguration(const VehicleDescription& vehicle,
                                                 const std::filesystem::path& log);
 
+/// Where the recording says nothing of its lens: the principal point in the middle and a focal length of 0.8
+/// of the longer side (64 degrees from edge to edge, as drones and phones have), with a warning that says so.
+/// Vision alone leans on it little; with an IMU it has to be right.
+void assumeIntrinsics(ImportSummary& summary);
+
 /// A line for the summary where the IMU leaves frames uncovered; nothing where it covers all of them.
 std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, int64_t first_frame,
                                               int64_t last_frame);

@@ -43,6 +43,7 @@ ImportSummary importGopro(const GoproImportOptions& options, Progress& progress)
   FlightMerger merger(options.log, options.channels, readImu(options.video), {});
   addVideoFrames(video, merger, summary, progress);
   merger.close(summary);
+  assumeIntrinsics(summary);
   return summary;
 }
 

@@ -114,6 +114,7 @@ ImportSummary importVideo(const VideoImportOptions& options, Progress& progress)
     addVideoFrames(options, merger, summary, progress);
   }
   merger.close(summary);
+  assumeIntrinsics(summary);
   return summary;
 }
 

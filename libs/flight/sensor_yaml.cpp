@@ -50,19 +50,19 @@ class SensorFile {
     return value;
   }
 
-  std::optional<SensorPose> pose() const {
-    if (!has("T_BS")) return std::nullopt;
-    const YAML::Node node = root_["T_BS"];
-    const auto data = convert<std::vector<double>>(node.IsMap() ? node["data"] : node, "T_BS");
-    if (data.size() != 16) fail("T_BS", "must have 16 numbers, has " + std::to_string(data.size()));
+  std::optional<SensorPose> pose(const char* key = "T_BS") const {
+    if (!has(key)) return std::nullopt;
+    const YAML::Node node = root_[key];
+    const auto data = convert<std::vector<double>>(node.IsMap() ? node["data"] : node, key);
+    if (data.size() != 16) fail(key, "must have 16 numbers, has " + std::to_string(data.size()));
     for (const double number : data) {
-      if (!std::isfinite(number)) fail("T_BS", "holds a number that is not finite");
+      if (!std::isfinite(number)) fail(key, "holds a number that is not finite");
     }
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T_BS(data.data());
     const Eigen::Matrix3d R = T_BS.topLeftCorner<3, 3>();
     // Files print few digits; what is a rotation up to that is made an exact one.
     if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0) {
-      fail("T_BS", "its rotation is not one");
+      fail(key, "its rotation is not one");
     }
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
     return SensorPose{svd.matrixU() * svd.matrixV().transpose(), T_BS.topRightCorner<3, 1>()};
@@ -146,6 +146,13 @@ ImuSensor readImuSensor(const std::filesystem::path& path) {
 
 double readAltimeterSigma(const std::filesystem::path& path) {
   return SensorFile(path).positive("noise_sigma");
+}
+
+TrueExtrinsics readTrueCameraExtrinsics(const std::filesystem::path& path) {
+  const SensorFile file(path);
+  const auto pose = file.pose("T_BS_cam0_true");
+  if (!pose) throw InputError(path, "key 'T_BS_cam0_true' is missing");
+  return {*pose, file.get<double>("time_offset_s")};
 }
 
 }  // namespace redbee

@@ -69,8 +69,6 @@ class HealthMonitor {
   /// `configuration_hash`: configurationHash() of what the process runs with.
   HealthMonitor(std::string process, std::string configuration_hash);
 
-  const std::string& process() const { return process_; }
-
   /// A message of the input that drives the process (for most: the frames).
   void noteInput(int64_t utime);
   /// Any other message.

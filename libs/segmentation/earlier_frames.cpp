@@ -13,14 +13,13 @@ PlaneMotion compose(const PlaneMotion& cb, const PlaneMotion& ba) {
   return {cb.R_ba * ba.R_ba, cb.R_ba * ba.t_ba + cb.t_ba, ba.m_a, ba.h_a};
 }
 
-/// 255 above the horizon. Ground is where m' R' K^-1 x > 0, a linear function of the current pixel x.
-cv::Mat aboveHorizon(cv::Size size, const PlaneMotion& motion, const Eigen::Matrix3d& K) {
-  const Eigen::RowVector3d ground = motion.m_a.transpose() * motion.R_ba.transpose() * K.inverse();
+/// 255 above the horizon.
+cv::Mat aboveHorizon(cv::Size size, const Eigen::RowVector3d& horizon) {
   cv::Mat above(size, CV_8U);
   for (int y = 0; y < size.height; ++y) {
-    const double at_left = ground.y() * y + ground.z();
+    const double at_left = horizon.y() * y + horizon.z();
     uint8_t* row = above.ptr(y);
-    for (int x = 0; x < size.width; ++x) row[x] = ground.x() * x + at_left > 0 ? 0 : 255;
+    for (int x = 0; x < size.width; ++x) row[x] = horizon.x() * x + at_left > 0 ? 0 : 255;
   }
   return above;
 }
@@ -67,15 +66,13 @@ const EarlierFrame* EarlierFrames::aged(int64_t now, double age_s) const {
 }
 
 AlignedPicture alignPicture(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px) {
-  AlignedPicture aligned{carryMap(frame.grey, frame.ground, cv::INTER_LINEAR),
-                         ~overlapMask(frame.grey.size(), frame.ground)};
-  if (frame.motion) {
-    const cv::Mat above = aboveHorizon(frame.grey.size(), *frame.motion, K);
-    if (cv::countNonZero(above) > 0) {
-      const Eigen::Matrix3d far = K * frame.motion->R_ba * K.inverse();
-      carryMap(frame.grey, far, cv::INTER_LINEAR).copyTo(aligned.grey, above);
-      cv::Mat(~overlapMask(frame.grey.size(), far)).copyTo(aligned.unseen, above);
-    }
+  const SceneMotion scene(frame.ground, frame.motion, K);
+  AlignedPicture aligned{carryMap(frame.grey, scene.ground, cv::INTER_LINEAR),
+                         ~overlapMask(frame.grey.size(), scene.ground)};
+  const cv::Mat above = aboveHorizon(frame.grey.size(), scene.horizon);
+  if (cv::countNonZero(above) > 0) {
+    carryMap(frame.grey, scene.far, cv::INTER_LINEAR).copyTo(aligned.grey, above);
+    cv::Mat(~overlapMask(frame.grey.size(), scene.far)).copyTo(aligned.unseen, above);
   }
   growUnseen(aligned.unseen, margin_px);
   return aligned;

@@ -3,8 +3,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "segmentation/flow_entropy.hpp"
+#include "segmentation/foreground_evidence.hpp"
 #include "segmentation/foreground_probability.hpp"
-#include "segmentation/parallax_evidence.hpp"
 #include "segmentation/picture_check.hpp"
 #include "segmentation/two_plane_background.hpp"
 #include "segmentation/warping.hpp"
@@ -31,7 +31,7 @@ class MotionSegmenter::Implementation {
       : parameters_(parameters),
         picture_check_(parameters),
         planes_(parameters),
-        parallax_(parameters),
+        evidence_(parameters),
         probability_(parameters),
         tracker_(parameters) {}
 
@@ -81,7 +81,7 @@ class MotionSegmenter::Implementation {
 
   void forget() {
     planes_.reset();
-    parallax_.reset();
+    evidence_.reset();
     probability_.reset();
     learned_ = 0;
   }
@@ -90,7 +90,7 @@ class MotionSegmenter::Implementation {
     if (parameters_.method == SegmentationMethod::kTwoPlanes) {
       planes_.carry(*input.ground, input.front);
     } else {
-      parallax_.carry(*input.ground, input.motion);
+      evidence_.carry(*input.ground, input.motion, input.K);
     }
     probability_.carry(*input.ground);
     tracker_.carry(*input.ground);
@@ -114,9 +114,10 @@ class MotionSegmenter::Implementation {
       verdict = planes_.learn(input.grey);
       verdict.foreground.convertTo(foreground, CV_32F, 1.0 / 255);
     } else {
-      foreground = parallax_.learn(input.utime, input.grey, input.K);
-      if (foreground.empty()) foreground = cv::Mat::zeros(size_, CV_32F);
-      verdict.unknown = parallax_.unseen().empty() ? output.unknown : parallax_.unseen();
+      const ForegroundEvidence::Verdict found =
+          evidence_.learn(input.utime, input.grey, input.colour, input.K);
+      foreground = found.foreground.empty() ? cv::Mat::zeros(size_, CV_32F) : found.foreground;
+      verdict.unknown = found.unseen.empty() ? output.unknown : found.unseen;
     }
     if (parameters_.use_refinement) {
       if (parameters_.use_entropy && input.ground) {
@@ -145,7 +146,7 @@ class MotionSegmenter::Implementation {
   SegmentationParameters parameters_;
   PictureCheck picture_check_;
   TwoPlaneBackground planes_;
-  ParallaxEvidence parallax_;
+  ForegroundEvidence evidence_;
   ForegroundProbability probability_;
   ObjectTracker tracker_;
   cv::Mat probability_map_;

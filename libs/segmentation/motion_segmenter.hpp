@@ -28,7 +28,8 @@ const char* toString(SegmentationStatus status);
 struct SegmentationInput {
   int64_t utime_previous = 0;
   int64_t utime = 0;
-  cv::Mat grey;                                     ///< 8-bit
+  cv::Mat grey;                                     ///< CV_8U
+  cv::Mat colour;                                   ///< CV_8UC3 (BGR) of the same picture; may be empty
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix, for `motion`
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current
   std::optional<Eigen::Matrix3d> front;             ///< the second plane's; nothing where there is none

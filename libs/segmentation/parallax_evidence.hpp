@@ -1,13 +1,9 @@
 // What no static surface at any depth explains (plane plus parallax; Irani and Anandan 1998).
 //
-// Earlier pictures are laid onto the current one by the ground homography (above the horizon, where there is
-// no ground, by the rotation). Two questions, each averaged along what moves (travelling_evidence.hpp):
-// - motion: does the dense flow that remains lie off the segment of possible parallax (parallax_segment.hpp)?
-//   It knows trees and facades, but its outlines are coarse.
-// - appearance: does the pixel look like the static scene in neither of two earlier pictures? Its outlines
-//   are sharp, but trees and facades differ too. One of two is enough to be static, so that the place an
-//   object has left does not count.
-// The evidence is their product, the motion filled up to the picture's edges by a guided filter.
+// An earlier picture is laid onto the current one by the ground homography (above the horizon, where there is
+// no ground, by the rotation). Does the dense flow that remains lie off the segment of possible parallax
+// (parallax_segment.hpp)? The answer is averaged along what moves (travelling_evidence.hpp). It knows trees
+// and facades, but its outlines are coarse.
 #pragma once
 
 #include <cstdint>
@@ -33,24 +29,18 @@ class ParallaxEvidence {
   void reset();
   /// The view moves (previous to current; full-size pixels).
   void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion);
-  /// Evidence of motion per pixel, CV_32F 0..1; empty where there is no earlier frame. Remembers the picture.
+  /// Evidence of motion per pixel of the work, CV_32F 0..1; empty where there is no earlier frame. Remembers
+  /// the picture (CV_8U, full size).
   cv::Mat learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K);
 
-  /// 255 where the earlier frame of the last learn() does not show the scene.
+  /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
   const cv::Mat& unseen() const { return unseen_; }
 
  private:
-  struct FlowVerdict {
-    FrameEvidence evidence;    ///< `appearance` still empty
-    cv::Mat static_displaced;  ///< CV_32FC2, px: to where a static pixel was in the aligned earlier picture
-  };
-
   cv::Mat evidence(const cv::Mat& grey, const Eigen::Matrix3d& K, int64_t utime);
-  FlowVerdict judgeFlow(const EarlierFrame& frame, const Eigen::Matrix3d& K, const cv::Mat& grey,
-                        const cv::Mat& flow, double frames) const;
+  FrameEvidence judgeFlow(const EarlierFrame& frame, const Eigen::Matrix3d& K, const cv::Mat& grey,
+                          const cv::Mat& flow, double frames) const;
   cv::Mat flowVariance(const cv::Mat& grey) const;
-  cv::Mat unlikeStatic(const cv::Mat& grey, const Eigen::Matrix3d& K, int64_t utime,
-                       const AlignedPicture& reference, const cv::Mat& static_displaced) const;
 
   SegmentationParameters parameters_;
   double scale_;          ///< full-size pixels to a pixel of the work

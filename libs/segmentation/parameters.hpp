@@ -22,7 +22,7 @@ struct SegmentationParameters {
   bool use_front_plane = true;  ///< false: Table II's "without front plane"
 
   // Parallax: flow between a frame and an earlier one, after the ground's (and above the horizon the
-  // rotation's) motion has been taken out, and appearance against earlier frames.
+  // rotation's) motion has been taken out, times how unlike the background a pixel looks.
   int work_downscale = 2;     ///< 1, 2 or 4: all of it on a picture this much smaller
   double baseline_s = 0.083;  ///< s: how much earlier; longer shows slower movers and asks more of the flow
   bool use_epipolar = true;   ///< false: any flow against the ground homography is foreground
@@ -33,13 +33,14 @@ struct SegmentationParameters {
   double nearest_depth_share = 0.15;  ///< of the height: no static surface is nearer to the camera than this
   double evidence_sigmas = 2.5;  ///< distance from the parallax segment, in sigmas, that is half the evidence
   double evidence_rate = 0.2;    ///< learning rate of the motion that travels along the flow; 1: none travels
-  bool use_appearance = true;    ///< false: motion alone, without comparing grey values
-  double appearance_span_s = 1.0;   ///< s: ages of the earlier pictures double from the baseline up to this
-  double appearance_rate = 0.5;     ///< learning rate of the appearance term along the flow
-  double photometric_noise = 10.0;  ///< grey levels: differences of this size are noise
-  int silhouette_window_px = 3;     ///< px of the smaller picture, odd: over which differences are averaged
-  double fill_radius_px = 8;        ///< px: reach of the edge-aware filter on the motion
-  double fill_contrast = 12;        ///< grey levels: contrast below this is no edge to it
+  bool use_appearance = true;    ///< false: motion alone, without the background's looks
+  int background_downscale =
+      1;  ///< 1, 2 or 4: the background's looks are kept on a picture this much smaller
+  double background_span_s = 0.5;  ///< s: over which they are averaged
+  double background_noise = 20.0;  ///< grey levels: differences of this size are noise
+  int silhouette_window_px = 3;    ///< px of that picture, odd: over which differences are averaged
+  double fill_radius_px = 8;       ///< px: reach of the edge-aware filter on the motion
+  double fill_contrast = 12;       ///< grey levels: contrast below this is no edge to it
 
   // Foreground refinement (paper III.B).
   bool use_refinement = false;  ///< (13) to (16); false: P_FG is the raw foreground

@@ -37,27 +37,20 @@ cv::Mat fetch(const cv::Mat& map, const cv::Mat& places, const cv::Mat& like) {
 
 }  // namespace
 
-void TravellingEvidence::reset() {
-  moving_.release();
-  appearance_.release();
-}
+void TravellingEvidence::reset() { moving_.release(); }
 
 void TravellingEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d& ground,
                                 const cv::Mat& unseen) {
   const cv::Mat places = previousPlaces(now.back_step, ground);
   cv::Mat moving = fetch(moving_, places, cv::Mat(now.off.size(), CV_32FC4));
-  cv::Mat appearance = fetch(appearance_, places, now.appearance);
   cv::Mat off_around;
   cv::blur(now.off, off_around, {3, 3});
   const auto half2 = static_cast<float>(parameters_.evidence_sigmas * parameters_.evidence_sigmas);
   const auto rate = static_cast<float>(parameters_.evidence_rate);
-  const auto appearance_rate = static_cast<float>(parameters_.appearance_rate);
   for (int y = 0; y < moving.rows; ++y) {
     const cv::Vec2f* off = now.off.ptr<cv::Vec2f>(y);
     const cv::Vec2f* around = off_around.ptr<cv::Vec2f>(y);
-    const float* looks = now.appearance.ptr<float>(y);
     cv::Vec4f* sum = moving.ptr<cv::Vec4f>(y);
-    float* looked = appearance.ptr<float>(y);
     for (int x = 0; x < moving.cols; ++x) {
       // Background that an object has just uncovered stands still where the object moved: it inherits
       // nothing.
@@ -66,13 +59,10 @@ void TravellingEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d&
       const float off2 = off[x].dot(off[x]);
       const cv::Vec4f newest(off2 / (off2 + half2), off[x][0], off[x][1], std::sqrt(off2));
       sum[x] = kept * (1 - rate) * sum[x] + rate * newest;
-      looked[x] = kept * (1 - appearance_rate) * looked[x] + appearance_rate * looks[x];
     }
   }
   moving.setTo(cv::Scalar::all(0), unseen);
-  appearance.setTo(0, unseen);
   moving_ = moving;
-  appearance_ = appearance;
 }
 
 cv::Mat TravellingEvidence::motion() const {

@@ -11,9 +11,8 @@ namespace redbee {
 
 /// What one frame says, per pixel.
 struct FrameEvidence {
-  cv::Mat off;         ///< CV_32FC2: flow off the parallax segment over its standard deviation
-  cv::Mat back_step;   ///< CV_32FC2, px: back along the flow by one frame, ground's motion taken out
-  cv::Mat appearance;  ///< CV_32F, 0..1: no static scene looks like this
+  cv::Mat off;        ///< CV_32FC2: flow off the parallax segment over its standard deviation
+  cv::Mat back_step;  ///< CV_32FC2, px: back along the flow by one frame, ground's motion taken out
 };
 
 class TravellingEvidence {
@@ -26,13 +25,10 @@ class TravellingEvidence {
 
   /// CV_32F, 0..1: has it moved, steadily and in one direction?
   cv::Mat motion() const;
-  /// CV_32F, 0..1: the appearance term, averaged along the flow.
-  const cv::Mat& appearance() const { return appearance_; }
 
  private:
   SegmentationParameters parameters_;
-  cv::Mat moving_;      ///< CV_32FC4: mean evidence, mean vector off the segment (2), mean length of it
-  cv::Mat appearance_;  ///< CV_32F
+  cv::Mat moving_;  ///< CV_32FC4: mean evidence, mean vector off the segment (2), mean length of it
 };
 
 }  // namespace redbee

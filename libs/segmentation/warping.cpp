@@ -26,4 +26,20 @@ bool isUsableHomography(const Eigen::Matrix3d& H) {
   return H.allFinite() && std::abs(H.determinant()) > kSingular;
 }
 
+Eigen::Matrix3d downscaling(double downscale) {
+  const double shift = -(downscale - 1) / (2 * downscale);
+  Eigen::Matrix3d to_small;
+  to_small << 1 / downscale, 0, shift, 0, 1 / downscale, shift, 0, 0, 1;
+  return to_small;
+}
+
+SceneMotion::SceneMotion(const Eigen::Matrix3d& ground_homography, const std::optional<PlaneMotion>& motion,
+                         const Eigen::Matrix3d& K)
+    : ground(ground_homography), far(ground_homography), horizon(0, 0, 1) {
+  if (!motion) return;
+  far = K * motion->R_ba * K.inverse();
+  // Ground is where m' R' K^-1 x > 0, a linear function of the current pixel x.
+  horizon = motion->m_a.transpose() * motion->R_ba.transpose() * K.inverse();
+}
+
 }  // namespace redbee

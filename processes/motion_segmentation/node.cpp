@@ -44,9 +44,10 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
 void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
   if (fused.has_innovation == 0 || fused.has_motion == 0 || fused.has_observation == 0) return;
   const PlaneMotion motion{matrix3(fused.R), vector3(fused.t), vector3(fused.normal), fused.plane_distance};
-  calibration_.note(fused.test_ratio,
-                    meanTransferError(planeHomography(camera_.camera.K(), motion), matrix3(fused.H_observed),
-                                      configuration_.camera.width, configuration_.camera.height));
+  calibration_.note(
+      fused.test_ratio,
+      meanTransferError(planeHomography(camera_.camera().K(), motion), matrix3(fused.H_observed),
+                        configuration_.camera.width, configuration_.camera.height));
   health_.setCalibration(calibration_.verdict());
 }
 
@@ -63,12 +64,11 @@ void MotionSegmentationNode::finish() {
   pictures_.workOffAll([this](const Arrived<image_t>& frame) { segment(frame); });
 }
 
-SegmentationInput MotionSegmentationNode::inputFor(const image_t& message, const cv::Mat& ideal) const {
+SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const {
   SegmentationInput input;
   input.utime = message.utime;
   input.utime_previous = last_ ? last_->utime : message.utime;
-  input.grey = ideal;
-  input.K = camera_.camera.K();
+  input.K = camera_.camera().K();
   const fused_homography_t* fused = fused_.find(message.utime);
   if (fused == nullptr || !last_ || fused->source == 0) return input;
   if (fused->utime_previous == last_->utime) {
@@ -89,12 +89,8 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message, const
 void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   const WorkTimer timer;
   const image_t& message = frame.content;
-  cv::Mat grey = decodeGrey(message).value_or(cv::Mat());
-  if (grey.cols != configuration_.camera.width || grey.rows != configuration_.camera.height) {
-    if (grey.empty()) health_.noteDamaged();
-    grey = cv::Mat::zeros(configuration_.camera.height, configuration_.camera.width, CV_8U);
-  }
-  const SegmentationInput input = inputFor(message, camera_.rectifier.toIdeal(grey));
+  SegmentationInput input = inputFor(message);
+  decodeInto(input, message);
   publish(message, input, segmenter_.step(input));
   if (const fused_homography_t* fused = fused_.find(message.utime)) {
     last_ = Last{message.utime, fused->epoch, matrix3(fused->H_anchor)};
@@ -103,6 +99,16 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   }
   fused_.forgetUpTo(message.utime);
   noteDone(health_, message.utime, frame.since, timer);
+}
+
+void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
+  const bool wants_colour =
+      configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
+  const IdealPicture picture = camera_.ideal(message, wants_colour, health_);
+  input.grey = picture.grey;
+  input.colour = picture.colour;
+  if (!input.grey.empty()) return;
+  input.grey = cv::Mat::zeros(configuration_.camera.height, configuration_.camera.width, CV_8U);
 }
 
 void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input,

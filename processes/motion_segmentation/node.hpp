@@ -12,6 +12,7 @@
 #include "processes/picture_queue.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
+#include "segmentation/motion_segmenter.hpp"
 
 namespace redbee {
 
@@ -32,7 +33,9 @@ class MotionSegmentationNode : public Node {
   };
 
   void segment(const Arrived<image_t>& frame);
-  SegmentationInput inputFor(const image_t& message, const cv::Mat& ideal) const;
+  SegmentationInput inputFor(const image_t& message) const;
+  /// Black where there is no picture of the camera's size.
+  void decodeInto(SegmentationInput& input, const image_t& message);
   void publish(const image_t& message, const SegmentationInput& input, const SegmentationOutput& output);
   void judgeCalibration(const fused_homography_t& fused);
   void restart();

@@ -17,6 +17,7 @@
 #include "processes/redbee/calibration_log.hpp"
 #include "processes/redbee/calibration_report.hpp"
 #include "processes/redbee/calibration_target_csv.hpp"
+#include "processes/redbee/svg_plot.hpp"
 
 namespace redbee {
 namespace {
@@ -94,6 +95,7 @@ void printVerdicts(const CalibrationResult& result) {
 }  // namespace
 
 int runCalibrate(const CalibrateOptions& options) {
+  SvgPlot::checkInstalled();
   const Configuration configuration = loadConfiguration(options.configuration);
   CalibrationInput input = inputFrom(configuration);
   readSource(options, configuration, input);

@@ -169,7 +169,7 @@ std::string scatterPlots(const Diagnostics& diagnostics) {
   const auto add = [&](const char* title, const std::vector<Eigen::Vector2d>& points, const char* colour) {
     SvgPlot plot(title, "px", "px");
     plot.addPoints("", points, colour);
-    plot.makeSquare(reach);
+    plot.makeSquare(-reach, reach);
     text += plot.svg();
   };
   add("Ground points before", diagnostics.scatter_before_px, kBefore);

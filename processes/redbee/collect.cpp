@@ -17,7 +17,7 @@ int64_t runCollect(const CollectOptions& options) {
   while (!stop) bus->handle(std::chrono::milliseconds(50));
   while (bus->handle(std::chrono::milliseconds(50)) > 0) {
   }
-  collector.writeTables({timer.milliseconds() / 1000});
+  collector.writeTables(timer.milliseconds() / 1000, std::nullopt);
   return collector.frames();
 }
 

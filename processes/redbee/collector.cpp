@@ -112,7 +112,7 @@ void ResultCollector::writeHomographies() const {
   csv.close();
 }
 
-void ResultCollector::writeTables(const RunCost& cost) const {
+void ResultCollector::writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const {
   if (!first_failure_.empty()) throw InputError(first_failure_);
   writeDetections();
   writeHomographies();
@@ -124,9 +124,6 @@ void ResultCollector::writeTables(const RunCost& cost) const {
   int64_t resident = 0;
   for (const auto& [process, health] : health_) {
     stages[process] = stageJson(health);
-    const auto processor = cost.processor_ms.find(process);
-    if (processor != cost.processor_ms.end() && health.published > 0)
-      stages[process]["processor_mean_ms"] = processor->second / static_cast<double>(health.published);
     slowest_ms = std::max(slowest_ms, health.work_mean);
     lost += health.lost + health.damaged;
     skipped += health.skipped;
@@ -135,6 +132,8 @@ void ResultCollector::writeTables(const RunCost& cost) const {
   }
   const int64_t good =
       std::count_if(status_.begin(), status_.end(), [](const auto& s) { return s.second == 0; });
+  nlohmann::json cpu_ms_per_frame;  // null where several processes ran
+  if (usage && frames() > 0) cpu_ms_per_frame = 1000 * usage->cpu_s / static_cast<double>(frames());
   const auto per_second = [](double milliseconds) { return milliseconds > 0 ? 1000 / milliseconds : 0; };
   writeJson(
       folder_ / "summary.json",
@@ -142,12 +141,13 @@ void ResultCollector::writeTables(const RunCost& cost) const {
        {"frames", frames()},
        {"frames_good", good},
        {"fps", per_second(slowest_ms)},  // frames over wall time of the slowest stage, decoding included
-       {"wall_s", cost.wall_s},
+       {"wall_s", wall_s},
        {"lost", lost},
        {"skipped", skipped},
        {"given_up", given_up},
        {"stages", stages},
-       {"peak_rss_bytes", cost.peak_resident_bytes > 0 ? cost.peak_resident_bytes : resident}});
+       {"cpu_ms_per_frame", cpu_ms_per_frame},
+       {"peak_rss_bytes", usage ? usage->peak_resident_bytes : resident}});
 }
 
 }  // namespace redbee

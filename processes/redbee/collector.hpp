@@ -5,25 +5,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "messaging/bus.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/health.hpp"
+#include "processes/redbee/process_usage.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/process_health_t.hpp"
 
 namespace redbee {
-
-/// What a run took, as far as its messages do not tell.
-struct RunCost {
-  double wall_s = 0;
-  int64_t peak_resident_bytes = 0;  ///< of the process that ran it; 0: the sum over the processes heard
-  /// Processor time by the name of the stage [ms]; of a run in one process only.
-  std::map<std::string, double> processor_ms = {};
-};
 
 /// Maps that an earlier run left in the folder are removed. Throws InputError where the folder cannot be
 /// written.
@@ -36,7 +30,9 @@ class ResultCollector {
   /// The latest word of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }
 
-  void writeTables(const RunCost& cost) const;
+  /// `wall_s`: how long the run took. `usage`: of the process that ran it; nothing where several did:
+  /// resident memory is then the sum over the processes heard.
+  void writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const;
 
  private:
   void takeForeground(const foreground_t& message);

@@ -87,9 +87,15 @@ void addEvaluateCommand(CLI::App& app) {
   auto options = std::make_shared<EvaluateOptions>();
   auto* command = app.add_subcommand("evaluate", "measure a run's maps against truth masks");
   command
-      ->add_option("--truth", options->truth, "folder of masks <ns>.png, or a flight folder with labels/mask")
+      ->add_option(
+          "--truth", options->truth,
+          "folder of masks, or a flight or sequence folder with labels/mask or mask; none: nothing moves")
       ->required();
   command->add_option("--detections", options->results, "folder of detect or collect")->required();
+  command->add_option("--log", options->log,
+                      "the flight: for pictures of hits and misses, and for masks named by frame number");
+  command->add_option("--camera", options->camera_channel, "channel of the log's pictures")
+      ->capture_default_str();
   command->callback([options] { runEvaluate(*options); });
 }
 
@@ -129,6 +135,9 @@ int runTool(int argc, char** argv) {
   addOverlayCommand(app);
   addReportCommand(app);
   addEvaluateCommand(app);
+  addCompareCommand(app);
+  addConfigurationCommand(app);
+  addReferenceExtrinsicsCommand(app);
   addSimulateCommand(app);
   addCalibrateCommand(app);
   addDoctorCommand(app);

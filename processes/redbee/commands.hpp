@@ -14,6 +14,9 @@ void addCollectCommand(CLI::App& app);
 void addOverlayCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
+void addCompareCommand(CLI::App& app);
+void addConfigurationCommand(CLI::App& app);
+void addReferenceExtrinsicsCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
 void addDoctorCommand(CLI::App& app);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <thread>
 
 #include "flight/input_error.hpp"
@@ -12,7 +11,7 @@
 #include "processes/imu_integration/node.hpp"
 #include "processes/motion_segmentation/node.hpp"
 #include "processes/redbee/collector.hpp"
-#include "processes/redbee/peak_memory.hpp"
+#include "processes/redbee/process_usage.hpp"
 #include "processes/redbee/rival_node.hpp"
 #include "processes/visual_homography/node.hpp"
 
@@ -65,11 +64,6 @@ Configuration configurationFor(const DetectOptions& options) {
   return configuration;
 }
 
-/// Processor time of the whole process, on which the nodes work one at a time.
-double millisecondsSince(std::clock_t start) {
-  return 1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
 bool isInput(const Channels& channels, const std::string& channel) {
   return channel == channels.camera || channel == channels.imu || channel == channels.altimeter;
 }
@@ -78,51 +72,39 @@ bool isInput(const Channels& channels, const std::string& channel) {
 
 InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration)
     : bus_(bus), health_channel_(configuration.channels.health) {
-  if (configuration.has_imu) add<ImuIntegrationNode>(configuration);
-  add<VisualHomographyNode>(configuration);
-  add<HomographyFusionNode>(configuration);
-  add<MotionSegmentationNode>(configuration);
+  if (configuration.has_imu) nodes_.push_back(std::make_unique<ImuIntegrationNode>(bus, configuration));
+  nodes_.push_back(std::make_unique<VisualHomographyNode>(bus, configuration));
+  nodes_.push_back(std::make_unique<HomographyFusionNode>(bus, configuration));
+  nodes_.push_back(std::make_unique<MotionSegmentationNode>(bus, configuration));
 }
 
 InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration, const std::string& rival)
     : bus_(bus), health_channel_(configuration.channels.health) {
   if (configuration.has_imu && makeRival(rival)->wantsMotion()) {
-    add<ImuIntegrationNode>(configuration);
-    add<VisualHomographyNode>(configuration);
-    add<HomographyFusionNode>(configuration);
+    nodes_.push_back(std::make_unique<ImuIntegrationNode>(bus, configuration));
+    nodes_.push_back(std::make_unique<VisualHomographyNode>(bus, configuration));
+    nodes_.push_back(std::make_unique<HomographyFusionNode>(bus, configuration));
   }
-  add<RivalNode>(configuration, rival);
+  nodes_.push_back(std::make_unique<RivalNode>(bus, configuration, rival));
 }
 
 void InProcessStack::settle() {
   do {
-    for (Worker& worker : workers_) {
-      const std::clock_t start = std::clock();
-      worker.node->process();
-      worker.processor_ms += millisecondsSince(start);
-    }
+    for (const auto& node : nodes_) node->process();
   } while (bus_.handle(std::chrono::milliseconds(0)) > 0);
 }
 
 void InProcessStack::finish() {
   settle();
-  for (Worker& worker : workers_) {
-    const std::clock_t start = std::clock();
-    worker.node->finish();
-    worker.processor_ms += millisecondsSince(start);
+  for (const auto& node : nodes_) {
+    node->finish();
     settle();
   }
 }
 
 void InProcessStack::publishHealth() {
-  for (Worker& worker : workers_) bus_.publish(health_channel_, worker.node->health().nextMessage());
+  for (const auto& node : nodes_) bus_.publish(health_channel_, node->health().nextMessage());
   settle();
-}
-
-std::map<std::string, double> InProcessStack::processorMilliseconds() const {
-  std::map<std::string, double> milliseconds;
-  for (const Worker& worker : workers_) milliseconds[worker.node->health().process()] = worker.processor_ms;
-  return milliseconds;
 }
 
 std::vector<std::string> methodNames() {
@@ -163,7 +145,7 @@ int64_t runDetect(const DetectOptions& options) {
   stack.publishHealth();
   progress.finish();
   if (!log.complaint().empty()) std::fprintf(stderr, "warning: %s\n", log.complaint().c_str());
-  collector.writeTables({wall_s, peakResidentBytes(), stack.processorMilliseconds()});
+  collector.writeTables(wall_s, processUsage());
   return collector.frames();
 }
 

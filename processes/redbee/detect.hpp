@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,22 +26,11 @@ class InProcessStack {
   void finish();
   /// Each node tells its health once.
   void publishHealth();
-  /// Processor time that each node has worked so far [ms], by the name in its health.
-  std::map<std::string, double> processorMilliseconds() const;
 
  private:
-  struct Worker {
-    std::unique_ptr<Node> node;
-    double processor_ms = 0;
-  };
-  template <typename NodeType, typename... Arguments>
-  void add(const Arguments&... arguments) {
-    workers_.push_back({std::make_unique<NodeType>(bus_, arguments...)});
-  }
-
   Bus& bus_;
   std::string health_channel_;
-  std::vector<Worker> workers_;
+  std::vector<std::unique_ptr<Node>> nodes_;
 };
 
 struct DetectOptions {

@@ -1,33 +1,35 @@
 #include "processes/redbee/evaluate.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
-#include <optional>
-#include <sstream>
 
-#include "flight/atomic_file.hpp"
 #include "flight/input_error.hpp"
+#include "processes/redbee/clip_truth.hpp"
+#include "processes/redbee/flight_pictures.hpp"
+#include "processes/redbee/hits_and_misses.hpp"
+#include "processes/redbee/measures_files.hpp"
+#include "processes/redbee/svg_plot.hpp"
 
 namespace redbee {
 namespace {
 
 namespace fs = std::filesystem;
+using MapFiles = std::map<int64_t, fs::path>;  // by time [us]
 
-/// PNGs by the time that their names tell [us]; `unit` of a name in nanoseconds is 1000.
-std::map<int64_t, fs::path> picturesByTime(const fs::path& folder, int64_t unit) {
+MapFiles mapsIn(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(folder, "no such folder");
-  std::map<int64_t, fs::path> pictures;
+  MapFiles maps;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
-    const bool numeric =
-        !stem.empty() && stem.size() < 20 && std::all_of(stem.begin(), stem.end(), ::isdigit);
-    if (entry.path().extension() == ".png" && numeric) {
-      pictures[(std::stoll(stem) + unit / 2) / unit] = entry.path();
-    }
+    const bool numeric = !stem.empty() && stem.size() < 20 &&
+                         std::all_of(stem.begin(), stem.end(),
+                                     [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+    if (entry.path().extension() == ".png" && numeric) maps[std::stoll(stem)] = entry.path();
   }
-  return pictures;
+  return maps;
 }
 
 cv::Mat readMap(const fs::path& file) {
@@ -36,85 +38,119 @@ cv::Mat readMap(const fs::path& file) {
   return map;
 }
 
-std::optional<fs::path> maskFolder(const fs::path& folder) {
-  for (const fs::path& candidate : {folder / "labels" / "mask", folder / "mask"}) {
-    if (fs::is_directory(candidate)) return candidate;
-  }
-  const auto is_picture = [](const fs::directory_entry& entry) { return entry.path().extension() == ".png"; };
-  if (fs::is_directory(folder) &&
-      std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), is_picture)) {
-    return folder;
-  }
-  return std::nullopt;
+cv::Mat mapAt(const MapFiles& maps, int64_t utime, cv::Size size) {
+  const auto found = maps.find(utime);
+  if (found == maps.end()) return cv::Mat::zeros(size, CV_8U);
+  cv::Mat map = readMap(found->second);
+  if (map.size() != size) throw InputError(found->second, "differs in size from the run's other maps");
+  return map;
 }
 
-void writeCurve(const fs::path& folder, const PixelMeasures& measures) {
-  std::ostringstream csv;
-  csv << "threshold,precision,recall\n";
-  for (const OperatingPoint& point : measures.curve()) {
-    csv << point.threshold << ',' << point.precision << ',' << point.recall << '\n';
-  }
-  writeAtomically(folder / "pr.csv", csv.str());
+std::vector<int64_t> timesOf(const MapFiles& maps) {
+  std::vector<int64_t> times;
+  for (const auto& [utime, file] : maps) times.push_back(utime);
+  return times;
 }
 
-std::vector<std::pair<fs::path, fs::path>> clipsOf(const EvaluateOptions& options) {
-  if (maskFolder(options.truth)) return {{options.truth, options.results}};
+ClipTruth truthOf(const EvaluateOptions& options) {
+  return options.truth == "none" ? ClipTruth::nothingMoves() : ClipTruth(options.truth);
+}
+
+FrameOutcome outcome(int64_t utime, const cv::Mat& detected, const cv::Mat& truth) {
+  FrameOutcome frame;
+  frame.utime = utime;
+  if (truth.empty()) return frame;
+  frame.hits = cv::countNonZero((truth == 255) & detected);
+  frame.misses = cv::countNonZero(truth == 255) - frame.hits;
+  frame.false_alarms = cv::countNonZero((truth == 0) & detected);
+  return frame;
+}
+
+std::vector<EvaluateOptions> clipsOf(const EvaluateOptions& options) {
+  if (options.truth == "none" || ClipTruth::isIn(options.truth)) return {options};
   if (!fs::is_directory(options.truth)) throw InputError(options.truth, "no such folder");
-  std::vector<std::pair<fs::path, fs::path>> clips;
+  std::vector<EvaluateOptions> clips;
   for (const auto& entry : fs::directory_iterator(options.truth)) {
     const fs::path results = options.results / entry.path().filename();
-    if (maskFolder(entry.path()) && fs::is_directory(results)) clips.emplace_back(entry.path(), results);
+    if (!ClipTruth::isIn(entry.path()) || !fs::is_directory(results)) continue;
+    clips.push_back({entry.path(), results, {}, options.camera_channel});
   }
-  std::sort(clips.begin(), clips.end());
+  std::sort(clips.begin(), clips.end(), [](const auto& a, const auto& b) { return a.truth < b.truth; });
   if (clips.empty())
     throw InputError(options.truth, "holds no truth masks that " + options.results.string() + " answers");
   return clips;
 }
 
+void printHeader() {
+  std::printf("%-16s %7s %10s %8s %11s %7s %9s %11s %8s\n", "clip", "frames", "Error@50%", "best F1",
+              "objects", "found", "false/fr.", "false area", "no map");
+}
+
+void print(const ClipMeasures& clip) {
+  const ObjectMeasures& objects = clip.objects;
+  std::printf("%-16s %7lld ", clip.name.c_str(), static_cast<long long>(objects.frames()));
+  if (clip.has_movers) {
+    std::printf("%10.3f %8.3f %11lld %6.1f%%", clip.pixels.errorAtHalfRecall(), clip.pixels.bestF1(),
+                static_cast<long long>(objects.counts().present), 100 * objects.recall());
+  } else {
+    std::printf("%10s %8s %11s %7s", "-", "-", "-", "-");
+  }
+  std::printf(" %9.2f %10.3f%% %8lld\n", objects.falseAlarmsPerFrame(), 100 * objects.falseAreaShare(),
+              static_cast<long long>(clip.truth_without_result));
+}
+
+void printMeans(const std::vector<ClipMeasures>& clips) {
+  double error = 0, f1 = 0;
+  int count = 0;
+  for (const ClipMeasures& clip : clips) {
+    if (!clip.has_movers) continue;
+    error += clip.pixels.errorAtHalfRecall();
+    f1 += clip.pixels.bestF1();
+    ++count;
+  }
+  if (count > 1) std::printf("%-16s %7s %10.3f %8.3f\n", "mean", "", error / count, f1 / count);
+}
+
 }  // namespace
 
-ClipMeasures measureClip(const fs::path& truth, const fs::path& results) {
-  const auto masks_folder = maskFolder(truth);
-  if (!masks_folder) throw InputError(truth, "holds no truth masks (<time in ns>.png)");
-  const auto masks = picturesByTime(*masks_folder, 1000);
-  const auto maps = picturesByTime(results / "probability", 1);
+ClipMeasures measureClip(const EvaluateOptions& options) {
+  const ClipTruth truth = truthOf(options);
+  const MapFiles maps = mapsIn(options.results / "probability");
+  const MapFiles masks = mapsIn(options.results / "mask");
+  if (maps.empty()) throw InputError(options.results / "probability", "holds no map <time in us>.png");
+  const cv::Size size = readMap(maps.begin()->second).size();
   ClipMeasures clip;
-  clip.name = results.filename().string();
-  int64_t answered = 0;
-  for (const auto& [utime, mask_file] : masks) {
-    const cv::Mat mask = readMap(mask_file);
-    const auto map = maps.find(utime);
-    cv::Mat probability = cv::Mat::zeros(mask.size(), CV_8U);
-    if (map != maps.end()) {
-      probability = readMap(map->second);
-      ++answered;
-    } else {
-      ++clip.truth_without_result;
+  clip.name = fs::weakly_canonical(options.results).filename().string();
+  const auto labelled =
+      truth.frames(options.log.empty() ? timesOf(maps) : pictureTimes(options.log, options.camera_channel));
+  for (const ClipTruth::Frame& frame : labelled) {
+    if (maps.count(frame.utime) == 0) ++clip.truth_without_result;
+    const ClipTruth::Labels labels = truth.read(frame, size);
+    const cv::Mat mask = mapAt(masks, frame.utime, size);
+    if (!labels.mask.empty()) {
+      clip.pixels.add(mapAt(maps, frame.utime, size), labels.mask);
+      clip.decided.add(mask, labels.mask);
     }
-    if (probability.size() != mask.size())
-      throw InputError(map->second, "differs in size from " + mask_file.string());
-    clip.pixels.add(probability, mask);
+    clip.frames.push_back(outcome(frame.utime, mask, labels.mask));
+    clip.frames.back().objects = clip.objects.add(mask, labels.objects);
   }
-  if (answered == 0) throw InputError(results / "probability", "holds no map of a labelled frame");
+  if (clip.truth_without_result == static_cast<int64_t>(labelled.size()))
+    throw InputError(options.results / "probability", "holds no map of a labelled frame");
+  clip.has_movers = clip.pixels.movingPixels() > 0 || clip.objects.counts().present > 0;
   return clip;
 }
 
 void runEvaluate(const EvaluateOptions& options) {
-  double error_sum = 0;
-  double f1_sum = 0;
-  const auto clips = clipsOf(options);
-  std::printf("%-16s %7s %10s %8s %8s\n", "clip", "frames", "Error@50%", "best F1", "no map");
-  for (const auto& [truth, results] : clips) {
-    const ClipMeasures clip = measureClip(truth, results);
-    error_sum += clip.pixels.errorAtHalfRecall();
-    f1_sum += clip.pixels.bestF1();
-    writeCurve(results, clip.pixels);
-    std::printf("%-16s %7lld %10.3f %8.3f %8lld\n", clip.name.c_str(),
-                static_cast<long long>(clip.pixels.frames()), clip.pixels.errorAtHalfRecall(),
-                clip.pixels.bestF1(), static_cast<long long>(clip.truth_without_result));
+  SvgPlot::checkInstalled();
+  std::vector<ClipMeasures> measured;
+  printHeader();
+  for (const EvaluateOptions& clip : clipsOf(options)) {
+    measured.push_back(measureClip(clip));
+    print(measured.back());
+    if (!clip.log.empty()) writeHitsAndMisses(clip, truthOf(clip), measured.back());
+    writeMeasures(clip.results, measured.back());
   }
-  const auto count = static_cast<double>(clips.size());
-  std::printf("%-16s %7s %10.3f %8.3f\n", "mean", "", error_sum / count, f1_sum / count);
+  printMeans(measured);
 }
 
 }  // namespace redbee

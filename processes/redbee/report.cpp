@@ -2,7 +2,6 @@
 
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -10,8 +9,9 @@
 #include <sstream>
 
 #include "flight/atomic_file.hpp"
-#include "flight/input_error.hpp"
 #include "processes/redbee/evaluate.hpp"
+#include "processes/redbee/html.hpp"
+#include "processes/redbee/measures_files.hpp"
 #include "processes/redbee/overlay_video.hpp"
 
 namespace redbee {
@@ -32,31 +32,6 @@ std::string format(const char* pattern, ...) {
   std::vsnprintf(text, sizeof text, pattern, arguments);
   va_end(arguments);
   return text;
-}
-
-std::string base64(const std::vector<uint8_t>& data) {
-  static const char* const kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t i = 0; i < data.size(); i += 3) {
-    const size_t left = data.size() - i;
-    const uint32_t bits = static_cast<uint32_t>(data[i] << 16) |
-                          static_cast<uint32_t>(left > 1 ? data[i + 1] << 8 : 0) |
-                          static_cast<uint32_t>(left > 2 ? data[i + 2] : 0);
-    for (size_t digit = 0; digit < 4; ++digit) {
-      text += digit <= left ? kDigits[bits >> (18 - 6 * digit) & 63] : '=';
-    }
-  }
-  return text;
-}
-
-nlohmann::json readSummary(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file, "cannot be read");
-  try {
-    return nlohmann::json::parse(stream);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file, error.what());
-  }
 }
 
 std::vector<std::string> stageRows(const nlohmann::json& summary) {
@@ -97,7 +72,7 @@ std::string pictures(const ReportOptions& options, int64_t frames) {
     if (count++ % period != period / 2) return;
     std::vector<uint8_t> jpeg;
     cv::imencode(".jpg", drawn, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
-    html += "<img alt=\"overlay\" src=\"data:image/jpeg;base64," + base64(jpeg) + "\">\n";
+    html += jpegElement({reinterpret_cast<const char*>(jpeg.data()), jpeg.size()}, "overlay") + "\n";
   });
   return html;
 }
@@ -119,9 +94,9 @@ std::string tableHtml(const nlohmann::json& summary) {
 }  // namespace
 
 void writeReport(const ReportOptions& options) {
-  const nlohmann::json summary = readSummary(options.results / "summary.json");
+  const nlohmann::json summary = readJson(options.results / "summary.json");
   std::optional<ClipMeasures> measures;
-  if (!options.truth.empty()) measures = measureClip(options.truth, options.results);
+  if (!options.truth.empty()) measures = measureClip({options.truth, options.results, {}});
 
   std::ostringstream html;
   html << "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>REDBEE: "

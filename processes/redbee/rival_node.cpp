@@ -1,9 +1,7 @@
 #include "processes/redbee/rival_node.hpp"
 
 #include <opencv2/core/eigen.hpp>
-#include <opencv2/imgproc.hpp>
 
-#include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
 #include "processes/work_timer.hpp"
 #include "rivals/graded_score.hpp"
@@ -82,19 +80,10 @@ void RivalNode::finish() {
 RivalInput RivalNode::inputFor(const image_t& message) {
   RivalInput input;
   input.utime = message.utime;
-  input.K = camera_.camera.K();
-  const auto picture = rival_->wantsColour() ? decodeColour(message) : decodeGrey(message);
-  if (!picture) {
-    health_.noteDamaged();
-  } else if (picture->size() == cv::Size(configuration_.camera.width, configuration_.camera.height)) {
-    const cv::Mat ideal = camera_.rectifier.toIdeal(*picture);
-    if (rival_->wantsColour()) {
-      input.colour = ideal;
-      cv::cvtColor(ideal, input.grey, cv::COLOR_BGR2GRAY);
-    } else {
-      input.grey = ideal;
-    }
-  }
+  input.K = camera_.camera().K();
+  const IdealPicture picture = camera_.ideal(message, rival_->wantsColour(), health_);
+  input.grey = picture.grey;
+  input.colour = picture.colour;
   const inertial_homography_t* inertial = inertial_.find(message.utime);
   if (inertial != nullptr && inertial->valid != 0 && last_utime_ &&
       inertial->utime_previous == *last_utime_) {

@@ -1,55 +1,60 @@
 #include "processes/redbee/svg_plot.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdio>
-#include <limits>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
-#include <utility>
+#include <stdexcept>
+
+#include "flight/input_error.hpp"
+#include "processes/redbee/file_content.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr double kHeight = 300, kLeft = 64, kRight = 12, kTop = 44, kBottom = 44;
-constexpr double kWideWidth = 900, kSquareWidth = 440, kSquareHeight = 440;
+namespace fs = std::filesystem;
 
-std::string number(double value, const char* format) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-/// 1, 2 or 5 times a power of ten, so that about six ticks fit.
-double tickStep(double span) {
-  const double rough = span / 6;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
+/// A folder for gnuplot's input and output, gone with the object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (fs::temp_directory_path() / "redbee-plot-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+    path_ = name;
   }
-  return 10 * power;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<')
-      result += "&lt;";
-    else if (c == '&')
-      result += "&amp;";
-    else
-      result += c;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
   }
-  return result;
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
+  return result + "'";
 }
 
-std::string textAt(double x, double y, const std::string& text, const std::string& attributes) {
-  return "<text x=\"" + number(x, "%.1f") + "\" y=\"" + number(y, "%.1f") + "\" " + attributes + ">" +
-         escaped(text) + "</text>\n";
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.7g", value);
+  return text.data();
 }
 
-std::string lineBetween(double x1, double y1, double x2, double y2, const std::string& attributes) {
-  return "<line x1=\"" + number(x1, "%.1f") + "\" y1=\"" + number(y1, "%.1f") + "\" x2=\"" +
-         number(x2, "%.1f") + "\" y2=\"" + number(y2, "%.1f") + "\" " + attributes + "/>\n";
+/// The drawing alone: a page that holds several has no place for declarations.
+std::string withoutDeclarations(const std::string& svg) {
+  const size_t start = svg.find("<svg");
+  return start == std::string::npos ? svg : svg.substr(start);
 }
 
 }  // namespace
@@ -71,87 +76,75 @@ void SvgPlot::addPoints(const std::string& name, const std::vector<Eigen::Vector
 
 void SvgPlot::addMark(const std::string& name, double x) { marks_.emplace_back(name, x); }
 
-void SvgPlot::makeSquare(double reach) { reach_ = reach; }
+void SvgPlot::makeSquare(double low, double high) {
+  low_ = low;
+  high_ = high;
+}
 
-SvgPlot::Range SvgPlot::rangeOf(int axis) const {
-  if (reach_ > 0) return {-reach_, reach_};
-  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const Series& series : series_) {
-    for (const Eigen::Vector2d& point : series.points) {
-      if (!point.allFinite()) continue;
-      range.low = std::min(range.low, point[axis]);
-      range.high = std::max(range.high, point[axis]);
-    }
+bool SvgPlot::isDrawable(const Series& series) {
+  return std::any_of(series.points.begin(), series.points.end(),
+                     [](const Eigen::Vector2d& point) { return point.allFinite(); });
+}
+
+std::string SvgPlot::settings() const {
+  const bool square = low_ < high_;
+  std::ostringstream out;
+  out << "set terminal svg noenhanced size " << (square ? "480,480" : "900,300")
+      << " font 'sans-serif,12' background '#ffffff'\n"
+      << "set title " << quoted(title_) << "\nset xlabel " << quoted(x_label_) << "\nset ylabel "
+      << quoted(y_label_) << "\nset key below horizontal height 1\nset grid lc rgb '#dddddd'\n";
+  std::string range = "[0:1]";  // of a plot without anything on it
+  if (square) {
+    range = "[" + number(low_) + ":" + number(high_) + "]";
+  } else if (std::any_of(series_.begin(), series_.end(), isDrawable)) {
+    range = "[*:*]";
   }
-  if (!(range.low <= range.high)) return {0, 1};
-  const double span = range.high - range.low;
-  const double margin = axis == 1 ? 0.05 * span : 0.0;
-  if (span <= 0) return {range.low - 0.5, range.high + 0.5};
-  return {range.low - margin, range.high + margin};
+  out << "set xrange " << range << "\nset yrange " << range << (square ? "\nset size square\n" : "\n");
+  for (const auto& [name, x] : marks_) {
+    out << "set arrow from first " << number(x) << ", graph 0 to first " << number(x)
+        << ", graph 1 nohead dashtype 2 lc rgb '#555555'\nset label " << quoted(name) << " at first "
+        << number(x) << ", graph 0.95 offset 0.5,0 tc rgb '#555555'\n";
+  }
+  return out.str();
+}
+
+std::string SvgPlot::curves() const {
+  std::ostringstream data;
+  std::string command = "plot NaN notitle";
+  for (size_t i = 0; i < series_.size(); ++i) {
+    const Series& series = series_[i];
+    if (!isDrawable(series)) continue;
+    const std::string block = "$series" + std::to_string(i);
+    data << block << " << END\n";
+    for (const Eigen::Vector2d& point : series.points) {
+      if (point.allFinite()) data << number(point.x()) << ' ' << number(point.y());
+      data << '\n';  // an empty line breaks the curve
+    }
+    data << "END\n";
+    command += ", " + block + " with " + (series.line ? "lines lw 1.3" : "points pt 7 ps 0.15") + " lc rgb " +
+               quoted(series.colour) + (series.name.empty() ? " notitle" : " title " + quoted(series.name));
+  }
+  return data.str() + command + "\n";
+}
+
+void SvgPlot::checkInstalled() {
+  const int status =
+      std::system("command -v gnuplot >/dev/null");  // NOLINT(concurrency-mt-unsafe): one thread
+  if (status != 0) {
+    throw InputError("gnuplot is not installed, it draws the curves: apt-get install gnuplot-nox");
+  }
 }
 
 std::string SvgPlot::svg() const {
-  const double width = reach_ > 0 ? kSquareWidth : kWideWidth;
-  const double height = reach_ > 0 ? kSquareHeight : kHeight;
-  const Range x_range = rangeOf(0);
-  const Range y_range = rangeOf(1);
-  const double right = width - kRight, bottom = height - kBottom;
-  const auto px = [&](double x) { return kLeft + x_range.share(x) * (right - kLeft); };
-  const auto py = [&](double y) { return bottom - y_range.share(y) * (bottom - kTop); };
-
-  std::ostringstream out;
-  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height
-      << "\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
-         "fill=\"white\"/>\n"
-      << textAt(kLeft, 16, title_, "font-weight=\"bold\"");
-  const double x_step = tickStep(x_range.high - x_range.low), y_step = tickStep(y_range.high - y_range.low);
-  for (double x = std::ceil(x_range.low / x_step) * x_step; x <= x_range.high + 1e-9 * x_step; x += x_step) {
-    out << lineBetween(px(x), kTop, px(x), bottom, "stroke=\"#eee\"")
-        << textAt(px(x), bottom + 16, number(std::abs(x) < 1e-9 * x_step ? 0.0 : x, "%g"),
-                  "text-anchor=\"middle\"");
-  }
-  for (double y = std::ceil(y_range.low / y_step) * y_step; y <= y_range.high + 1e-9 * y_step; y += y_step) {
-    out << lineBetween(kLeft, py(y), right, py(y), "stroke=\"#eee\"")
-        << textAt(kLeft - 6, py(y) + 4, number(std::abs(y) < 1e-9 * y_step ? 0.0 : y, "%g"),
-                  "text-anchor=\"end\"");
-  }
-  out << textAt((kLeft + right) / 2, height - 8, x_label_, "text-anchor=\"middle\"")
-      << "<text transform=\"translate(14," << (kTop + bottom) / 2 << ") rotate(-90)\" text-anchor=\"middle\">"
-      << escaped(y_label_) << "</text>\n";
-
-  double legend = kLeft;
-  for (const Series& series : series_) {
-    out << textAt(legend, 34, series.name, "fill=\"" + series.colour + "\"");
-    legend += 7.0 * static_cast<double>(series.name.size()) + 18;
-    if (series.line) {
-      out << "<path fill=\"none\" stroke=\"" << series.colour << "\" d=\"";
-      bool pen_down = false;
-      for (const Eigen::Vector2d& point : series.points) {
-        if (!point.allFinite()) {
-          pen_down = false;
-          continue;
-        }
-        out << (pen_down ? 'L' : 'M') << number(px(point.x()), "%.1f") << ' '
-            << number(py(point.y()), "%.1f");
-        pen_down = true;
-      }
-      out << "\"/>\n";
-      continue;
-    }
-    for (const Eigen::Vector2d& point : series.points) {
-      const double sx = x_range.share(point.x()), sy = y_range.share(point.y());
-      if (!(sx >= 0 && sx <= 1 && sy >= 0 && sy <= 1)) continue;
-      out << "<circle cx=\"" << number(px(point.x()), "%.1f") << "\" cy=\"" << number(py(point.y()), "%.1f")
-          << "\" r=\"1.2\" fill-opacity=\"0.4\" fill=\"" << series.colour << "\"/>\n";
-    }
-  }
-  for (const auto& [name, x] : marks_) {
-    out << lineBetween(px(x), kTop, px(x), bottom, "stroke=\"#555\" stroke-dasharray=\"4 3\"")
-        << textAt(px(x) + 4, kTop + 12, name, "fill=\"#555\"");
-  }
-  out << "<rect x=\"" << kLeft << "\" y=\"" << kTop << "\" width=\"" << right - kLeft << "\" height=\""
-      << bottom - kTop << "\" fill=\"none\" stroke=\"#888\"/>\n</svg>\n";
-  return out.str();
+  const ScratchFolder scratch;
+  const fs::path input = scratch.path() / "plot.gp", output = scratch.path() / "plot.svg",
+                 complaints = scratch.path() / "complaints";
+  std::ofstream(input) << settings() << curves();
+  const std::string command =
+      "LC_ALL=C gnuplot '" + input.string() + "' >'" + output.string() + "' 2>'" + complaints.string() + "'";
+  const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe): one thread draws
+  if (status != 0) throw std::runtime_error("gnuplot failed: " + contentOf(complaints).substr(0, 200));
+  return withoutDeclarations(contentOf(output));
 }
 
 }  // namespace redbee

@@ -1,8 +1,9 @@
-// Small line and scatter plots as SVG text, for pages that stand alone.
+// Line and scatter plots as SVG text, for pages that stand alone; gnuplot draws them.
 #pragma once
 
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace redbee {
@@ -11,17 +12,22 @@ class SvgPlot {
  public:
   SvgPlot(std::string title, std::string x_label, std::string y_label);
 
-  /// NaN breaks a line. Colour: any of SVG's.
+  /// What is not finite breaks a line. Colour: #rrggbb or a name that gnuplot knows.
   void addLine(const std::string& name, const std::vector<double>& x, const std::vector<double>& y,
                const std::string& colour);
   void addPoints(const std::string& name, const std::vector<Eigen::Vector2d>& points,
                  const std::string& colour);
   /// A dashed vertical line at x.
   void addMark(const std::string& name, double x);
-  /// Same unit on both axes, the origin in the middle, `reach` to all sides; points beyond are not drawn.
-  void makeSquare(double reach);
+  /// Both axes from `low` to `high` in the same unit; points beyond are not drawn.
+  void makeSquare(double low, double high);
 
+  /// Throws std::runtime_error where gnuplot fails.
   std::string svg() const;
+
+  /// Throws InputError, saying how to mend it, where gnuplot is not installed: before long work, not after
+  /// it.
+  static void checkInstalled();
 
  private:
   struct Series {
@@ -30,16 +36,15 @@ class SvgPlot {
     std::string colour;
     bool line;
   };
-  struct Range {
-    double low, high;
-    double share(double value) const { return (value - low) / (high - low); }
-  };
-  Range rangeOf(int axis) const;
+  static bool isDrawable(const Series& series);
+  std::string settings() const;
+  std::string curves() const;
 
   std::string title_, x_label_, y_label_;
   std::vector<Series> series_;
   std::vector<std::pair<std::string, double>> marks_;
-  double reach_ = 0;
+  double low_ = 0;
+  double high_ = 0;  ///< equal to low_: the data tell the range
 };
 
 }  // namespace redbee

@@ -5,9 +5,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "segmentation/carried_background.hpp"
 #include "segmentation/earlier_frames.hpp"
 #include "segmentation/guided_filter.hpp"
-#include "segmentation/interval_difference.hpp"
 #include "segmentation/motion_segmenter.hpp"
 #include "segmentation/object_tracker.hpp"
 #include "segmentation/parallax_evidence.hpp"
@@ -66,11 +66,19 @@ void alignHalfSize(benchmark::State& state) {
 }
 BENCHMARK(alignHalfSize)->Unit(benchmark::kMillisecond);
 
-void intervalDifferenceHalfSize(benchmark::State& state) {
-  const cv::Mat then = halfSize(inputs()[0].grey), now = halfSize(inputs()[1].grey);
-  for (auto _ : state) benchmark::DoNotOptimize(differenceEvidence(GreyInterval(then, 1).outside(now), 3, 6));
+void carriedBackground(benchmark::State& state) {
+  cv::Mat colour, moving = cv::Mat::zeros(inputs()[0].grey.size(), CV_32F);
+  cv::cvtColor(inputs()[0].grey, colour, cv::COLOR_GRAY2BGR);
+  CarriedBackground background{SegmentationParameters{}};
+  background.learn(colour, moving, 0.04);
+  const SceneMotion scene(*inputs()[1].ground, inputs()[1].motion, inputs()[1].K);
+  for (auto _ : state) {
+    background.carry(scene);
+    benchmark::DoNotOptimize(background.unlike(colour));
+    background.learn(colour, moving, 0.04);
+  }
 }
-BENCHMARK(intervalDifferenceHalfSize)->Unit(benchmark::kMillisecond);
+BENCHMARK(carriedBackground)->Unit(benchmark::kMillisecond);
 
 void guidedFilterHalfSize(benchmark::State& state) {
   const cv::Mat grey = halfSize(inputs()[0].grey);
@@ -90,7 +98,7 @@ BENCHMARK(denseFlowHalfSize)->Unit(benchmark::kMillisecond);
 void travelHalfSize(benchmark::State& state) {
   const cv::Size half(320, 240);
   const FrameEvidence now{cv::Mat(half, CV_32FC2, cv::Scalar(1, 0)),
-                          cv::Mat(half, CV_32FC2, cv::Scalar(0.5, 0)), cv::Mat::zeros(half, CV_32F)};
+                          cv::Mat(half, CV_32FC2, cv::Scalar(0.5, 0))};
   TravellingEvidence evidence{SegmentationParameters{}};
   const cv::Mat unseen = cv::Mat::zeros(half, CV_8U);
   for (auto _ : state) {

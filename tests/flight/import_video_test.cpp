@@ -2,6 +2,7 @@
 
 #include "flight/video_reader.hpp"
 #include "flight/video_writer.hpp"
+#include "messaging/configuration.hpp"
 #include "messaging/picture.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
@@ -59,6 +60,18 @@ TEST_F(ImportVideoTest, FramesKeepTheirTimesAndLooks) {
   EXPECT_LT(worst, 8);
 }
 
+TEST_F(ImportVideoTest, TheConfigurationBesideTheLogRunsOnVisionAlone) {
+  const ImportSummary summary = import();
+  const Configuration configuration =
+      loadConfiguration(writeVehicleConfiguration(summary.vehicle, options_.log));
+  EXPECT_FALSE(configuration.has_imu);
+  EXPECT_EQ(configuration.camera.width, 96);
+  EXPECT_DOUBLE_EQ(configuration.camera.cx, 47.5);
+  EXPECT_DOUBLE_EQ(configuration.camera.fx, 0.8 * 96);
+  ASSERT_EQ(summary.warnings.size(), 1u);
+  EXPECT_NE(summary.warnings[0].find("77 px are assumed"), std::string::npos) << summary.warnings[0];
+}
+
 TEST_F(ImportVideoTest, AChosenWidthKeepsTheAspect) {
   options_.width = 49;
   options_.format = FrameFormat::kRawGrey;
@@ -77,7 +90,8 @@ TEST_F(ImportVideoTest, ImuColumnsComeInAnyOrder) {
             "az,t_s,gx,gy,gz,ax,ay,temperature\n9.8,0.001,1,2,3,4,5,20\n9.7,1.1995,1,2,3,4,5,20\n");
   const ImportSummary summary = import();
   EXPECT_EQ(summary.imu_samples, 2);
-  EXPECT_TRUE(summary.warnings.empty());
+  ASSERT_EQ(summary.warnings.size(), 1u);
+  EXPECT_NE(summary.warnings[0].find("focal length"), std::string::npos);
   const auto imu = messagesOn<ins_t>(readEvents(options_.log), "IMU");
   ASSERT_EQ(imu.size(), 2u);
   EXPECT_EQ(imu[1].utime, 1'199'500);

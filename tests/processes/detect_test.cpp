@@ -99,7 +99,7 @@ TEST_F(Commands, ARivalTakesThePlaceOfTheSegmentation) {
         << method << ": those that want the IMU's motion need more";
     EXPECT_EQ(summary.at("skipped").get<int>() + summary.at("lost").get<int>(), 0) << method;
     EXPECT_GE(summary.at("frames_good").get<int>(), kFrames - 2) << method;
-    EXPECT_GT(summary.at("stages").at("rival-" + method).at("processor_mean_ms").get<double>(), 0);
+    EXPECT_TRUE(summary.at("stages").contains("rival-" + method));
     EXPECT_EQ(measureClip(folder_ / "truth", options.out).truth_without_result, 0);
   }
 }
@@ -127,11 +127,11 @@ TEST_F(Commands, MapsOfAnEarlierRunAreNotLeftAmongThose) {
 }
 
 TEST_F(Commands, EvaluateMeasuresAgainstTheTruth) {
-  const ClipMeasures clip = measureClip(folder_ / "truth", options_.out);
+  const ClipMeasures clip = measureClip({folder_ / "truth", options_.out, {}});
   EXPECT_EQ(clip.pixels.frames(), kFrames);
   EXPECT_EQ(clip.truth_without_result, 0);
   EXPECT_GT(clip.pixels.movingPixels(), 0);
-  EXPECT_THROW(measureClip(folder_ / "nowhere", options_.out), InputError);
+  EXPECT_THROW(measureClip({folder_ / "nowhere", options_.out, {}}), InputError);
 }
 
 TEST_F(Commands, OverlayAndReportAreWritten) {

@@ -7,7 +7,6 @@
 #include "segmentation/flow_entropy.hpp"
 #include "segmentation/foreground_probability.hpp"
 #include "segmentation/guided_filter.hpp"
-#include "segmentation/interval_difference.hpp"
 #include "segmentation/parallax_segment.hpp"
 #include "segmentation/travelling_evidence.hpp"
 
@@ -124,21 +123,6 @@ TEST_F(Parallax, MotionAcrossTheLineOrBelowTheGroundIsNot) {
   EXPECT_GT(judge({150, 300}, ground - 3 * along).sigmasSquared(), 20);
 }
 
-TEST(GreyInterval, ForgivesAPixelOfRegistrationButNotAnObject) {
-  cv::Mat scene(40, 40, CV_8U, cv::Scalar(60));
-  scene.colRange(20, 40).setTo(180);
-  cv::Mat shifted(40, 40, CV_8U, cv::Scalar(60));
-  shifted.colRange(21, 40).setTo(180);
-  EXPECT_EQ(cv::countNonZero(GreyInterval(scene, 1).outside(shifted)), 0);
-  shifted(cv::Rect(4, 4, 6, 6)).setTo(100);
-  const cv::Mat outside = GreyInterval(scene, 1).outside(shifted);
-  EXPECT_EQ(cv::countNonZero(outside), 36);
-  EXPECT_EQ(outside.at<uint8_t>(6, 6), 40);
-  const cv::Mat evidence = differenceEvidence(outside, 3, 40);
-  EXPECT_NEAR(evidence.at<float>(6, 6), 0.5, 1e-5);
-  EXPECT_EQ(evidence.at<float>(30, 30), 0);
-}
-
 TEST(GuidedFilter, KeepsToTheEdgesOfThePicture) {
   cv::Mat picture(40, 40, CV_8U, cv::Scalar(60));
   picture.colRange(20, 40).setTo(180);
@@ -156,12 +140,10 @@ class Travelling : public ::testing::Test {
   /// Evidence of a square of 9 px at x that has moved by `off` standard deviations and `step` px.
   void see(int x, float off, float step) {
     FrameEvidence now{cv::Mat(kSize, kSize, CV_32FC2, cv::Scalar::all(0)),
-                      cv::Mat(kSize, kSize, CV_32FC2, cv::Scalar::all(0)),
-                      cv::Mat::zeros(kSize, kSize, CV_32F)};
+                      cv::Mat(kSize, kSize, CV_32FC2, cv::Scalar::all(0))};
     const cv::Rect square(x, 20, 9, 9);
     now.off(square).setTo(cv::Scalar(off, 0));
     now.back_step(square).setTo(cv::Scalar(-step, 0));
-    now.appearance(square).setTo(1);
     evidence_.update(now, kStill, cv::Mat::zeros(kSize, kSize, CV_8U));
   }
   float motionAt(int x) const { return evidence_.motion().at<float>(24, x); }
@@ -173,7 +155,6 @@ TEST_F(Travelling, WhatMovesSteadilyAddsUpAndLeavesNoTrail) {
   for (int k = 0; k <= 20; ++k) see(4 + k, 8, 1);
   EXPECT_GT(motionAt(28), 0.7);
   EXPECT_LT(motionAt(15), 0.1) << "where it was ten frames ago";
-  EXPECT_GT(evidence_.appearance().at<float>(24, 28), 0.9);
 }
 
 TEST_F(Travelling, WhatMovesToAndFroDoesNot) {

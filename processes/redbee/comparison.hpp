@@ -1,0 +1,66 @@
+// What scripts/evaluate has run: clips times methods times rows of extrinsics, one folder of results each.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace redbee {
+
+/// One line of a clips file: set, name, and what only scripts/evaluate reads. Clips without an IMU
+/// calibration of their own have one row of extrinsics, `given`.
+struct ListedClip {
+  std::string set;
+  std::string name;
+  bool has_extrinsics_rows = false;
+};
+
+/// Lines of words; '#' starts a comment. Throw InputError with file and line.
+std::vector<ListedClip> readClipList(const std::filesystem::path& file);
+/// The first word of each line.
+std::vector<std::string> readMethodList(const std::filesystem::path& file);
+
+/// Measures of one run; nothing: the truth does not tell, or it was not measured.
+struct CellMeasures {
+  std::map<std::string, double> values;  ///< by the names of kMeasures
+  std::optional<double> value(const std::string& name) const;
+};
+
+/// Column names of cells.csv, each a member of a cell's JSON files.
+struct MeasureName {
+  const char* name;
+  const char* file;     ///< measures.json, summary.json
+  const char* pointer;  ///< JSON pointer
+};
+const std::vector<MeasureName>& measureNames();
+
+inline constexpr const char* kGivenExtrinsics = "given";
+
+class Comparison {
+ public:
+  /// Cells are folders cells/SET/CLIP/EXTRINSICS/METHOD. One without measures.json has not been run yet.
+  Comparison(std::filesystem::path cells, std::vector<ListedClip> clips, std::vector<std::string> methods,
+             std::vector<std::string> extrinsics);
+
+  const std::vector<std::string>& methods() const { return methods_; }
+  const std::vector<std::string>& sets() const { return sets_; }
+  std::vector<ListedClip> clipsOf(const std::string& set) const;
+  /// The rows of extrinsics that the set's clips have.
+  std::vector<std::string> rowsOf(const std::string& set) const;
+  std::filesystem::path folder(const ListedClip& clip, const std::string& row,
+                               const std::string& method) const;
+  /// Null where the cell has not been run.
+  const CellMeasures* cell(const ListedClip& clip, const std::string& row, const std::string& method) const;
+
+ private:
+  std::filesystem::path cells_;
+  std::vector<ListedClip> clips_;
+  std::vector<std::string> methods_;
+  std::vector<std::string> extrinsics_;
+  std::vector<std::string> sets_;
+  std::map<std::filesystem::path, CellMeasures> measured_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,22 @@
+// The camera's messages of a flight, for commands that look at single frames.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "redbee/image_t.hpp"
+
+namespace redbee {
+
+/// Calls `take` for each picture message on `channel`, in the log's order; messages that do not decode are
+/// passed over. Throws InputError where the log cannot be read.
+void forEachPicture(const std::filesystem::path& log, const std::string& channel,
+                    const std::function<void(const image_t& message)>& take);
+
+/// Times of the flight's frames [us], sorted. Throws InputError where there are none.
+std::vector<int64_t> pictureTimes(const std::filesystem::path& log, const std::string& channel);
+
+}  // namespace redbee
