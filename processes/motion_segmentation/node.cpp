@@ -1,61 +1,16 @@
 #include "processes/motion_segmentation/node.hpp"
 
 #include <Eigen/LU>
-#include <opencv2/imgproc.hpp>
 
-#include "flight/overlay.hpp"
 #include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
 #include "processes/work_timer.hpp"
-#include "redbee/detections_t.hpp"
-#include "redbee/foreground_t.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr int kFrameQueue = 64;
-constexpr int kOverlayQuality = 80;
 constexpr int8_t kVisualGood = 0;
-
-detections_t detectionsMessage(const SegmentationOutput& output) {
-  detections_t message{};
-  message.utime = output.utime;
-  message.status = static_cast<int8_t>(output.status);
-  message.n = static_cast<int32_t>(output.detections.size());
-  for (const Detection& detection : output.detections) {
-    detection_t d{};
-    d.id = detection.id;
-    d.x = detection.box.x;
-    d.y = detection.box.y;
-    d.width = detection.box.width;
-    d.height = detection.box.height;
-    d.area = detection.area_px;
-    d.score = detection.score;
-    d.seen = detection.seen ? 1 : 0;
-    message.detections.push_back(d);
-  }
-  return message;
-}
-
-/// Box on the raw grid around a box on the ideal grid.
-cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
-  const cv::Rect picture(0, 0, camera.intrinsics().width, camera.intrinsics().height);
-  Eigen::Vector2d low(picture.width, picture.height);
-  Eigen::Vector2d high(0, 0);
-  for (int i = 0; i <= 4; ++i) {
-    for (const Eigen::Vector2d& edge : {Eigen::Vector2d(i / 4.0, 0), Eigen::Vector2d(i / 4.0, 1),
-                                        Eigen::Vector2d(0, i / 4.0), Eigen::Vector2d(1, i / 4.0)}) {
-      const Eigen::Vector2d raw =
-          camera.distort({box.x + edge.x() * (box.width - 1), box.y + edge.y() * (box.height - 1)});
-      low = low.cwiseMin(raw);
-      high = high.cwiseMax(raw);
-    }
-  }
-  const cv::Point top_left(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
-  const cv::Point bottom_right(static_cast<int>(std::ceil(high.x())) + 1,
-                               static_cast<int>(std::ceil(high.y())) + 1);
-  return cv::Rect(top_left, bottom_right) & picture;
-}
 
 }  // namespace
 
@@ -64,7 +19,7 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
       configuration_(configuration),
       health_("redbee-motion-segmentation", configurationHash(configuration)),
       camera_(configuration.camera),
-      rectifier_(camera_),
+      publisher_(bus_, configuration_, camera_),
       segmenter_(configuration.segmentation),
       pictures_(configuration.waits.max_backlog),
       fused_(microseconds(configuration.waits.segmentation_s), true),
@@ -97,9 +52,10 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
 void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
   if (fused.has_innovation == 0 || fused.has_motion == 0 || fused.has_observation == 0) return;
   const PlaneMotion motion{matrix3(fused.R), vector3(fused.t), vector3(fused.normal), fused.plane_distance};
-  calibration_.note(fused.test_ratio,
-                    meanTransferError(planeHomography(camera_.K(), motion), matrix3(fused.H_observed),
-                                      configuration_.camera.width, configuration_.camera.height));
+  calibration_.note(
+      fused.test_ratio,
+      meanTransferError(planeHomography(camera_.camera().K(), motion), matrix3(fused.H_observed),
+                        configuration_.camera.width, configuration_.camera.height));
   health_.setCalibration(calibration_.verdict());
 }
 
@@ -121,7 +77,7 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const
   SegmentationInput input;
   input.utime = message.utime;
   input.utime_previous = last_ ? last_->utime : message.utime;
-  input.K = camera_.K();
+  input.K = camera_.camera().K();
   if (!last_) return input;
   const fused_homography_t* fused = fused_.find(message.utime);
   if (fused == nullptr || fused->source == 0) {
@@ -172,68 +128,23 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
 void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
   const bool wants_colour =
       configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
-  const cv::Mat picture = (wants_colour ? decodeColour(message) : decodeGrey(message)).value_or(cv::Mat());
-  const cv::Size size(configuration_.camera.width, configuration_.camera.height);
-  if (picture.size() != size) {
-    if (picture.empty()) health_.noteDamaged();
-    input.grey = cv::Mat::zeros(size, CV_8U);
-    return;
-  }
-  if (!wants_colour) {
-    input.grey = rectifier_.toIdeal(picture);
-    return;
-  }
-  input.colour = rectifier_.toIdeal(picture);
-  cv::cvtColor(input.colour, input.grey, cv::COLOR_BGR2GRAY);
+  const IdealPicture picture = camera_.ideal(message, wants_colour, health_);
+  input.grey = picture.grey;
+  input.colour = picture.colour;
+  if (!input.grey.empty()) return;
+  input.grey = cv::Mat::zeros(configuration_.camera.height, configuration_.camera.width, CV_8U);
 }
 
 void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input,
                                      SegmentationOutput output) {
-  output.probability = rectifier_.toRaw(output.probability);
-  output.mask = rectifier_.toRaw(output.mask);
-  output.unknown = rectifier_.toRaw(output.unknown);
   for (Detection& detection : output.detections) detection.id = identities_.told(detection.id);
-  if (camera_.isDistorted()) {
-    for (Detection& detection : output.detections) detection.box = rawBox(camera_, detection.box);
-  }
-  foreground_t foreground{};
-  foreground.utime = output.utime;
-  foreground.utime_previous = input.utime_previous;
-  foreground.sequence = sequence_;
-  foreground.status = static_cast<int8_t>(output.status);
-  foreground.width = output.mask.cols;
-  foreground.height = output.mask.rows;
-  foreground.probability = encodePng(output.probability);
-  foreground.mask = encodePng(output.mask);
-  foreground.unknown = encodePng(output.unknown);
-  foreground.probability_size = static_cast<int32_t>(foreground.probability.size());
-  foreground.mask_size = static_cast<int32_t>(foreground.mask.size());
-  foreground.unknown_size = static_cast<int32_t>(foreground.unknown.size());
-  bus_.publish(configuration_.channels.foreground, foreground);
-
-  detections_t detections = detectionsMessage(output);
-  detections.sequence = sequence_++;
-  bus_.publish(configuration_.channels.detections, detections);
-  publishOverlay(message, output);
+  publisher_.publish(message, input.utime_previous, output);
   if (output.status != SegmentationStatus::kGood) {
     health_.setState(HealthState::kDegraded, toString(output.status));
   } else if (fused_.find(output.utime) == nullptr) {
     health_.setState(HealthState::kDegraded, "the fusion is away: homography from vision");
   } else {
     health_.setState(HealthState::kGood);
-  }
-}
-
-void MotionSegmentationNode::publishOverlay(const image_t& message, const SegmentationOutput& output) {
-  const int period = configuration_.overlay_period_frames;
-  if (period == 0 || ++frames_since_overlay_ < period) return;
-  frames_since_overlay_ = 0;
-  if (const auto picture = decodeColour(message); picture && picture->size() == output.mask.size()) {
-    OverlayStatus status;
-    status.utime = message.utime;
-    status.message = output.status == SegmentationStatus::kGood ? "" : toString(output.status);
-    const cv::Mat drawn = drawOverlay(*picture, output.mask, output.detections, status);
-    bus_.publish(configuration_.channels.overlay, jpegMessage(message.utime, drawn, kOverlayQuality));
   }
 }
 

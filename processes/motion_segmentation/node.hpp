@@ -9,13 +9,13 @@
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/node.hpp"
+#include "processes/foreground_publisher.hpp"
 #include "processes/motion_segmentation/kept_identities.hpp"
 #include "processes/picture_queue.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/visual_homography_t.hpp"
 #include "segmentation/motion_segmenter.hpp"
-#include "visual/rectifier.hpp"
 
 namespace redbee {
 
@@ -45,15 +45,14 @@ class MotionSegmentationNode : public Node {
   /// Black where there is no picture of the camera's size.
   void decodeInto(SegmentationInput& input, const image_t& message);
   void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
-  void publishOverlay(const image_t& message, const SegmentationOutput& output);
   void judgeCalibration(const fused_homography_t& fused);
   void restart();
 
   Bus& bus_;
   Configuration configuration_;
   HealthMonitor health_;
-  Camera camera_;
-  Rectifier rectifier_;
+  RectifiedCamera camera_;
+  ForegroundPublisher publisher_;
   MotionSegmenter segmenter_;
   PictureQueue pictures_;
   CompanionBuffer<fused_homography_t> fused_;
@@ -61,8 +60,6 @@ class MotionSegmentationNode : public Node {
   std::optional<Last> last_;
   KeptIdentities identities_;
   CalibrationMonitor calibration_;
-  int32_t sequence_ = 0;
-  int frames_since_overlay_ = 0;
 };
 
 }  // namespace redbee

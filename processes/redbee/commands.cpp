@@ -32,7 +32,10 @@ void addDetectCommand(CLI::App& app) {
   command->add_option("--log", options->log, "the flight, an LCM log")->required();
   command->add_option("--config", options->configuration, "the vehicle's YAML file")->required();
   command->add_option("--out", options->out, "folder for maps, tables and summary.json")->required();
-  command->add_option("--method", options->method, "redbee: as configured; paper, default: that preset")
+  command
+      ->add_option(
+          "--method", options->method,
+          "redbee: as configured; default, paper: that preset; else a rival (README). All: " + methodList())
       ->capture_default_str();
   command->add_option("--set", options->settings, "key=value on top of the configuration, as often as needed")
       ->allow_extra_args(false);

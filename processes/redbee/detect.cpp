@@ -1,5 +1,6 @@
 #include "processes/redbee/detect.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -11,6 +12,7 @@
 #include "processes/motion_segmentation/node.hpp"
 #include "processes/redbee/collector.hpp"
 #include "processes/redbee/process_usage.hpp"
+#include "processes/redbee/rival_node.hpp"
 #include "processes/visual_homography/node.hpp"
 
 namespace redbee {
@@ -38,11 +40,22 @@ class Pace {
   Clock::time_point start_ = Clock::now();
 };
 
+bool isRival(const std::string& method) {
+  const std::vector<std::string> rivals = rivalNames();
+  return std::find(rivals.begin(), rivals.end(), method) != rivals.end();
+}
+
+InProcessStack makeStack(Bus& bus, const Configuration& configuration, const std::string& method) {
+  return isRival(method) ? InProcessStack(bus, configuration, method) : InProcessStack(bus, configuration);
+}
+
 Configuration configurationFor(const DetectOptions& options) {
   Configuration configuration = loadConfiguration(options.configuration);
-  if (options.method != "redbee" && !applyPreset(configuration, options.method)) {
-    throw InputError("--method " + options.method + ": unknown; known are redbee, default and paper");
+  const std::vector<std::string> known = methodNames();
+  if (std::find(known.begin(), known.end(), options.method) == known.end()) {
+    throw InputError("--method " + options.method + ": unknown; known are " + methodList());
   }
+  applyPreset(configuration, options.method);
   for (const std::string& assignment : options.settings) {
     const size_t equals = assignment.find('=');
     if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected key=value");
@@ -65,6 +78,16 @@ InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration)
   nodes_.push_back(std::make_unique<MotionSegmentationNode>(bus, configuration));
 }
 
+InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration, const std::string& rival)
+    : bus_(bus), health_channel_(configuration.channels.health) {
+  if (configuration.has_imu && makeRival(rival)->wantsMotion()) {
+    nodes_.push_back(std::make_unique<ImuIntegrationNode>(bus, configuration));
+    nodes_.push_back(std::make_unique<VisualHomographyNode>(bus, configuration));
+    nodes_.push_back(std::make_unique<HomographyFusionNode>(bus, configuration));
+  }
+  nodes_.push_back(std::make_unique<RivalNode>(bus, configuration, rival));
+}
+
 void InProcessStack::settle() {
   do {
     for (const auto& node : nodes_) node->process();
@@ -84,12 +107,24 @@ void InProcessStack::publishHealth() {
   settle();
 }
 
+std::vector<std::string> methodNames() {
+  std::vector<std::string> names{"redbee", "default", "paper"};
+  for (const std::string& rival : rivalNames()) names.push_back(rival);
+  return names;
+}
+
+std::string methodList() {
+  std::string list;
+  for (const std::string& name : methodNames()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 int64_t runDetect(const DetectOptions& options) {
   const Configuration configuration = configurationFor(options);
   LogReader log(options.log);
   const auto bus = makeLcmBus("memq://");
   ResultCollector collector(*bus, configuration.channels, options.out);
-  InProcessStack stack(*bus, configuration);
+  InProcessStack stack = makeStack(*bus, configuration, options.method);
   Progress progress("detecting in " + options.log.filename().string(), "MB", options.quiet);
   Pace pace(options.rate);
   const auto start = Clock::now();

@@ -88,6 +88,38 @@ TEST_F(Commands, SettingsFromTheCommandLineReachTheStack) {
   EXPECT_THROW(runDetect(options), InputError);
 }
 
+TEST_F(Commands, ARivalTakesThePlaceOfTheSegmentation) {
+  for (const auto& [method, stages] : {std::pair<std::string, size_t>{"mcd", 1}, {"datmo", 4}}) {
+    DetectOptions options = options_;
+    options.method = method;
+    options.out = folder_ / method;
+    EXPECT_EQ(runDetect(options), kFrames);
+    const auto summary = nlohmann::json::parse(text(options.out / "summary.json"));
+    EXPECT_EQ(summary.at("stages").size(), stages)
+        << method << ": those that want the IMU's motion need more";
+    EXPECT_EQ(summary.at("skipped").get<int>() + summary.at("lost").get<int>(), 0) << method;
+    EXPECT_GE(summary.at("frames_good").get<int>(), kFrames - 2) << method;
+    EXPECT_TRUE(summary.at("stages").contains("rival-" + method));
+    EvaluateOptions truth;
+    truth.truth = folder_ / "truth";
+    truth.results = options.out;
+    EXPECT_EQ(measureClip(truth).truth_without_result, 0);
+  }
+}
+
+TEST_F(Commands, AnUnknownMethodIsToldWhichThereAre) {
+  DetectOptions options = options_;
+  options.method = "nobody";
+  try {
+    runDetect(options);
+    FAIL() << "an unknown method runs";
+  } catch (const InputError& error) {
+    const std::string told = error.what();
+    for (const std::string& name : methodNames()) EXPECT_NE(told.find(name), std::string::npos) << name;
+    EXPECT_EQ(told.find('\n'), std::string::npos);
+  }
+}
+
 TEST_F(Commands, MapsOfAnEarlierRunAreNotLeftAmongThose) {
   DetectOptions options = options_;
   options.out = folder_ / "again";

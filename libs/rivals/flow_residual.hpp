@@ -1,0 +1,32 @@
+// Dense flow minus the flow of one homography: whatever moves against the dominant plane.
+//
+// Nobody's publication. Dense inverse search flow (OpenCV's, preset medium) forward from the previous
+// picture's grid is not used: it is computed from the current picture back to the previous one, so that the
+// score lies on the current picture. Score: kDecisionScore at 1 px.
+#pragma once
+
+#include <opencv2/video/tracking.hpp>
+
+#include "rivals/registration.hpp"
+#include "rivals/rival.hpp"
+
+namespace redbee {
+
+class FlowResidual : public Rival {
+ public:
+  FlowResidual();
+
+ private:
+  void reset() override;
+  RivalOutput judge(const RivalInput& input) override;
+
+  Registrar registrar_;
+  cv::Ptr<cv::DISOpticalFlow> flow_;
+  cv::Mat previous_;
+};
+
+/// Length [px] of what remains of `flow` (CV_32FC2, current picture to previous) once each pixel's own motion
+/// by `H` (previous to current) is taken out. 0 where H takes it from outside of the previous picture.
+cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H);
+
+}  // namespace redbee

@@ -1,0 +1,29 @@
+// One scale for all rivals' scores.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+namespace redbee {
+
+/// Score that a decision threshold maps to.
+inline constexpr int kDecisionScore = 128;
+
+/// `ratio`: a statistic over its decision threshold, >= 0. 0 gives 0, 1 gives kDecisionScore, infinity gives
+/// 255: 255 r / (1 + r), so that a sweep over the 8 bits sees ratios from 1/250 to 250.
+inline uint8_t gradedScore(float ratio) {
+  return ratio > 0 ? static_cast<uint8_t>(255.5F - 255.0F / (1.0F + ratio)) : uint8_t{0};
+}
+
+/// The same for a map: CV_32F statistic to CV_8U score.
+inline cv::Mat gradedScore(const cv::Mat& statistic, float threshold) {
+  cv::Mat score(statistic.size(), CV_8U);
+  for (int y = 0; y < score.rows; ++y) {
+    const auto* from = statistic.ptr<float>(y);
+    auto* to = score.ptr<uint8_t>(y);
+    for (int x = 0; x < score.cols; ++x) to[x] = gradedScore(from[x] / threshold);
+  }
+  return score;
+}
+
+}  // namespace redbee

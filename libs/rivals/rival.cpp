@@ -1,0 +1,87 @@
+#include "rivals/rival.hpp"
+
+#include <map>
+
+#include "rivals/aurora.hpp"
+#include "rivals/datmo.hpp"
+#include "rivals/difference.hpp"
+#include "rivals/flow_residual.hpp"
+#include "rivals/homography_mog2.hpp"
+#include "rivals/mcd.hpp"
+#include "rivals/meier.hpp"
+#include "rivals/trajectory_rival.hpp"
+
+namespace redbee {
+namespace {
+
+using Factory = std::unique_ptr<Rival> (*)();
+
+template <typename Kind>
+std::unique_ptr<Rival> make() {
+  return std::make_unique<Kind>();
+}
+
+const std::map<std::string, Factory>& factories() {
+  static const std::map<std::string, Factory> all{
+      {"aurora", make<Aurora>},
+      {"datmo", make<Datmo>},
+      {"difference", make<Difference>},
+      {"flow-residual", make<FlowResidual>},
+      {"homography-mog2", make<HomographyMog2>},
+      {"lrr", makeLrr},
+      {"mcd", make<Mcd>},
+      {"meier", make<Meier>},
+      {"rv", makeRandomizedVoting},
+      {"ssc", makeSsc},
+  };
+  return all;
+}
+
+}  // namespace
+
+bool Rival::fits(const RivalInput& input) const {
+  const bool grey = !input.grey.empty() && input.grey.type() == CV_8U;
+  const bool colour = input.colour.type() == CV_8UC3 && input.colour.size() == input.grey.size();
+  return grey && (colour || !wantsColour());
+}
+
+RivalOutput Rival::beginAnew(const RivalInput& input) {
+  reset();
+  RivalOutput output = judge(input);
+  output.status = RivalStatus::kLost;
+  return output;
+}
+
+RivalOutput Rival::step(const RivalInput& input) {
+  RivalOutput output;
+  if (!fits(input)) {
+    reset();
+    output.status = RivalStatus::kBadPicture;
+  } else {
+    const bool first = !last_utime_;
+    const bool follows = !first && input.utime > *last_utime_ &&
+                         input.utime - *last_utime_ <= kMaxFrameGapUs && input.grey.size() == size_;
+    size_ = input.grey.size();
+    if (first || follows) output = judge(input);
+    if ((!first && !follows) || output.status == RivalStatus::kLost) output = beginAnew(input);
+    last_utime_ = input.utime;
+  }
+  if (output.status != RivalStatus::kGood) {
+    output.score = cv::Mat::zeros(size_, CV_8U);
+    output.background = cv::Matx33d::eye();
+  }
+  return output;
+}
+
+std::unique_ptr<Rival> makeRival(const std::string& name) {
+  const auto found = factories().find(name);
+  return found == factories().end() ? nullptr : found->second();
+}
+
+std::vector<std::string> rivalNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, factory] : factories()) names.push_back(name);
+  return names;
+}
+
+}  // namespace redbee

@@ -1,0 +1,96 @@
+#include "processes/foreground_publisher.hpp"
+
+#include "flight/overlay.hpp"
+#include "messaging/picture.hpp"
+#include "redbee/detections_t.hpp"
+#include "redbee/foreground_t.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int kOverlayQuality = 80;
+
+detections_t detectionsMessage(const SegmentationOutput& output) {
+  detections_t message{};
+  message.utime = output.utime;
+  message.status = static_cast<int8_t>(output.status);
+  message.n = static_cast<int32_t>(output.detections.size());
+  for (const Detection& detection : output.detections) {
+    detection_t d{};
+    d.id = detection.id;
+    d.x = detection.box.x;
+    d.y = detection.box.y;
+    d.width = detection.box.width;
+    d.height = detection.box.height;
+    d.area = detection.area_px;
+    d.score = detection.score;
+    d.seen = detection.seen ? 1 : 0;
+    message.detections.push_back(d);
+  }
+  return message;
+}
+
+/// Box on the raw grid around a box on the ideal grid.
+cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
+  const cv::Rect picture(0, 0, camera.intrinsics().width, camera.intrinsics().height);
+  Eigen::Vector2d low(picture.width, picture.height);
+  Eigen::Vector2d high(0, 0);
+  for (int i = 0; i <= 4; ++i) {
+    for (const Eigen::Vector2d& edge : {Eigen::Vector2d(i / 4.0, 0), Eigen::Vector2d(i / 4.0, 1),
+                                        Eigen::Vector2d(0, i / 4.0), Eigen::Vector2d(1, i / 4.0)}) {
+      const Eigen::Vector2d raw =
+          camera.distort({box.x + edge.x() * (box.width - 1), box.y + edge.y() * (box.height - 1)});
+      low = low.cwiseMin(raw);
+      high = high.cwiseMax(raw);
+    }
+  }
+  const cv::Point top_left(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
+  const cv::Point bottom_right(static_cast<int>(std::ceil(high.x())) + 1,
+                               static_cast<int>(std::ceil(high.y())) + 1);
+  return cv::Rect(top_left, bottom_right) & picture;
+}
+
+}  // namespace
+
+void ForegroundPublisher::publish(const image_t& picture, int64_t utime_previous, SegmentationOutput output) {
+  output.probability = camera_.rectifier().toRaw(output.probability);
+  output.mask = camera_.rectifier().toRaw(output.mask);
+  output.unknown = camera_.rectifier().toRaw(output.unknown);
+  if (camera_.camera().isDistorted()) {
+    for (Detection& detection : output.detections) detection.box = rawBox(camera_.camera(), detection.box);
+  }
+  foreground_t foreground{};
+  foreground.utime = output.utime;
+  foreground.utime_previous = utime_previous;
+  foreground.sequence = sequence_;
+  foreground.status = static_cast<int8_t>(output.status);
+  foreground.width = output.mask.cols;
+  foreground.height = output.mask.rows;
+  foreground.probability = encodePng(output.probability);
+  foreground.mask = encodePng(output.mask);
+  foreground.unknown = encodePng(output.unknown);
+  foreground.probability_size = static_cast<int32_t>(foreground.probability.size());
+  foreground.mask_size = static_cast<int32_t>(foreground.mask.size());
+  foreground.unknown_size = static_cast<int32_t>(foreground.unknown.size());
+  bus_.publish(configuration_.channels.foreground, foreground);
+
+  detections_t detections = detectionsMessage(output);
+  detections.sequence = sequence_++;
+  bus_.publish(configuration_.channels.detections, detections);
+  publishOverlay(picture, output);
+}
+
+void ForegroundPublisher::publishOverlay(const image_t& picture, const SegmentationOutput& output) {
+  const int period = configuration_.overlay_period_frames;
+  if (period == 0 || ++frames_since_overlay_ < period) return;
+  frames_since_overlay_ = 0;
+  if (const auto colour = decodeColour(picture); colour && colour->size() == output.mask.size()) {
+    OverlayStatus status;
+    status.utime = picture.utime;
+    status.message = output.status == SegmentationStatus::kGood ? "" : toString(output.status);
+    const cv::Mat drawn = drawOverlay(*colour, output.mask, output.detections, status);
+    bus_.publish(configuration_.channels.overlay, jpegMessage(picture.utime, drawn, kOverlayQuality));
+  }
+}
+
+}  // namespace redbee

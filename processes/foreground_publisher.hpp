@@ -1,0 +1,33 @@
+// What a detector says of a frame, as FOREGROUND, DETECTIONS and OVERLAY on the raw picture's grid.
+#pragma once
+
+#include <cstdint>
+
+#include "messaging/bus.hpp"
+#include "messaging/configuration.hpp"
+#include "processes/rectified_camera.hpp"
+#include "redbee/image_t.hpp"
+#include "segmentation/motion_segmenter.hpp"
+
+namespace redbee {
+
+class ForegroundPublisher {
+ public:
+  ForegroundPublisher(Bus& bus, const Configuration& configuration, const RectifiedCamera& camera)
+      : bus_(bus), configuration_(configuration), camera_(camera) {}
+
+  /// `picture`: the frame as it came. `output`: on the ideal grid. One message of each kind, and an overlay
+  /// every so often.
+  void publish(const image_t& picture, int64_t utime_previous, SegmentationOutput output);
+
+ private:
+  void publishOverlay(const image_t& picture, const SegmentationOutput& output);
+
+  Bus& bus_;
+  const Configuration& configuration_;
+  const RectifiedCamera& camera_;
+  int32_t sequence_ = 0;
+  int frames_since_overlay_ = 0;
+};
+
+}  // namespace redbee
