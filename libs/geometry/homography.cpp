@@ -96,6 +96,18 @@ Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& mot
   return normaliseHomography(K * euclidean * K.inverse());
 }
 
+Eigen::Vector3d translationFromHomography(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H,
+                                          const PlaneMotion& motion) {
+  const auto& [R, t, m, h] = motion;
+  const Eigen::Matrix3d euclidean = K.inverse() * H * K;
+  Eigen::Matrix<double, 3, 2> within;
+  within.col(0) = m.unitOrthogonal();
+  within.col(1) = m.cross(within.col(0));
+  const Eigen::Matrix<double, 3, 2> moved = euclidean * within;
+  const double scale = moved.cwiseProduct(R * within).sum() / moved.squaredNorm();
+  return h * (scale * euclidean - R) * m;
+}
+
 PlaneHomographyJacobians planeHomographyJacobians(const Eigen::Matrix3d& K, const PlaneMotion& motion) {
   const auto& [R, t, m, h] = motion;
   const Eigen::Matrix3d K_inverse = K.inverse();

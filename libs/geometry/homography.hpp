@@ -67,6 +67,11 @@ struct PlaneMotion {
 /// K (R + t m' / h) K^-1, h33 = 1 (method.md's form of the paper's equation 1).
 Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion);
 
+/// The translation [m] that takes the motion's rotation and plane to `H` (a to b, any scale): t = h (s K^-1 H
+/// K - R) m, s from the directions within the plane, which a translation does not change.
+Eigen::Vector3d translationFromHomography(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H,
+                                          const PlaneMotion& motion);
+
 /// Derivative of toVector(planeHomography(K, motion)) by a left rotation of R_ba (R <- exp(d) R) [rad], by
 /// t_ba [m], by a left rotation of m_a (m <- exp(d) m) [rad] and by h_a [m].
 struct PlaneHomographyJacobians {

@@ -14,7 +14,7 @@ constexpr float kFirstVariance = 400;  // of a pixel seen once: it may lie on an
 constexpr float kMostVariance = 1000;  // what passes by is not the background's variance
 constexpr int kTrusted = 3;            // pictures after which what moves is told from what is new
 constexpr double kVarianceSpan_s = 0.4;
-constexpr float kMovingShare = 0.1F;  // of the learning rate, where it moves for sure
+constexpr float kMovingShare = 0.05F;  // of the learning rate, where it moves for sure
 
 using Pixel = Eigen::Map<Eigen::Array4f>;
 using ConstPixel = Eigen::Map<const Eigen::Array4f>;

@@ -32,9 +32,15 @@ void growUnseen(cv::Mat& unseen, int margin_px) {
 
 }  // namespace
 
-void EarlierFrames::carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion) {
+void EarlierFrames::carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
+                          const std::optional<Eigen::Matrix3d>& front) {
   for (EarlierFrame& frame : frames_) {
     frame.ground = normaliseHomography(ground * frame.ground);
+    if (front && (frame.front || frame.still)) {
+      frame.front = normaliseHomography(*front * frame.front.value_or(Eigen::Matrix3d::Identity()));
+    } else {
+      frame.front.reset();
+    }
     if (frame.still) {
       frame.motion = motion;
     } else if (frame.motion && motion) {

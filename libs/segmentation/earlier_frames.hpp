@@ -15,14 +15,16 @@ struct EarlierFrame {
   cv::Mat grey;                                          ///< CV_8U
   Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  ///< this frame's pixels to the current frame's
   std::optional<PlaneMotion> motion;                     ///< from this frame to the current one
-  bool still = true;                                     ///< no carry() since: `motion` is the identity
+  std::optional<Eigen::Matrix3d> front;                  ///< like `ground`, of the second plane
+  bool still = true;                                     ///< no carry() since: all motion is the identity
 };
 
 class EarlierFrames {
  public:
   void reset() { frames_.clear(); }
   /// The view moves (previous to current, pixels of the pictures that are remembered).
-  void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion);
+  void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
+             const std::optional<Eigen::Matrix3d>& front = std::nullopt);
   /// Forgets what is older than span_s.
   void remember(int64_t utime, const cv::Mat& grey, double span_s);
   /// The frame whose age is nearest to age_s; null while there is none.

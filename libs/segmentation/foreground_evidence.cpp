@@ -17,9 +17,13 @@ void ForegroundEvidence::reset() {
   background_.reset();
 }
 
-void ForegroundEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
-                               const Eigen::Matrix3d& K) {
-  motion_.carry(ground, motion);
+void ForegroundEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+                               const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K) {
+  // The IMU's translation drifts and is wrong until its filter has settled; the fused homography holds a
+  // better.
+  std::optional<PlaneMotion> consistent = motion;
+  if (consistent) consistent->t_ba = translationFromHomography(K, ground, *motion);
+  motion_.carry(ground, front, consistent);
   if (!parameters_.use_appearance) return;
   background_.carry(SceneMotion(normaliseHomography(to_background_ * ground * to_background_.inverse()),
                                 motion, to_background_ * K));

@@ -19,8 +19,8 @@ class ForegroundEvidence {
 
   void reset();
   /// The view moves (previous to current; full-size pixels).
-  void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
-             const Eigen::Matrix3d& K);
+  void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+             const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K);
 
   struct Verdict {
     cv::Mat foreground;  ///< CV_32F, 0..1, full size; empty where there is no earlier frame

@@ -5,6 +5,7 @@
 #include "segmentation/flow_entropy.hpp"
 #include "segmentation/foreground_evidence.hpp"
 #include "segmentation/foreground_probability.hpp"
+#include "segmentation/parallax_segment.hpp"
 #include "segmentation/picture_check.hpp"
 #include "segmentation/two_plane_background.hpp"
 #include "segmentation/warping.hpp"
@@ -90,7 +91,9 @@ class MotionSegmenter::Implementation {
     if (parameters_.method == SegmentationMethod::kTwoPlanes) {
       planes_.carry(*input.ground, input.front);
     } else {
-      evidence_.carry(*input.ground, input.motion, input.K);
+      const bool structure =
+          input.front && runsOutOfPicture(input.tracks, *input.ground, *input.front, size_);
+      evidence_.carry(*input.ground, structure ? input.front : std::nullopt, input.motion, input.K);
     }
     probability_.carry(*input.ground);
     tracker_.carry(*input.ground);

@@ -40,9 +40,13 @@ void ParallaxEvidence::reset() {
   unseen_.release();
 }
 
-void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion) {
-  last_step_ = normaliseHomography(work_ * ground * work_.inverse());
-  frames_.carry(last_step_, motion);
+void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+                             const std::optional<PlaneMotion>& motion) {
+  const auto at_work = [&](const Eigen::Matrix3d& H) {
+    return normaliseHomography(work_ * H * work_.inverse());
+  };
+  last_step_ = at_work(ground);
+  frames_.carry(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
 }
 
 cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K) {
@@ -90,7 +94,9 @@ cv::Mat ParallaxEvidence::flowVariance(const cv::Mat& grey) const {
 
 FrameEvidence ParallaxEvidence::judgeFlow(const EarlierFrame& frame, const Eigen::Matrix3d& K,
                                           const cv::Mat& grey, const cv::Mat& flow, double frames) const {
-  const ParallaxSegment segment(frame.motion, K, parameters_);
+  const bool two_planes = !frame.motion && frame.front;
+  const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
+                                             : ParallaxSegment(frame.motion, K, parameters_);
   const cv::Mat variance = flowVariance(grey);
   FrameEvidence evidence{cv::Mat(flow.size(), CV_32FC2), flow * (1 / frames)};
   for (int y = 0; y < flow.rows; ++y) {

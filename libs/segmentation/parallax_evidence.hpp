@@ -28,7 +28,8 @@ class ParallaxEvidence {
 
   void reset();
   /// The view moves (previous to current; full-size pixels).
-  void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion);
+  void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+             const std::optional<PlaneMotion>& motion);
   /// Evidence of motion per pixel of the work, CV_32F 0..1; empty where there is no earlier frame. Remembers
   /// the picture (CV_8U, full size).
   cv::Mat learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K);

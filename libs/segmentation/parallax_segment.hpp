@@ -7,16 +7,22 @@
 
 #include "geometry/homography.hpp"
 #include "segmentation/parameters.hpp"
+#include "visual/point_tracker.hpp"
 
 namespace redbee {
 
 /// A static surface nearer than the ground has moved along the line through the epipole e = K t, away from
 /// where the ground would be, and no further than the nearest plausible depth allows: its remaining flow lies
-/// on a known segment, from 0 to where that nearest surface would be. Without a camera motion the segment is
-/// the point 0.
+/// on a known segment, from 0 to where that nearest surface would be. Without an IMU a second plane shows the
+/// same: surfaces between the two move by less than it, beyond it by somewhat more. With neither the segment
+/// is the point 0.
 class ParallaxSegment {
  public:
   ParallaxSegment(const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K,
+                  const SegmentationParameters& parameters);
+  /// Both homographies from the earlier frame to the current one. Their difference tells the direction less
+  /// well than an IMU does.
+  ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
                   const SegmentationParameters& parameters);
 
   struct Verdict {
@@ -29,8 +35,16 @@ class ParallaxSegment {
   Verdict judge(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
 
  private:
-  cv::Vec3f epipole_{0, 0, 0};  ///< K t over the nearest depth
-  float direction_variance_;    ///< rad^2
+  cv::Vec2f end(const cv::Vec2f& ground) const;
+
+  cv::Vec3f epipole_{0, 0, 0};           ///< K t over the nearest depth
+  std::optional<cv::Matx33f> to_front_;  ///< the ground's place of a pixel to the front plane's
+  float direction_variance_;             ///< rad^2
 };
+
+/// Whether what follows the second plane (and not the ground) runs out of the picture, as static structures
+/// do: an island in the ground is more likely something that moves. Homographies previous to current.
+bool runsOutOfPicture(const PointTracks& tracks, const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
+                      cv::Size picture);
 
 }  // namespace redbee

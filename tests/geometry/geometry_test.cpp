@@ -96,6 +96,14 @@ TEST(Homography, MapsPointsOfThePlaneAsTheRigidMotionDoes) {
   }
 }
 
+TEST(Homography, TellsTheTranslationOnceRotationAndPlaneAreKnown) {
+  const PlaneMotion truth = someMotion();
+  PlaneMotion wrong = truth;
+  wrong.t_ba.setZero();
+  const Eigen::Matrix3d H = 3.7 * planeHomography(cameraMatrix(), truth);
+  EXPECT_LT((translationFromHomography(cameraMatrix(), H, wrong) - truth.t_ba).norm(), 1e-12);
+}
+
 TEST(Homography, EveryJacobianMatchesDifferences) {
   const ImageScaling scaling(kWidth, kHeight);
   const Eigen::Matrix3d A = scaling.scale(planeHomography(cameraMatrix(), someMotion()));

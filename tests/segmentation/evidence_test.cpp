@@ -123,6 +123,51 @@ TEST_F(Parallax, MotionAcrossTheLineOrBelowTheGroundIsNot) {
   EXPECT_GT(judge({150, 300}, ground - 3 * along).sigmasSquared(), 20);
 }
 
+TEST_F(Parallax, ASecondPlaneShowsWhereStaticSurfacesGo) {
+  const Eigen::Matrix3d ground = planeHomography(K_, motion_);
+  PlaneMotion facade = motion_;
+  facade.m_a = Eigen::Vector3d(0, 0, 1);
+  facade.h_a = 5;
+  const ParallaxSegment segment(ground, planeHomography(K_, facade), {});
+  const Eigen::Vector2d before(320, 100);
+  const Eigen::Vector2d on_ground = transfer(ground, before);
+  const auto sigmas = [&](double depth, const Eigen::Vector2d& moved) {
+    const Eigen::Vector3d X = depth * (K_.inverse() * before.homogeneous());
+    const Eigen::Vector2d flow = project(motion_.R_ba * X + motion_.t_ba) + moved - on_ground;
+    return segment
+        .judge({static_cast<float>(on_ground.x()), static_cast<float>(on_ground.y())},
+               {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance)
+        .sigmasSquared();
+  };
+  const Eigen::Vector2d parallax = transfer(planeHomography(K_, facade), before) - on_ground;
+  const Eigen::Vector2d across = Eigen::Vector2d(-parallax.y(), parallax.x()).normalized();
+  EXPECT_LT(sigmas(5, {0, 0}), 0.01) << "on the facade";
+  EXPECT_LT(sigmas(6, {0, 0}), 0.1) << "behind it";
+  EXPECT_GT(sigmas(5, 4 * across), 10) << "moves";
+}
+
+/// Points of a 16-px grid, those in `front` displaced by 5 px, the others still.
+PointTracks tracksWithFront(const cv::Rect& front) {
+  PointTracks tracks;
+  for (int y = 8; y < 480; y += 16) {
+    for (int x = 8; x < 640; x += 16) {
+      const auto before = cv::Point2f(static_cast<float>(x), static_cast<float>(y));
+      tracks.previous.push_back(before);
+      tracks.current.push_back(before + (front.contains({x, y}) ? cv::Point2f(5, 0) : cv::Point2f(0, 0)));
+    }
+  }
+  return tracks;
+}
+
+TEST(RunsOutOfPicture, StructuresDoAndIslandsDoNot) {
+  Eigen::Matrix3d shift = kStill;
+  shift(0, 2) = 5;
+  const cv::Size picture(640, 480);
+  EXPECT_TRUE(runsOutOfPicture(tracksWithFront({0, 300, 640, 180}), kStill, shift, picture));
+  EXPECT_FALSE(runsOutOfPicture(tracksWithFront({200, 150, 200, 150}), kStill, shift, picture));
+  EXPECT_FALSE(runsOutOfPicture(tracksWithFront({}), kStill, shift, picture)) << "nothing follows it";
+}
+
 TEST(GuidedFilter, KeepsToTheEdgesOfThePicture) {
   cv::Mat picture(40, 40, CV_8U, cv::Scalar(60));
   picture.colRange(20, 40).setTo(180);
