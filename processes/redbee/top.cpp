@@ -68,7 +68,7 @@ class Screen {
     int y = 3;
     for (const BoardLine& line : board.table(now, std::max(COLS, kMinColumns))) print(y++, line);
     if (board.processes() == 0) print(y, {"nothing heard yet; redbee doctor looks for the cause"});
-    print(LINES - 1, {"q: quit   P99ms: from a frame's arrival to the answer; DMGD: could not be decoded"});
+    print(LINES - 1, {"q: quit   MED, P99ms: from frame to answer   DMGD: messages not decoded"});
     refresh();
   }
 
