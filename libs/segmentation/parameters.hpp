@@ -35,7 +35,7 @@ struct SegmentationParameters {
   double evidence_rate = 0.2;    ///< learning rate of the motion that travels along the flow; 1: none travels
   bool use_appearance = true;    ///< false: motion alone, without the background's looks
   int background_downscale =
-      1;  ///< 1, 2 or 4: the background's looks are kept on a picture this much smaller
+      2;  ///< 1, 2 or 4: the background's looks are kept on a picture this much smaller
   double background_span_s = 0.5;  ///< s: over which they are averaged
   double background_noise = 20.0;  ///< grey levels: differences of this size are noise
   int silhouette_window_px = 3;    ///< px of that picture, odd: over which differences are averaged

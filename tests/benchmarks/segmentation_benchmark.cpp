@@ -38,6 +38,12 @@ void wholeStep(benchmark::State& state, const SegmentationParameters& parameters
 void defaultFullSize(benchmark::State& state) {
   SegmentationParameters parameters;
   parameters.work_downscale = 1;
+  parameters.background_downscale = 1;
+  wholeStep(state, parameters);
+}
+void sharpBackground(benchmark::State& state) {
+  SegmentationParameters parameters;
+  parameters.background_downscale = 1;
   wholeStep(state, parameters);
 }
 void defaultPreset(benchmark::State& state) { wholeStep(state, {}); }
@@ -48,6 +54,7 @@ void defaultQuarterSize(benchmark::State& state) {
 }
 void paperPreset(benchmark::State& state) { wholeStep(state, paperSegmentation()); }
 BENCHMARK(defaultPreset)->Unit(benchmark::kMillisecond);
+BENCHMARK(sharpBackground)->Unit(benchmark::kMillisecond);
 BENCHMARK(defaultFullSize)->Unit(benchmark::kMillisecond);
 BENCHMARK(defaultQuarterSize)->Unit(benchmark::kMillisecond);
 BENCHMARK(paperPreset)->Unit(benchmark::kMillisecond);
