@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "inertial/imu_buffer.hpp"
 #include "visual/point_tracker.hpp"
 
 namespace redbee {
@@ -62,6 +63,12 @@ PointTracks tracksOf(const Message& message) {
     tracks.current.emplace_back(message.x[i], message.y[i]);
   }
   return tracks;
+}
+
+/// True where the message speaks of two frames at times that a clock can show.
+template <typename Message>
+bool plausibleTimes(const Message& message) {
+  return isPlausibleTime(message.utime) && isPlausibleTime(message.utime_previous);
 }
 
 /// True where every number that a homography message promises is finite.
