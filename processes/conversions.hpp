@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "inertial/imu_buffer.hpp"
 #include "visual/point_tracker.hpp"
 
 namespace redbee {
@@ -52,16 +54,32 @@ void fillTracks(Message& message, const PointTracks& tracks) {
   }
 }
 
+/// px: no picture is larger; what lies beyond is damage, and would not fit an int.
+constexpr float kMaxCoordinate = 1e5F;
+
+/// The points that lie where points can; damaged ones (not a number, far beyond any picture) are left out.
 template <typename Message>
 PointTracks tracksOf(const Message& message) {
   PointTracks tracks;
+  const auto plausible = [](float x, float y) {
+    return std::abs(x) < kMaxCoordinate && std::abs(y) < kMaxCoordinate;  // false for what is not a number
+  };
   tracks.previous.reserve(message.x.size());
   tracks.current.reserve(message.x.size());
   for (size_t i = 0; i < message.x.size(); ++i) {
+    if (!plausible(message.x_previous[i], message.y_previous[i]) || !plausible(message.x[i], message.y[i])) {
+      continue;
+    }
     tracks.previous.emplace_back(message.x_previous[i], message.y_previous[i]);
     tracks.current.emplace_back(message.x[i], message.y[i]);
   }
   return tracks;
+}
+
+/// True where the message speaks of two frames at times that a clock can show.
+template <typename Message>
+bool plausibleTimes(const Message& message) {
+  return isPlausibleTime(message.utime) && isPlausibleTime(message.utime_previous);
 }
 
 /// True where every number that a homography message promises is finite.

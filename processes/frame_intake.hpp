@@ -1,6 +1,7 @@
 // What every node does with the time of a frame that arrives.
 #pragma once
 
+#include "inertial/imu_buffer.hpp"
 #include "messaging/frame_order.hpp"
 #include "messaging/health.hpp"
 
@@ -9,6 +10,10 @@ namespace redbee {
 /// True for a frame to work on. `restart` is called first where the camera's clock was set back.
 template <typename Restart>
 bool acceptFrame(FrameOrder& order, HealthMonitor& health, int64_t utime, const Restart& restart) {
+  if (!isPlausibleTime(utime)) {
+    health.noteDamaged();
+    return false;
+  }
   health.noteInput(utime);
   const auto verdict = order.judge(utime);
   if (verdict == FrameOrder::Verdict::kDiscard) {

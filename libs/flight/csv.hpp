@@ -46,7 +46,8 @@ class IncreasingTimes {
 /// ns to us, to the nearest: stamps of 24 and 20 Hz are no whole microseconds, and cutting them off would
 /// move every frame by half a microsecond on average against IMU stamps that are whole.
 constexpr int64_t microseconds(int64_t nanoseconds) {
-  return (nanoseconds >= 0 ? nanoseconds + 500 : nanoseconds - 500) / 1000;
+  const int64_t rest = nanoseconds % 1000;  // rounding before the division could overflow
+  return nanoseconds / 1000 + (rest >= 500 ? 1 : 0) - (rest <= -500 ? 1 : 0);
 }
 
 }  // namespace redbee

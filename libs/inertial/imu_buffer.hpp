@@ -39,6 +39,7 @@ class ImuBuffer {
   std::size_t size() const { return samples_.size(); }
   /// Precondition of all below: not empty.
   int64_t newest() const { return samples_.back().utime; }
+  int64_t oldest() const { return samples_.front().utime; }
   ImuSpan span(int64_t begin, int64_t end) const;
   /// Samples on [begin, end].
   std::vector<ImuSample> samplesOn(int64_t begin, int64_t end) const;

@@ -10,6 +10,7 @@
 #include "inertial/error_state.hpp"
 #include "inertial/homography_measurement.hpp"
 #include "inertial/imu_buffer.hpp"
+#include "inertial/imu_sample_check.hpp"
 #include "inertial/initial_state.hpp"
 
 namespace redbee {
@@ -41,6 +42,8 @@ const char* toString(InertialStatus status) {
       return "no IMU";
     case InertialStatus::kClockJump:
       return "clock jump";
+    case InertialStatus::kBadSamples:
+      return "implausible IMU samples refused";
   }
   return "unknown";
 }
@@ -52,13 +55,14 @@ class InertialFilter::Implementation {
         propagation_{parameters.noise, parameters.gravity, parameters.max_imu_gap_s},
         camera_(camera),
         K_scaled_(ImageScaling(camera.intrinsics().width, camera.intrinsics().height).T * camera.K()),
+        check_(parameters.imu_limits),
         imu_(parameters.max_frame_gap_s),
         altitude_(parameters),
         vision_(parameters) {}
 
   bool addImu(const ImuSample& sample) {
     if (!isPlausibleTime(sample.utime) || !sample.gyro.allFinite() || !sample.accel.allFinite()) return false;
-    imu_.add(sample);
+    for (const ImuSample& believed : check_.take(sample)) imu_.add(believed);
     return true;
   }
 
@@ -160,9 +164,8 @@ class InertialFilter::Implementation {
 
   /// No sample in the interval: the state is carried over on the last one for a while, and given up after.
   InertialHomography coast(int64_t frame) {
-    const InertialHomography result = nothing(frame, InertialStatus::kNoImu);
-    const double outage = imu_.empty() ? kMaxOutage + 1 : seconds(imuTime(frame) - imu_.newest());
-    if (outage > kMaxOutage) {
+    const InertialHomography result = nothing(frame, statusOf(frame, InertialStatus::kNoImu));
+    if (outageAt(imuTime(frame)) > kMaxOutage) {
       forgetFrames();
       state_.reset();
       return result;
@@ -171,10 +174,17 @@ class InertialFilter::Implementation {
     return isSound(*state_) ? result : startAfresh(frame);
   }
 
+  /// s, to the nearest sample, which lies ahead where the IMU's clock has jumped.
+  double outageAt(int64_t time) const {
+    if (imu_.empty()) return kMaxOutage + 1;
+    return seconds(std::max(time - imu_.newest(), imu_.oldest() - time));
+  }
+
   InertialHomography move(int64_t frame, const ImuSpan& span) {
     const bool gap =
         span.longest_hole_s > parameters_.max_imu_gap_s || span.extrapolated_s > kCoverageTolerance;
-    InertialHomography result = nothing(frame, gap ? InertialStatus::kImuGap : InertialStatus::kGood);
+    InertialHomography result =
+        nothing(frame, statusOf(frame, gap ? InertialStatus::kImuGap : InertialStatus::kGood));
     correctByGravity(*state_, span, parameters_, vision_.secondsSinceApplied(*frame_));
     integrate(frame);
     if (!isSound(*state_)) return startAfresh(frame);
@@ -183,6 +193,12 @@ class InertialFilter::Implementation {
     result.valid = true;
     sensors_ = state_;
     return result;
+  }
+
+  /// Refused samples explain what is missing.
+  InertialStatus statusOf(int64_t frame, InertialStatus otherwise) const {
+    const bool refused = check_.refusedOn(imuTime(*frame_), imuTime(frame)) > 0;
+    return refused ? InertialStatus::kBadSamples : otherwise;
   }
 
   InertialHomography startAfresh(int64_t frame) {
@@ -204,6 +220,7 @@ class InertialFilter::Implementation {
     integrateTo(time, end);
     keepAboveGround();
     imu_.forgetBefore(end - microseconds(kMemory));
+    check_.forgetBefore(end - microseconds(kMemory));
     previous_frame_ = frame_;
     frame_ = frame;
     corrected_ = false;
@@ -244,6 +261,7 @@ class InertialFilter::Implementation {
   PropagationParameters propagation_;
   Camera camera_;
   Eigen::Matrix3d K_scaled_;
+  ImuSampleCheck check_;
   ImuBuffer imu_;
   AltitudeCorrection altitude_;
   VisionCorrection vision_;

@@ -18,12 +18,14 @@
 #include "geometry/camera.hpp"
 #include "geometry/homography.hpp"
 #include "inertial/imu.hpp"
+#include "inertial/imu_sample_check.hpp"
 
 namespace redbee {
 
 struct InertialParameters {
   InertialExtrinsics extrinsics;
   ImuNoise noise;
+  ImuSampleLimits imu_limits;
   double gravity = 9.81;                                ///< m/s^2
   double start_velocity_sigma = 3.0;                    ///< m/s: how fast the drone may be at the first frame
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();  ///< rad/s: what is known of it beforehand
@@ -50,6 +52,8 @@ enum class InertialStatus {
   kImuGap,        ///< samples are missing inside the interval: bridged, with the covariance grown to say so
   kNoImu,         ///< no samples at all in the interval: there is no homography
   kClockJump,     ///< time ran backwards or jumped: started anew, no homography
+  kBadSamples,    ///< samples in the interval were refused (ImuSampleCheck); a homography, if valid, does
+                  ///< without
 };
 const char* toString(InertialStatus status);
 
@@ -103,7 +107,7 @@ class InertialFilter {
   InertialFilter& operator=(InertialFilter&&) noexcept;
 
   /// Samples may come late (sorted in by their own time) or twice (ignored). Non-finite ones are refused:
-  /// false.
+  /// false. Implausible ones (ImuSampleCheck) are left out, and the status of their frame says so.
   bool addImu(const ImuSample& sample);
   bool addAltitude(const AltitudeSample& sample);
 

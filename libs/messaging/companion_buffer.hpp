@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <utility>
+
+#include "messaging/frame_order.hpp"
 
 namespace redbee {
 
@@ -21,8 +24,13 @@ class CompanionBuffer {
   CompanionBuffer(int64_t patience_us, bool expected, size_t capacity = 64)
       : patience_us_(patience_us), expected_(expected), alive_(expected), capacity_(capacity) {}
 
+  /// Messages that are later by more than kSetBack are forgotten: either time was set back, or they were
+  /// damaged, and would make every companion look overtaken from then on.
   void put(int64_t utime, Message message) {
     alive_ = expected_;
+    const int64_t horizon = std::numeric_limits<int64_t>::max() - FrameOrder::kSetBack;
+    if (utime < horizon)
+      messages_.erase(messages_.upper_bound(utime + FrameOrder::kSetBack), messages_.end());
     messages_[utime] = std::move(message);
     if (messages_.size() > capacity_) messages_.erase(messages_.begin());
   }

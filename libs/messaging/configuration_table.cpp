@@ -83,6 +83,8 @@ Settings vehicleSettings() {
       setting("imu.accel_noise_density", MEMBER(inertial.noise.accel_noise_density), positive),
       setting("imu.gyro_random_walk", MEMBER(inertial.noise.gyro_random_walk), notNegative),
       setting("imu.accel_random_walk", MEMBER(inertial.noise.accel_random_walk), notNegative),
+      setting("imu.gyro_range", MEMBER(inertial.imu_limits.gyro_range), positive),
+      setting("imu.accel_range", MEMBER(inertial.imu_limits.accel_range), positive),
       setting("imu.gyro_bias", MEMBER(inertial.gyro_bias), anything),
       setting("imu.accel_bias", MEMBER(inertial.accel_bias), anything),
       setting("imu.gyro_bias_sigma", MEMBER(inertial.gyro_bias_sigma), positive),

@@ -31,14 +31,13 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
       channels.visual_homography, kQueue, [this](const visual_homography_t& m) { takeVisual(m); }, damaged);
   if (configuration_.has_imu) {
     bus_.subscribe<ins_t>(
-        channels.imu, kImuQueue, [this](const ins_t& m) { newest_utime_ = std::max(newest_utime_, m.utime); },
-        damaged);
+        channels.imu, kImuQueue, [this](const ins_t& m) { clock_.noteOther(m.utime); }, damaged);
   }
 }
 
 void HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
   health_.noteSequence(configuration_.channels.inertial_homography, message.sequence);
-  if (!finiteHomography(message) && message.valid != 0) {
+  if (!plausibleTimes(message) || (!finiteHomography(message) && message.valid != 0)) {
     health_.noteDamaged();
     return;
   }
@@ -48,7 +47,7 @@ void HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
 
 void HomographyFusionNode::takeVisual(const visual_homography_t& message) {
   health_.noteSequence(configuration_.channels.visual_homography, message.sequence);
-  if (!finiteHomography(message) && message.status == kVisualGood) {
+  if (!plausibleTimes(message) || (!finiteHomography(message) && message.status == kVisualGood)) {
     health_.noteDamaged();
     return;
   }
@@ -57,12 +56,12 @@ void HomographyFusionNode::takeVisual(const visual_homography_t& message) {
 }
 
 void HomographyFusionNode::expect(int64_t utime) {
-  newest_utime_ = std::max(newest_utime_, utime);
   if (pending_.count(utime) > 0) return;
   const bool is_companion_of_last = order_.last() == utime;
   if (is_companion_of_last) return;  // came after its frame was given up
   const int64_t newest_frame = pending_.empty() ? order_.last().value_or(utime) : pending_.rbegin()->first;
   if (newest_frame - utime > FrameOrder::kSetBack) restart();
+  clock_.noteFrame(utime);
   health_.noteInput(utime);
   pending_.emplace(utime, WorkTimer());
   if (pending_.size() > kMaxPending) {
@@ -75,14 +74,14 @@ void HomographyFusionNode::restart() {
   pending_.clear();
   inertial_.clear();
   visual_.clear();
-  newest_utime_ = 0;
+  clock_.restart();
 }
 
 bool HomographyFusionNode::ready(int64_t utime) {
   if (finishing_) return true;
   const int64_t before = inertial_.givenUp() + visual_.givenUp();
-  const auto inertial = inertial_.ask(utime, newest_utime_);
-  const auto visual = visual_.ask(utime, newest_utime_);
+  const auto inertial = inertial_.ask(utime, clock_.now());
+  const auto visual = visual_.ask(utime, clock_.now());
   health_.noteLate(inertial_.givenUp() + visual_.givenUp() - before);
   return inertial != CompanionBuffer<inertial_homography_t>::Answer::kWait &&
          visual != CompanionBuffer<visual_homography_t>::Answer::kWait;

@@ -10,6 +10,7 @@
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/frame_order.hpp"
+#include "messaging/message_clock.hpp"
 #include "messaging/node.hpp"
 #include "processes/work_timer.hpp"
 #include "redbee/fused_homography_t.hpp"
@@ -45,7 +46,7 @@ class HomographyFusionNode : public Node {
   std::map<int64_t, WorkTimer> pending_;  ///< frames by time, each with its first word's arrival
   CompanionBuffer<inertial_homography_t> inertial_;
   CompanionBuffer<visual_homography_t> visual_;
-  int64_t newest_utime_ = 0;
+  MessageClock clock_;
   bool finishing_ = false;
   int32_t sequence_ = 0;
 };

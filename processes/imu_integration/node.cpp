@@ -36,7 +36,7 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
 
 void ImuIntegrationNode::takeFrame(const image_t& message) {
   if (!acceptFrame(order_, health_, message.utime, [this] { restart(); })) return;
-  noteTime(message.utime);
+  clock_.noteFrame(message.utime);
   pending_.push_back({message.utime, {}});
   if (pending_.size() > kMaxPendingFrames) {
     pending_.pop_front();
@@ -45,12 +45,12 @@ void ImuIntegrationNode::takeFrame(const image_t& message) {
 }
 
 void ImuIntegrationNode::takeImu(const ins_t& message) {
+  clock_.noteOther(message.utime);
   if (!filter_.addImu({message.utime, vector3(message.gyro), vector3(message.accel)})) {
     health_.noteDamaged();
     return;
   }
   imu_alive_ = true;
-  noteTime(message.utime);
 }
 
 void ImuIntegrationNode::takeAltitude(const altimeter_t& message) {
@@ -59,6 +59,10 @@ void ImuIntegrationNode::takeAltitude(const altimeter_t& message) {
 
 void ImuIntegrationNode::takeFused(const fused_homography_t& message) {
   health_.noteSequence(configuration_.channels.fused_homography, message.sequence);
+  if (!plausibleTimes(message)) {
+    health_.noteDamaged();
+    return;
+  }
   feedback_.put(message.utime, message);
 }
 
@@ -66,7 +70,7 @@ void ImuIntegrationNode::restart() {
   pending_.clear();
   feedback_.clear();
   filter_ = InertialFilter(camera_, configuration_.inertial);
-  newest_utime_ = 0;
+  clock_.restart();
   last_frame_utime_.reset();
 }
 
@@ -74,12 +78,12 @@ bool ImuIntegrationNode::readyFor(int64_t frame_utime) {
   if (finishing_) return true;
   const int64_t patience = microseconds(configuration_.waits.inertial_s);
   if (imu_alive_ && !filter_.covers(frame_utime)) {
-    if (newest_utime_ - frame_utime <= patience) return false;
+    if (clock_.now() - frame_utime <= patience) return false;
     imu_alive_ = false;
   }
   if (!last_frame_utime_) return true;
   const int64_t before = feedback_.givenUp();
-  const auto answer = feedback_.ask(*last_frame_utime_, newest_utime_);
+  const auto answer = feedback_.ask(*last_frame_utime_, clock_.now());
   health_.noteLate(feedback_.givenUp() - before);
   return answer != CompanionBuffer<fused_homography_t>::Answer::kWait;
 }

@@ -10,6 +10,7 @@
 #include "messaging/companion_buffer.hpp"
 #include "messaging/configuration.hpp"
 #include "messaging/frame_order.hpp"
+#include "messaging/message_clock.hpp"
 #include "messaging/node.hpp"
 #include "processes/work_timer.hpp"
 #include "redbee/altimeter_t.hpp"
@@ -43,7 +44,6 @@ class ImuIntegrationNode : public Node {
   void applyFeedback();
   void integrate(const Frame& frame);
   void restart();
-  void noteTime(int64_t utime) { newest_utime_ = std::max(newest_utime_, utime); }
 
   Bus& bus_;
   Configuration configuration_;
@@ -53,7 +53,7 @@ class ImuIntegrationNode : public Node {
   FrameOrder order_;
   std::deque<Frame> pending_;
   CompanionBuffer<fused_homography_t> feedback_;
-  int64_t newest_utime_ = 0;
+  MessageClock clock_;
   std::optional<int64_t> last_frame_utime_;
   std::optional<Eigen::Matrix3d> last_H_;  ///< what was said of the last frame
   CalibrationMonitor calibration_;

@@ -36,7 +36,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
 
 void VisualHomographyNode::takeInertial(const inertial_homography_t& message) {
   health_.noteSequence(configuration_.channels.inertial_homography, message.sequence);
-  if (!finiteHomography(message)) {
+  if (!plausibleTimes(message) || !finiteHomography(message)) {
     health_.noteDamaged();
     return;
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 
 namespace redbee {
@@ -35,6 +36,15 @@ TEST(CompanionBuffer, ADeadPublisherCostsOneWait) {
   EXPECT_EQ(buffer.givenUp(), 1);
   buffer.put(300, "back");
   EXPECT_EQ(buffer.ask(400, 400), Answer::kWait) << "it spoke again";
+}
+
+TEST(CompanionBuffer, AMessageFromFarAheadDoesNotOvertakeForEver) {
+  for (const int64_t stray : {int64_t{3'600'000'000}, std::numeric_limits<int64_t>::max()}) {
+    Buffer buffer(kPatience, true);
+    buffer.put(stray, "damaged");
+    buffer.put(100, "the next");
+    EXPECT_EQ(buffer.ask(200, 200), Answer::kWait);
+  }
 }
 
 TEST(CompanionBuffer, WhoIsNotExpectedIsNeverWaitedFor) {

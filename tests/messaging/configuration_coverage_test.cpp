@@ -32,11 +32,11 @@ TEST(ConfigurationCoverage, everyParameterBesideANestedStructHasAKey) {
   const size_t nested_visual = 2;  // tracker, ransac
   EXPECT_EQ(keysIn("visual"), fieldCount<VisualParameters>() - nested_visual);
   // The biases stand with the IMU's noise; the extrinsics with camera and plane.
-  const size_t nested_inertial = 2;  // extrinsics, noise
+  const size_t nested_inertial = 3;  // extrinsics, noise, limits
   const size_t biases = 4;
   EXPECT_EQ(keysIn("inertial") + biases, fieldCount<InertialParameters>() - nested_inertial);
   const size_t presence = 1;
-  EXPECT_EQ(keysIn("imu"), presence + biases + fieldCount<ImuNoise>());
+  EXPECT_EQ(keysIn("imu"), presence + biases + fieldCount<ImuNoise>() + fieldCount<ImuSampleLimits>());
 }
 
 }  // namespace

@@ -85,26 +85,31 @@ struct Said {
   std::map<std::string, process_health_t> health;
 };
 
-/// Runs the arrivals through a fresh stack, in the order given.
-inline Said run(const Flight& flight) {
-  const auto bus = makeLcmBus("memq://");
+/// Runs the arrivals through a fresh stack on this bus, in the order given. `before` sees each on its way in.
+inline Said run(const Flight& flight, Bus& bus, const std::function<void(const Arrival&)>& before) {
   Said said;
   const auto keep = [](auto& into) { return [&into](const auto& m) { into[m.utime] = m; }; };
-  bus->subscribe<inertial_homography_t>("INERTIAL_HOMOGRAPHY", 64, keep(said.inertial), nullptr);
-  bus->subscribe<visual_homography_t>("VISUAL_HOMOGRAPHY", 64, keep(said.visual), nullptr);
-  bus->subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(said.fused), nullptr);
-  bus->subscribe<foreground_t>("FOREGROUND", 64, keep(said.foreground), nullptr);
-  bus->subscribe<detections_t>("DETECTIONS", 64, keep(said.detections), nullptr);
-  bus->subscribe<process_health_t>(
+  bus.subscribe<inertial_homography_t>("INERTIAL_HOMOGRAPHY", 64, keep(said.inertial), nullptr);
+  bus.subscribe<visual_homography_t>("VISUAL_HOMOGRAPHY", 64, keep(said.visual), nullptr);
+  bus.subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(said.fused), nullptr);
+  bus.subscribe<foreground_t>("FOREGROUND", 64, keep(said.foreground), nullptr);
+  bus.subscribe<detections_t>("DETECTIONS", 64, keep(said.detections), nullptr);
+  bus.subscribe<process_health_t>(
       "PROCESS_HEALTH", 64, [&said](const process_health_t& m) { said.health[m.process] = m; }, nullptr);
-  InProcessStack stack(*bus, flight.configuration);
+  InProcessStack stack(bus, flight.configuration);
   for (const Arrival& arrival : flight.arrivals) {
-    bus->publish(arrival.channel, arrival.data);
+    if (before) before(arrival);
+    bus.publish(arrival.channel, arrival.data);
     stack.settle();
   }
   stack.finish();
   stack.publishHealth();
   return said;
+}
+
+inline Said run(const Flight& flight) {
+  const auto bus = makeLcmBus("memq://");
+  return run(flight, *bus, nullptr);
 }
 
 inline double groundError(const fused_homography_t& fused, const Eigen::Matrix3d& truth) {

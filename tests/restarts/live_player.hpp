@@ -1,4 +1,4 @@
-// Publishes the endless flight at its own speed, as a vehicle's drivers would.
+// Publishes the endless flight at its own speed, or so many times faster, as a vehicle's drivers would.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,8 @@ class LivePlayer {
  public:
   using Clock = std::chrono::steady_clock;
 
-  LivePlayer(Bus& bus, const LoopedFlight& flight, double longest_s) : bus_(bus), flight_(flight) {
+  LivePlayer(Bus& bus, const LoopedFlight& flight, double longest_s, double speed = 1)
+      : bus_(bus), flight_(flight), speed_(speed) {
     const simulation::Scenario& s = flight.scenario();
     imu_ = simulation::simulateImu(s.trajectory, 0, longest_s, s.start_utime, s.imu);
     altitudes_ = simulation::simulateAltimeter(s.trajectory, s.extrinsics, 0, longest_s, s.start_utime,
@@ -25,9 +26,8 @@ class LivePlayer {
 
   /// Everything that is due by now.
   void publishDue() {
-    const int64_t until =
-        flight_.scenario().start_utime +
-        std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start_).count();
+    const std::chrono::duration<double, std::micro> elapsed = Clock::now() - start_;
+    const int64_t until = flight_.scenario().start_utime + static_cast<int64_t>(elapsed.count() * speed_);
     for (; imu_at_ < imu_.size() && imu_[imu_at_].utime <= until; ++imu_at_) publish(imu_[imu_at_]);
     for (; altitude_at_ < altitudes_.size() && altitudes_[altitude_at_].utime <= until; ++altitude_at_) {
       const AltitudeSample& sample = altitudes_[altitude_at_];
@@ -39,6 +39,7 @@ class LivePlayer {
   }
 
   int64_t newestUtime() const { return flight_.utime(frame_ - 1); }
+  int64_t frames() const { return frame_; }
   bool isOver() const { return imu_at_ >= imu_.size(); }
 
  private:
@@ -54,6 +55,7 @@ class LivePlayer {
 
   Bus& bus_;
   const LoopedFlight& flight_;
+  double speed_;
   std::vector<ImuSample> imu_;
   std::vector<AltitudeSample> altitudes_;
   size_t imu_at_ = 0;

@@ -1,0 +1,128 @@
+#include "inertial/imu_sample_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace redbee {
+namespace {
+
+constexpr double kFarInUsual = 10;      // a spike differs by so many usual differences
+constexpr double kMemorySamples = 100;  // of the usual difference
+constexpr double kMostInLimits = 4;     // one difference counts for no more: a spike must not hide the next
+constexpr double kNeighbour_s = 0.05;   // samples further apart say nothing about each other
+constexpr double kLate_s = 1.0;         // a sample that is older than that by more: time was set back
+constexpr double kFullRange = 0.999;
+constexpr std::size_t kMaxRefused = 8192;
+
+double seconds(int64_t us) { return static_cast<double>(us) * 1e-6; }
+
+}  // namespace
+
+double ImuSampleCheck::Channel::limit() const { return std::max(floor, kFarInUsual * usual); }
+
+void ImuSampleCheck::Channel::note(double difference) {
+  usual += (std::min(difference, kMostInLimits * limit()) - usual) / kMemorySamples;
+}
+
+bool ImuSampleCheck::Channel::isStuck(bool same, int64_t utime) {
+  if (!same) {
+    same_since = utime;
+    same_count = 0;
+    return false;
+  }
+  return ++same_count >= kStuckSamples && seconds(utime - same_since) > kStuckFor_s;
+}
+
+bool ImuSampleCheck::isSaturated(const ImuSample& sample) const {
+  return sample.gyro.cwiseAbs().maxCoeff() >= kFullRange * limits_.gyro_range ||
+         sample.accel.cwiseAbs().maxCoeff() >= kFullRange * limits_.accel_range;
+}
+
+bool ImuSampleCheck::isStuck(const ImuSample& sample) {
+  const bool gyro = gyro_.isStuck(previous_ && previous_->gyro == sample.gyro, sample.utime);
+  const bool accel = accel_.isStuck(previous_ && previous_->accel == sample.accel, sample.utime);
+  return gyro || accel;
+}
+
+double ImuSampleCheck::distance(const ImuSample& a, const ImuSample& b) const {
+  return std::max((a.gyro - b.gyro).norm() / gyro_.limit(), (a.accel - b.accel).norm() / accel_.limit());
+}
+
+std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
+  std::vector<ImuSample> accepted;
+  const double since = previous_ ? seconds(sample.utime - previous_->utime) : kNeighbour_s + 1;
+  if (isSaturated(sample)) {
+    refuse(sample.utime);
+    return accepted;
+  }
+  if (since <= 0 && since > -kLate_s) {
+    if (!isRefused(sample.utime)) accepted.push_back(sample);
+    return accepted;
+  }
+  if (since <= 0 || since > kNeighbour_s) {
+    startAt(sample);
+    return {sample};
+  }
+  const bool stuck = isStuck(sample);
+  gyro_.note((sample.gyro - previous_->gyro).norm());
+  accel_.note((sample.accel - previous_->accel).norm());
+  previous_ = sample;
+  if (stuck) {
+    refuse(sample.utime);
+    return accepted;
+  }
+  if (held_) {
+    const bool goes_on = distance(*held_, sample) <= distance(*believed_, sample);
+    if (goes_on) {
+      accepted.push_back(*held_);
+      believed_ = held_;
+    } else {
+      refuse(held_->utime);
+    }
+    held_.reset();
+  }
+  acceptOrHold(sample, accepted);
+  return accepted;
+}
+
+/// After a hole, or time set back: there is nothing to compare it with.
+void ImuSampleCheck::startAt(const ImuSample& sample) {
+  if (held_) refuse(held_->utime);
+  held_.reset();
+  previous_ = believed_ = sample;
+  for (Channel* channel : {&gyro_, &accel_}) {
+    channel->same_count = 0;
+    channel->same_since = sample.utime;
+  }
+}
+
+bool ImuSampleCheck::isRefused(int64_t utime) const {
+  return (held_ && held_->utime == utime) ||
+         std::find(refused_.begin(), refused_.end(), utime) != refused_.end();
+}
+
+void ImuSampleCheck::acceptOrHold(const ImuSample& sample, std::vector<ImuSample>& accepted) {
+  if (distance(*believed_, sample) > 1) {
+    held_ = sample;
+    return;
+  }
+  believed_ = sample;
+  accepted.push_back(sample);
+}
+
+void ImuSampleCheck::refuse(int64_t utime) {
+  refused_.push_back(utime);
+  if (refused_.size() > kMaxRefused) refused_.pop_front();
+}
+
+int ImuSampleCheck::refusedOn(int64_t begin, int64_t end) const {
+  return static_cast<int>(std::count_if(refused_.begin(), refused_.end(),
+                                        [&](int64_t utime) { return utime > begin && utime <= end; }));
+}
+
+void ImuSampleCheck::forgetBefore(int64_t utime) {
+  const auto old = [&](int64_t refused) { return refused < utime; };
+  refused_.erase(std::remove_if(refused_.begin(), refused_.end(), old), refused_.end());
+}
+
+}  // namespace redbee

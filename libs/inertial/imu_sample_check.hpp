@@ -1,0 +1,67 @@
+// Which IMU samples to believe: sensors fail without falling silent.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "inertial/imu.hpp"
+
+namespace redbee {
+
+struct ImuSampleLimits {
+  double gyro_range = 34.9;  ///< rad/s: from here on the gyro only says "more" (usual: 2000 deg/s)
+  double accel_range = 157;  ///< m/s^2, the same of the accelerometer (usual: 16 g)
+};
+
+/// Judges samples in the order they come:
+///   saturated: a component reaches its sensor's range;
+///   stuck: all three components of a sensor stay the same to the bit for kStuckFor_s, which no noise does;
+///   spike: far from the sample before, and the next one is back. A sample that is far is held back until the
+///   next one tells; a manoeuvre's beginning is followed by more of it and believed. "Far" grows with what
+///   neighbouring samples usually differ by, so that a vibrating airframe is not taken for spikes.
+class ImuSampleCheck {
+ public:
+  static constexpr double kStuckFor_s = 0.05;
+  static constexpr int kStuckSamples = 5;  ///< at least
+
+  explicit ImuSampleCheck(const ImuSampleLimits& limits) : limits_(limits) {}
+
+  /// What may be believed now, in order: nothing, this sample, or one that was held back and this one.
+  std::vector<ImuSample> take(const ImuSample& sample);
+  /// Samples on (begin, end] that were refused.
+  int refusedOn(int64_t begin, int64_t end) const;
+  void forgetBefore(int64_t utime);
+
+ private:
+  /// One sensor's three components.
+  struct Channel {
+    double floor;      ///< a difference below it is never a spike
+    double usual = 0;  ///< running mean of differences between neighbours
+    int64_t same_since = 0;
+    int same_count = 0;
+    double limit() const;
+    void note(double difference);
+    bool isStuck(bool same, int64_t utime);
+  };
+
+  bool isSaturated(const ImuSample& sample) const;
+  bool isStuck(const ImuSample& sample);
+  /// In limits: above 1 it is far.
+  double distance(const ImuSample& a, const ImuSample& b) const;
+  void acceptOrHold(const ImuSample& sample, std::vector<ImuSample>& accepted);
+  void startAt(const ImuSample& sample);
+  bool isRefused(int64_t utime) const;
+  void refuse(int64_t utime);
+
+  ImuSampleLimits limits_;
+  Channel gyro_{0.5};                  // rad/s
+  Channel accel_{5.0};                 // m/s^2
+  std::optional<ImuSample> previous_;  ///< the last to come, whatever became of it
+  std::optional<ImuSample> believed_;
+  std::optional<ImuSample> held_;
+  std::deque<int64_t> refused_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,60 @@
+// Every message type: bytes that decode encode to the same bytes, and pictures decode or do not.
+// Input: one byte that picks the type, then what follows the type's hash.
+#include "fuzz_input.hpp"
+#include "messaging/codec.hpp"
+#include "messaging/picture.hpp"
+#include "redbee/altimeter_t.hpp"
+#include "redbee/inertial_homography_t.hpp"
+#include "redbee/ins_t.hpp"
+
+namespace redbee {
+namespace {
+
+template <typename Message>
+std::vector<uint8_t> behindHash(const uint8_t* data, size_t size) {
+  const auto hash = static_cast<uint64_t>(Message::getHash());
+  std::vector<uint8_t> bytes;
+  for (int shift = 56; shift >= 0; shift -= 8) bytes.push_back(static_cast<uint8_t>(hash >> shift));
+  bytes.insert(bytes.end(), data, data + size);
+  return bytes;
+}
+
+template <typename Message>
+bool roundTrip(const uint8_t* data, size_t size, Message& message) {
+  const std::vector<uint8_t> bytes = behindHash<Message>(data, size);
+  if (!decodeMessage(bytes.data(), static_cast<int>(bytes.size()), message)) return false;
+  if (encodeMessage(message) != bytes) __builtin_trap();
+  return true;
+}
+template <typename Message>
+void roundTrip(const uint8_t* data, size_t size) {
+  Message message;
+  roundTrip(data, size, message);
+}
+
+}  // namespace
+}  // namespace redbee
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace redbee;  // NOLINT: a target is one function
+  if (size == 0) return 0;
+  const uint8_t type = data[0] % 9;
+  ++data;
+  --size;
+  if (type == 0) {
+    image_t picture;
+    if (roundTrip(data, size, picture) && picture.width <= 256 && picture.height <= 256) {
+      decodeGrey(picture);
+      decodeColour(picture);
+    }
+  }
+  if (type == 1) roundTrip<ins_t>(data, size);
+  if (type == 2) roundTrip<altimeter_t>(data, size);
+  if (type == 3) roundTrip<inertial_homography_t>(data, size);
+  if (type == 4) roundTrip<visual_homography_t>(data, size);
+  if (type == 5) roundTrip<fused_homography_t>(data, size);
+  if (type == 6) roundTrip<foreground_t>(data, size);
+  if (type == 7) roundTrip<detections_t>(data, size);
+  if (type == 8) roundTrip<process_health_t>(data, size);
+  return 0;
+}

@@ -1,0 +1,21 @@
+// The CSV files that a user hands over: an IMU beside a video, corners and IMU of a calibration target.
+#include "flight/import_video.hpp"
+#include "flight/input_error.hpp"
+#include "fuzz_input.hpp"
+#include "processes/redbee/calibration_target_csv.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace redbee;  // NOLINT: a target is one function
+  static const fuzz::Folder folder;
+  const auto file = folder.write("table.csv", std::string(reinterpret_cast<const char*>(data), size));
+  const auto attempt = [&](const auto& read) {
+    try {
+      read(file);
+    } catch (const InputError&) {
+    }
+  };
+  attempt([](const auto& f) { return readImuCsv(f); });
+  attempt([](const auto& f) { return readTargetCorners(f); });
+  attempt([](const auto& f) { return readTargetImu(f); });
+  return 0;
+}

@@ -1,0 +1,198 @@
+// make_seeds FOLDER: writes a few small, valid inputs for every fuzz target into FOLDER/<target>/, from the
+// simulator and our own writers. scripts/fuzz --seeds calls it; its output is tests/fuzz/corpus.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "flight/log.hpp"
+#include "fuzz_input.hpp"
+#include "messaging/codec.hpp"
+#include "messaging/picture.hpp"
+#include "processes/redbee/detect.hpp"
+#include "redbee/altimeter_t.hpp"
+#include "redbee/detections_t.hpp"
+#include "redbee/foreground_t.hpp"
+#include "redbee/ins_t.hpp"
+#include "redbee/process_health_t.hpp"
+#include "small_vehicle.hpp"
+
+namespace redbee::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::vector<uint8_t>;
+
+void write(const fs::path& file, const std::string& content) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << content;
+}
+void write(const fs::path& file, const Bytes& content) {
+  write(file, std::string(content.begin(), content.end()));
+}
+
+/// A message as a recording holds it: time, channel's number in messages_fuzz, bytes.
+struct Event {
+  int64_t utime;
+  uint8_t channel;
+  std::string name;
+  Bytes data;
+};
+
+std::vector<Event> inputs() {
+  const simulation::FlightSimulator simulator(smallScenario());
+  std::vector<Event> events;
+  const int64_t end = simulator.frameUtime(simulator.scenario().frames);
+  for (const ImuSample& sample : simulator.imu()) {
+    if (sample.utime < simulator.frameUtime(0) - 20'000 || sample.utime > end) continue;
+    ins_t m{};
+    m.utime = sample.utime;
+    for (int i = 0; i < 3; ++i) {
+      m.gyro[i] = sample.gyro(i);
+      m.accel[i] = sample.accel(i);
+    }
+    events.push_back({m.utime, 1, "IMU", encodeMessage(m)});
+  }
+  for (const AltitudeSample& sample : simulator.altimeter()) {
+    if (sample.utime < simulator.frameUtime(0) || sample.utime > end) continue;
+    events.push_back({sample.utime, 2, "ALTIMETER",
+                      encodeMessage(altimeter_t{sample.utime, sample.height_m, sample.sigma_m})});
+  }
+  for (int k = 0; k < simulator.scenario().frames; ++k) {
+    const auto frame = simulator.frame(k);
+    const image_t m = k == 3 ? jpegMessage(frame.utime, frame.picture.grey, 80)
+                             : rawGreyMessage(frame.utime, frame.picture.grey);
+    events.push_back({m.utime, 0, "CAMERA", encodeMessage(m)});
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.utime < b.utime; });
+  return events;
+}
+
+/// What the stack itself says of the flight.
+std::vector<Event> outputs(const std::vector<Event>& events) {
+  const auto bus = makeLcmBus("memq://");
+  std::vector<Event> said;
+  const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY",
+                               "FOREGROUND",          "DETECTIONS",        "PROCESS_HEALTH"};
+  for (uint8_t i = 0; i < 6; ++i) {
+    bus->subscribe(names[i], 64, [&said, i, &names](const uint8_t* data, int size) {
+      said.push_back({0, static_cast<uint8_t>(3 + i), names[i], Bytes(data, data + size)});
+    });
+  }
+  InProcessStack stack(*bus, smallVehicle());
+  for (const Event& event : events) {
+    bus->publish(event.name, event.data);
+    stack.settle();
+  }
+  stack.finish();
+  stack.publishHealth();
+  return said;
+}
+
+void appendRecord(Bytes& seed, const Event& event) {
+  const size_t length = event.data.size() - kHashBytes;
+  seed.push_back(event.channel);
+  seed.push_back(static_cast<uint8_t>(length >> 8));
+  seed.push_back(static_cast<uint8_t>(length & 255));
+  seed.insert(seed.end(), event.data.begin() + kHashBytes, event.data.end());
+}
+
+void writeMessageSeeds(const fs::path& folder, const std::vector<Event>& flight,
+                       const std::vector<Event>& said) {
+  Bytes whole;
+  for (const Event& event : flight) appendRecord(whole, event);
+  write(folder / "messages" / "flight", whole);
+  Bytes strangers;
+  for (const Event& event : said) {
+    if (event.channel <= 5 && event.data.size() < 8000) appendRecord(strangers, event);
+    if (strangers.size() > 6000) break;
+  }
+  write(folder / "messages" / "homographies", strangers);
+  std::map<uint8_t, Event> one_of_each;
+  for (const auto* events : {&flight, &said}) {
+    for (const Event& event : *events) one_of_each.insert_or_assign(event.channel, event);
+  }
+  for (const auto& [channel, event] : one_of_each) {
+    Bytes seed = {channel};
+    seed.insert(seed.end(), event.data.begin() + kHashBytes, event.data.end());
+    write(folder / "codec" / event.name, seed);
+  }
+}
+
+void writeLogSeed(const fs::path& folder, const std::vector<Event>& flight) {
+  fs::create_directories(folder / "log");
+  LogWriter log(folder / "log" / "flight");
+  for (const Event& event : flight) {
+    if (log.bytes() < 3000) log.write(event.utime, event.name, event.data);
+  }
+  log.close();
+}
+
+std::string imuRows(int64_t from_ns) {
+  std::ostringstream rows;
+  for (int i = 0; i < 8; ++i) rows << from_ns + i * 5'000'000 << ",0.01,-0.02,0.03,0.1,-0.2,9.8\n";
+  return rows.str();
+}
+
+void writeTableSeeds(const fs::path& folder) {
+  const std::string asl =
+      "#timestamp [ns],filename\n1000000000,0.png\n\n%%\n#timestamp,w,w,w,a,a,a\n" + imuRows(990'000'000) +
+      "\n%%\n#timestamp [ns],height [m],sigma [m]\n995000000,5,0.1\n\n%%\n"
+      "sensor_type: camera\nT_BS:\n  cols: 4\n  rows: 4\n  data: [0,0,1,0, -1,0,0,0, 0,-1,0,0, 0,0,0,1]\n"
+      "rate_hz: 20\nresolution: [8, 8]\ncamera_model: pinhole\nintrinsics: [8, 8, 3.5, 3.5]\n"
+      "distortion_model: radial-tangential\ndistortion_coefficients: [0.1, 0.01, 0, 0]\n\n%%\n"
+      "sensor_type: imu\ngyroscope_noise_density: 1e-4\naccelerometer_noise_density: 2e-3\n";
+  write(folder / "asl" / "folder", asl);
+  write(folder / "csv" / "video_imu",
+        "t_s,gx,gy,gz,ax,ay,az\n0,0.1,0.2,0.3,0,0,9.81\n0.005,0.1,0.2,0.3,0,0,9.81\n");
+  write(folder / "csv" / "target_imu", imuRows(1));
+  write(folder / "csv" / "target_corners",
+        "1000,6,6,0.088,0.3,100.5,200.25,0,0,0,0,0\n1000,6,6,0.088,0.3,110.5,200.25,0.088,0,0,0,1\n");
+  write(folder / "configuration" / "whole", emitYaml(smallVehicle()));
+  write(folder / "configuration" / "short",
+        "preset: paper\ncamera: {width: 854, height: 480, fx: 600, fy: 600, cx: 426.5, cy: 239.5}\nimu: "
+        "{present: false}\n");
+}
+
+std::string bigEndian(uint64_t value, int bytes) {
+  std::string out;
+  for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift);
+  return out;
+}
+std::string gpmf(const std::string& key, char type, size_t size, size_t count, std::string data) {
+  data.resize((data.size() + 3) / 4 * 4);
+  return key + type + bigEndian(size, 1) + bigEndian(count, 2) + data;
+}
+std::string gpmfStream(const std::string& key, const std::string& unit) {
+  std::string samples;
+  for (int i = 0; i < 12; ++i) samples += bigEndian(static_cast<uint64_t>(100 + i), 2);
+  const std::string inside = gpmf("TSMP", 'L', 4, 1, bigEndian(4, 4)) +
+                             gpmf("SIUN", 'c', unit.size(), 1, unit) +
+                             gpmf("SCAL", 's', 2, 1, bigEndian(418, 2)) + gpmf("ORIO", 'c', 1, 3, "ZXY") +
+                             gpmf(key, 's', 6, 4, samples);
+  return gpmf("STRM", '\0', 1, inside.size(), inside);
+}
+void writeGpmfSeed(const fs::path& folder) {
+  const std::string streams = gpmfStream("GYRO", "rad/s") + gpmfStream("ACCL", "m/s\xb2");
+  const std::string payload = gpmf("DEVC", '\0', 1, streams.size(), streams);
+  write(folder / "gpmf" / "two_payloads", payload + "\n%%\n" + payload);
+}
+
+}  // namespace
+}  // namespace redbee::fuzz
+
+int main(int argc, char** argv) {
+  using namespace redbee::fuzz;  // NOLINT: a program of one page
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: make_seeds FOLDER\n");
+    return 2;
+  }
+  const fs::path folder = argv[1];
+  const auto flight = inputs();
+  writeMessageSeeds(folder, flight, outputs(flight));
+  writeLogSeed(folder, flight);
+  writeTableSeeds(folder);
+  writeGpmfSeed(folder);
+  return 0;
+}

@@ -1,0 +1,141 @@
+// A flight that is disturbed for a stretch in its middle, judged by the same flight undisturbed: how far off
+// the stack was meanwhile, and how many frames it took to say the same again.
+//
+// "The same" for a frame: homography from both sources and within kSamePx of the undisturbed one, the mask
+// trusted and, where there is something to compare, overlapping the undisturbed one by kSameIoU. Not to the
+// bit: filters remember.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+#include "tests/processes/stack_fixture.hpp"
+
+namespace redbee::test {
+
+constexpr int kFaultFrames = 110;
+constexpr int kFaultBegin = 40;  ///< the first frame that is disturbed
+constexpr int kFaultEnd = 64;    ///< the first that is not: one second
+constexpr int kFaultWidth = 320;
+constexpr int kFaultHeight = 240;
+constexpr double kSamePx = 0.15;
+constexpr double kSameIoU = 0.6;
+constexpr int kComparablePx = 60;  ///< masks smaller than this (union) say nothing by their overlap
+
+/// A car over grass beside a facade, seen by a camera of a quarter of the usual pixels: fast to simulate.
+inline Flight faultFlight() {
+  simulation::Scenario scenario = simulation::twoPlanes(3);
+  scenario.intrinsics = {kFaultWidth, kFaultHeight, 250, 250, 159.5, 119.5, {}};
+  Flight flight = fly(scenario, kFaultFrames);
+  flight.configuration.visual.tracker.grid_px = 8;
+  return flight;
+}
+inline const Flight& calmFlight() {
+  static const Flight flight = faultFlight();
+  return flight;
+}
+inline const Said& calmAnswer() {
+  static const Said said = run(calmFlight());
+  return said;
+}
+
+inline int64_t beginTime(const Flight& flight) { return flight.frame_utimes[kFaultBegin]; }
+inline int64_t endTime(const Flight& flight) { return flight.frame_utimes[kFaultEnd]; }
+inline bool isDisturbed(const Flight& flight, int64_t utime) {
+  return utime >= beginTime(flight) && utime < endTime(flight);
+}
+
+inline cv::Mat maskOf(const foreground_t& foreground) {
+  return cv::imdecode(foreground.mask, cv::IMREAD_GRAYSCALE);
+}
+
+inline bool saysTheSame(const Said& said, const Said& expected, int64_t utime) {
+  const auto fused = said.fused.find(utime);
+  const auto foreground = said.foreground.find(utime);
+  if (fused == said.fused.end() || foreground == said.foreground.end()) return false;
+  const fused_homography_t& calm = expected.fused.at(utime);
+  if (fused->second.source != calm.source || fused->second.utime_previous != calm.utime_previous)
+    return false;
+  const Eigen::Matrix3d H = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(calm.H);
+  if (groundError(fused->second, H) > kSamePx || foreground->second.status != 0) return false;
+  const cv::Mat mask = maskOf(foreground->second);
+  const cv::Mat calm_mask = maskOf(expected.foreground.at(utime));
+  const int both = cv::countNonZero(mask | calm_mask);
+  return both < kComparablePx || cv::countNonZero(mask & calm_mask) >= kSameIoU * both;
+}
+
+/// What a disturbance did.
+struct Damage {
+  int frames_to_recovery = 0;    ///< after the disturbance's last frame, until all that follow say the same
+  double worst_px = 0;           ///< homography against the truth, of disturbed frames that have one
+  int without_homography = 0;    ///< disturbed frames
+  int without_mask = 0;          ///< disturbed frames without a trusted mask
+  double worst_false_share = 0;  ///< of the picture, in masks that are called good
+};
+
+inline Damage assess(const Said& said, const Flight& flight) {
+  Damage damage;
+  for (int k = 1; k < kFaultFrames; ++k) {
+    const int64_t utime = flight.frame_utimes[static_cast<size_t>(k)];
+    const bool disturbed = k >= kFaultBegin && k < kFaultEnd;
+    const auto fused = said.fused.find(utime);
+    const auto foreground = said.foreground.find(utime);
+    const bool trusted = foreground != said.foreground.end() && foreground->second.status == 0;
+    if (trusted) {
+      const cv::Mat wrong = maskOf(foreground->second) & (flight.masks[static_cast<size_t>(k)] == 0);
+      damage.worst_false_share =
+          std::max(damage.worst_false_share,
+                   cv::countNonZero(wrong) / static_cast<double>(kFaultWidth * kFaultHeight));
+    }
+    if (k >= kFaultEnd && !saysTheSame(said, calmAnswer(), utime))
+      damage.frames_to_recovery = k - kFaultEnd + 1;
+    if (!disturbed) continue;
+    damage.without_mask += trusted ? 0 : 1;
+    const bool has_homography = fused != said.fused.end() && fused->second.source != 0;
+    damage.without_homography += has_homography ? 0 : 1;
+    const bool is_step =
+        has_homography && fused->second.utime_previous == flight.frame_utimes[static_cast<size_t>(k - 1)];
+    if (is_step) {
+      damage.worst_px =
+          std::max(damage.worst_px, groundError(fused->second, flight.homographies[static_cast<size_t>(k)]));
+    }
+  }
+  return damage;
+}
+
+/// Tells the figures, and holds the stack to them: recovered within `within_frames`, and never a wild mask
+/// that is called good.
+inline Damage expectRecovery(const std::string& fault, const Said& said, const Flight& flight,
+                             int within_frames, double most_false_share = 0.04) {
+  const Damage damage = assess(said, flight);
+  std::printf(
+      "%-34s recovered after %2d frames; of %d disturbed: %2d without homography, worst %.2f px, %2d without "
+      "mask; false at most %.2f %%\n",
+      fault.c_str(), damage.frames_to_recovery, kFaultEnd - kFaultBegin, damage.without_homography,
+      damage.worst_px, damage.without_mask, 100 * damage.worst_false_share);
+  EXPECT_LE(damage.frames_to_recovery, within_frames) << fault;
+  EXPECT_LT(damage.worst_false_share, most_false_share) << fault << ": a wrong mask was called good";
+  return damage;
+}
+
+/// The flight with every arrival of `channel` in the disturbed stretch passed through `change`.
+template <typename Message>
+Flight withChanged(Flight flight, const std::string& channel, const std::function<void(Message&)>& change) {
+  for (Arrival& arrival : flight.arrivals) {
+    if (arrival.channel != channel || !isDisturbed(flight, arrival.utime)) continue;
+    Message message;
+    if (!decodeMessage(arrival.data.data(), static_cast<int>(arrival.data.size()), message)) {
+      throw std::logic_error("the simulated flight holds a message that does not decode");
+    }
+    change(message);
+    arrival = arrivalOf(message);
+  }
+  return flight;
+}
+
+}  // namespace redbee::test
