@@ -100,7 +100,10 @@ TEST_F(Commands, ARivalTakesThePlaceOfTheSegmentation) {
     EXPECT_EQ(summary.at("skipped").get<int>() + summary.at("lost").get<int>(), 0) << method;
     EXPECT_GE(summary.at("frames_good").get<int>(), kFrames - 2) << method;
     EXPECT_TRUE(summary.at("stages").contains("rival-" + method));
-    EXPECT_EQ(measureClip(folder_ / "truth", options.out).truth_without_result, 0);
+    EvaluateOptions evaluate;
+    evaluate.truth = folder_ / "truth";
+    evaluate.results = options.out;
+    EXPECT_EQ(measureClip(evaluate).truth_without_result, 0);
   }
 }
 
