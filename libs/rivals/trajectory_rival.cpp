@@ -14,6 +14,9 @@ namespace redbee {
 namespace {
 
 constexpr float kDistanceUnitPx = 1;
+constexpr int kRvMotions = 5;
+constexpr int kLrrMotions = 3;
+constexpr int kSscMotions = 5;
 constexpr double kSameMotionPx = 1;
 constexpr double kSpreadShare = 0.5;
 constexpr double kReach = 0.75;  // of the tracks' spacing
@@ -134,9 +137,9 @@ Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& X, const std::ve
   return (off.colwise().squaredNorm().transpose() * 2.0 / static_cast<double>(X.rows())).cwiseSqrt();
 }
 
-TrajectoryRival::TrajectoryRival(TrajectoryClustering clustering,
+TrajectoryRival::TrajectoryRival(TrajectoryClustering clustering, int motions,
                                  const TrajectoryWindowParameters& parameters)
-    : clustering_(std::move(clustering)), window_(parameters) {}
+    : clustering_(std::move(clustering)), motions_(motions), window_(parameters) {}
 
 RivalOutput TrajectoryRival::judge(const RivalInput& input) {
   RivalOutput output;
@@ -145,9 +148,9 @@ RivalOutput TrajectoryRival::judge(const RivalInput& input) {
     return output;
   }
   const Eigen::MatrixXd X = window_.trajectories();
-  if (X.cols() < 4 * kMotions) return output;
-  const std::vector<int> labels = clustering_(X, kMotions);
-  const std::vector<bool> still = backgroundTracks(X, labels, kMotions);
+  if (X.cols() < 4 * motions_) return output;
+  const std::vector<int> labels = clustering_(X, motions_);
+  const std::vector<bool> still = backgroundTracks(X, labels, motions_);
   const Eigen::VectorXd distance = distanceFromAffineMotion(X, still);
   std::vector<cv::Point2f> points;
   std::vector<uint8_t> scores;
@@ -166,12 +169,12 @@ std::unique_ptr<Rival> makeRandomizedVoting() {
   const auto clustering = [](const Eigen::MatrixXd& X, int count) {
     return randomizedVotingClusters(X, count);
   };
-  return std::make_unique<TrajectoryRival>(clustering, TrajectoryWindowParameters{});
+  return std::make_unique<TrajectoryRival>(clustering, kRvMotions, TrajectoryWindowParameters{});
 }
 
 std::unique_ptr<Rival> makeLrr() {
   const auto clustering = [](const Eigen::MatrixXd& X, int count) { return lrrClusters(scaled(X), count); };
-  return std::make_unique<TrajectoryRival>(clustering, TrajectoryWindowParameters{});
+  return std::make_unique<TrajectoryRival>(clustering, kLrrMotions, TrajectoryWindowParameters{});
 }
 
 std::unique_ptr<Rival> makeSsc() {
@@ -179,7 +182,7 @@ std::unique_ptr<Rival> makeSsc() {
   // Its N x N iterations allow for fewer tracks than the others'.
   TrajectoryWindowParameters parameters;
   parameters.grid_px = 24;
-  return std::make_unique<TrajectoryRival>(clustering, parameters);
+  return std::make_unique<TrajectoryRival>(clustering, kSscMotions, parameters);
 }
 
 }  // namespace redbee

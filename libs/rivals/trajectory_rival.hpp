@@ -8,9 +8,9 @@
 // the background's affine motion (a subspace of three dimensions and a mean; Tomasi and Kanade 1992) explains
 // the trajectory, half the range at 1 px.
 //
-// The methods are told the number of motions, which nobody knows here: it is kMotions, tuned, and clusters
-// that the background's motion explains as well are joined to it (backgroundTracks()). They are batch
-// methods: none says how to run it on a stream, how to tell the background, or how to fill a mask.
+// The methods are told the number of motions, which nobody knows here: each gets a few more than one expects,
+// and clusters that the background's motion explains as well are joined to it (backgroundTracks()). They are
+// batch methods: none says how to run it on a stream, how to tell the background, or how to fill a mask.
 #pragma once
 
 #include <functional>
@@ -37,15 +37,15 @@ Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& X, const std::ve
 
 class TrajectoryRival : public Rival {
  public:
-  static constexpr int kMotions = 5;
-
-  TrajectoryRival(TrajectoryClustering clustering, const TrajectoryWindowParameters& parameters);
+  /// `motions`: what the clustering is told.
+  TrajectoryRival(TrajectoryClustering clustering, int motions, const TrajectoryWindowParameters& parameters);
 
  private:
   void reset() override { window_.reset(); }
   RivalOutput judge(const RivalInput& input) override;
 
   TrajectoryClustering clustering_;
+  int motions_;
   TrajectoryWindow window_;
 };
 

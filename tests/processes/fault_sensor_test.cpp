@@ -131,7 +131,8 @@ TEST(SensorFault, CameraFrozen) {
 
 TEST(SensorFault, ExposureJump) {
   const Flight flight = withChangedPictures([](cv::Mat& grey) { grey.convertTo(grey, CV_8U, 1.8, 20); });
-  expectRecovery("exposure 1.8 times as long", run(flight), flight, 30);
+  // The background is learned anew twice, when it grows bright and when it grows dark again: two seconds.
+  expectRecovery("exposure 1.8 times as long", run(flight), flight, 48);
 }
 
 TEST(SensorFault, BlackFrames) {

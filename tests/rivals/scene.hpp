@@ -18,7 +18,7 @@ struct SceneFrame {
 
 struct SceneOptions {
   cv::Size size{480, 360};
-  int frames = 12;
+  int frames = 16;
   cv::Point2d patch_step{3, 1.5};  ///< px a frame of the first frame's grid
   bool has_patch = true;
   bool camera_moves = true;
