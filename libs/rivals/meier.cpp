@@ -9,8 +9,8 @@
 namespace redbee {
 namespace {
 
-constexpr double kThresholdPx = 1.0;      // tuned
-constexpr double kDirectionError = 0.05;  // of the parallax, tuned
+constexpr double kThresholdPx = 1.0;      // chosen by reason, not swept
+constexpr double kDirectionError = 0.05;  // of the parallax; chosen by reason, not swept
 constexpr double kNearestShare = 0.15;    // of the height
 constexpr double kGroundSlack = 0.1;
 constexpr double kNearestBaselines = 4;

@@ -7,9 +7,10 @@
 namespace redbee {
 
 struct RandomizedVotingParameters {
-  int rounds = 300;         ///< not published in our sources; tuned
-  double decay_per_px = 2;  ///< lambda of exp(-lambda d), d the distance to the epipolar line; tuned
-  unsigned seed = 1;        ///< the same input gives the same labels
+  int rounds = 300;  ///< not published in our sources; chosen, not swept
+  double decay_per_px =
+      2;              ///< lambda of exp(-lambda d), d the distance to the epipolar line; chosen, not swept
+  unsigned seed = 1;  ///< the same input gives the same labels
 };
 
 /// Labels 0 .. count - 1 of the columns of 2F x N trajectories [px]. Each round takes two frames of the

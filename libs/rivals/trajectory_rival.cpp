@@ -19,7 +19,8 @@ constexpr int kLrrMotions = 3;
 constexpr int kSscMotions = 5;
 constexpr double kSameMotionPx = 1;
 constexpr double kSpreadShare = 0.5;
-constexpr double kReach = 0.75;  // of the tracks' spacing
+// Of the tracks' spacing: tracks are lost, and where they were must not go without a score.
+constexpr double kReach = 2;
 constexpr Eigen::Index kAffineRank = 3;
 
 /// Standard deviations of x and of y over the points of the last frame that carry this label; any for -1.

@@ -3,10 +3,10 @@
 // Tracks over a sliding window (trajectory_window.hpp) are clustered afresh in every frame by randomised
 // voting (randomized_voting.hpp), low-rank representation (lrr.hpp) or sparse subspace clustering (ssc.hpp).
 // The background is the largest cluster among those that are spread over the picture; every other track is
-// foreground. Each pixel takes the score of the nearest track within the tracks' spacing (a Voronoi fill).
-// Score: tracks of the background lie below kDecisionScore, all others above; within either side by how badly
-// the background's affine motion (a subspace of three dimensions and a mean; Tomasi and Kanade 1992) explains
-// the trajectory, half the range at 1 px.
+// foreground. Each pixel takes the score of the nearest track within twice the tracks' spacing (a Voronoi
+// fill). Score: tracks of the background lie below kDecisionScore, all others above; within either side by
+// how badly the background's affine motion (a subspace of three dimensions and a mean; Tomasi and Kanade
+// 1992) explains the trajectory, half the range at 1 px.
 //
 // The methods are told the number of motions, which nobody knows here: each gets a few more than one expects,
 // and clusters that the background's motion explains as well are joined to it (backgroundTracks()). They are

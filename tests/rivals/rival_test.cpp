@@ -175,6 +175,18 @@ TEST_P(Rivals, AChangeOfSizeStartsAnewAndIsSurvived) {
   EXPECT_EQ(last, RivalStatus::kGood);
 }
 
+/// A map that leaves half of the picture without a score caps the recall, whatever the clustering found.
+class TrajectoryRivals : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(TableOne, TrajectoryRivals, ::testing::Values("rv", "lrr", "ssc"), testName);
+
+TEST_P(TrajectoryRivals, ScoreNearlyAllOfThePicture) {
+  const RankStatistic statistic = watch(*makeRival(GetParam()), patchScene());
+  std::cout << GetParam() << ": scored " << statistic.shareAbove(true, 1) << " of the patch, "
+            << statistic.shareAbove(false, 1) << " of the rest\n";
+  EXPECT_GT(statistic.shareAbove(true, 1), 0.95);
+  EXPECT_GT(statistic.shareAbove(false, 1), 0.9);
+}
+
 TEST(RivalNames, AreDistinctAndMade) {
   const std::vector<std::string> names = rivalNames();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
