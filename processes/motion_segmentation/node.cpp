@@ -110,11 +110,13 @@ void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
 }
 
 void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
-  const WorkTimer timer;
+  FrameTimers timers;
   const image_t& message = frame.content;
   SegmentationInput input = inputFor(message);
   decodeInto(input, message);
-  publish(message, input, segmenter_.step(input));
+  const SegmentationOutput output = segmenter_.step(input);
+  timers.cpu.answered();
+  publish(message, input, output);
   if (const fused_homography_t* fused = fused_.find(message.utime)) {
     last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->H_anchor)};
   } else {
@@ -122,7 +124,7 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   }
   fused_.forgetUpTo(message.utime);
   visual_.forgetUpTo(message.utime);
-  noteDone(health_, message.utime, frame.since, timer);
+  noteDone(health_, message.utime, frame.since, timers);
 }
 
 void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
