@@ -19,6 +19,8 @@ constexpr int kMinSide = 24;
 /// pixels.
 constexpr int kShiftLevel = 3;
 constexpr int kShiftReach = 8;
+/// Of texture on the grid; where there are fewer, the grid is twice as fine.
+constexpr int kEnoughPoints = 160;
 /// What counts as found at once: so few iterations, and no further from where it began [px].
 constexpr int kQuickIterations = 5;
 constexpr double kQuickReachPx = 1.5;
@@ -54,13 +56,7 @@ class PointTracker::Implementation {
   }
 
   bool hasTexture(const Pyramid& picture, int points) const {
-    Template patch(shape_);
-    int textured = 0;
-    forEachGridPoint(picture[0], [&](int x, int y) {
-      if (textured < points)
-        textured += patch.texture(picture[0], x, y) >= parameters_.min_eigenvalue ? 1 : 0;
-    });
-    return textured >= points;
+    return hasTexture(picture, points, stepFor(picture));
   }
 
   void reset() { previous_.clear(); }
@@ -68,10 +64,25 @@ class PointTracker::Implementation {
  private:
   bool hasPrevious() const { return !previous_.empty() && previous_[0].size() == current_[0].size(); }
 
+  /// Where little of a picture can be followed, that is followed more densely.
+  int stepFor(const Pyramid& picture) const {
+    const int step = parameters_.grid_px;
+    return hasTexture(picture, kEnoughPoints, step) ? step : std::max(1, step / 2);
+  }
+
+  bool hasTexture(const Pyramid& picture, int points, int step) const {
+    Template patch(shape_);
+    int textured = 0;
+    forEachGridPoint(picture[0], step, [&](int x, int y) {
+      if (textured >= points) return;
+      textured += patch.texture(picture[0], x, y) >= parameters_.min_eigenvalue ? 1 : 0;
+    });
+    return textured >= points;
+  }
+
   /// Grid points whose patch and gradients lie wholly in the picture.
   template <typename Visitor>
-  void forEachGridPoint(const PyramidLevel& level, const Visitor& visit) const {
-    const int step = parameters_.grid_px;
+  void forEachGridPoint(const PyramidLevel& level, int step, const Visitor& visit) const {
     const int edge = shape_.half + 1;
     for (int y = step / 2; y < level.height - edge; y += step) {
       for (int x = step / 2; x < level.width - edge; x += step) {
@@ -85,7 +96,7 @@ class PointTracker::Implementation {
     const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
     Eigen::Vector2d neighbour = unknown;  // displacement of the point before
     PointTracks tracks;
-    forEachGridPoint(previous_[0], [&](int x, int y) {
+    forEachGridPoint(previous_[0], stepFor(previous_), [&](int x, int y) {
       ++tracks.sampled;
       const Eigen::Vector2d start(x, y);
       const Eigen::Vector2d expected = guess ? transfer(*guess, start) : Eigen::Vector2d(start + shift);

@@ -12,7 +12,8 @@
 namespace redbee {
 
 struct TrackerParameters {
-  int grid_px = 24;          ///< px between sample points, both ways (paper: 16)
+  int grid_px = 24;          ///< px between sample points, both ways (paper: 16); half of it in a picture of
+                             ///< little texture
   int window_px = 13;        ///< px, odd: side of the patch that is followed
   int levels = 3;            ///< pyramid levels, 1 = the picture alone
   int iterations = 12;       ///< at most, per level

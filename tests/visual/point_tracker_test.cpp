@@ -101,6 +101,26 @@ TEST(PointTracker, SurvivesRaggedPictures) {
   EXPECT_TRUE(tracker.advance(view, nonsense).previous.empty());
 }
 
+TEST(PointTracker, FollowsLittleTextureMoreDensely) {
+  const cv::Rect patch(200, 120, 240, 240);
+  const cv::Mat textured = Canvas(4).view(Eigen::Matrix3d::Identity(), 1, 1);
+  cv::Mat bare(textured.size(), CV_8U, cv::Scalar(90));
+  textured(patch).copyTo(bare(patch));
+  const int grid = TrackerParameters().grid_px;
+  PointTracker tracker({});
+  tracker.advance(textured, {});
+  const PointTracks usual = tracker.advance(textured, {});
+  tracker.reset();
+  tracker.advance(bare, {});
+  const PointTracks dense = tracker.advance(bare, {});
+  const auto inside = std::count_if(usual.previous.begin(), usual.previous.end(),
+                                    [&](const cv::Point2f& p) { return patch.contains(cv::Point(p)); });
+  EXPECT_NEAR(static_cast<double>(inside), patch.area() / (grid * grid), 30);
+  // Half the grid is four times the points; the patch's edge can be followed, too, which makes them more.
+  EXPECT_GT(dense.previous.size(), 3 * inside);
+  EXPECT_NEAR(static_cast<double>(dense.sampled) / usual.sampled, 4, 0.4);
+}
+
 TEST(PointTracker, APartOfALargerPictureEndsAtItsOwnEdge) {
   const cv::Mat large = Canvas(5).view(Eigen::Matrix3d::Identity(), 1, 1);
   const cv::Mat part = large(cv::Rect(100, 60, 320, 240));
