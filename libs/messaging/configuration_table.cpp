@@ -183,6 +183,8 @@ Settings backgroundSettings() {
       setting("segmentation.direction_error", MEMBER(segmentation.direction_error), notNegative),
       setting("segmentation.nearest_depth_share", MEMBER(segmentation.nearest_depth_share), share),
       setting("segmentation.evidence_sigmas", MEMBER(segmentation.evidence_sigmas), positive),
+      setting("segmentation.use_registration", MEMBER(segmentation.use_registration), anything),
+      setting("segmentation.motion_half", MEMBER(segmentation.motion_half), positive),
       setting("segmentation.use_appearance", MEMBER(segmentation.use_appearance), anything),
       setting("segmentation.background_downscale", MEMBER(segmentation.background_downscale), halving),
       setting("segmentation.background_span_s", MEMBER(segmentation.background_span_s), positive),
@@ -190,7 +192,10 @@ Settings backgroundSettings() {
       setting("segmentation.min_gradient", MEMBER(segmentation.min_gradient), positive),
       setting("segmentation.fill_radius_px", MEMBER(segmentation.fill_radius_px), positive),
       setting("segmentation.fill_contrast", MEMBER(segmentation.fill_contrast), positive),
-      setting("segmentation.silhouette_window_px", MEMBER(segmentation.silhouette_window_px), odd),
+      setting("segmentation.region_radius_px", MEMBER(segmentation.region_radius_px), notNegative),
+      setting("segmentation.use_surfaces", MEMBER(segmentation.use_surfaces), anything),
+      setting("segmentation.use_shadow_test", MEMBER(segmentation.use_shadow_test), anything),
+      setting("segmentation.shadow_noise", MEMBER(segmentation.shadow_noise), positive),
       setting("segmentation.evidence_rate", MEMBER(segmentation.evidence_rate), share),
   };
 }
@@ -209,6 +214,7 @@ Settings objectSettings() {
       setting("segmentation.entropy_floor", MEMBER(segmentation.entropy_floor), positive),
       setting("segmentation.flow_noise_px", MEMBER(segmentation.flow_noise_px), notNegative),
       setting("segmentation.threshold", MEMBER(segmentation.threshold), share),
+      setting("segmentation.extent_threshold", MEMBER(segmentation.extent_threshold), share),
       setting("segmentation.opening_px", MEMBER(segmentation.opening_px), notNegative),
       setting("segmentation.closing_px", MEMBER(segmentation.closing_px), notNegative),
       setting("segmentation.min_area_px", MEMBER(segmentation.min_area_px), notNegative),

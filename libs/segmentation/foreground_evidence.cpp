@@ -2,9 +2,17 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "segmentation/guided_filter.hpp"
+
 namespace redbee {
+namespace {
+
+constexpr double kUnknownVariance = 1e6;  // px^2, of the speed of what no earlier frame shows
+
+}  // namespace
 
 ForegroundEvidence::ForegroundEvidence(const SegmentationParameters& parameters)
     : parameters_(parameters),
@@ -39,7 +47,19 @@ cv::Mat ForegroundEvidence::pictureToCompare(const cv::Mat& grey, const cv::Mat&
   // The noise of single pixels and of JPEG's blocks.
   constexpr double kSigmaPx = 0.6;
   cv::GaussianBlur(small, small, {3, 3}, kSigmaPx);
+  cv::cvtColor(small, small, cv::COLOR_BGR2BGRA);
+  small.convertTo(small, CV_32F);
   return small;
+}
+
+/// Pixels of one region move together: each takes half of its evidence from those around it that look alike.
+void ForegroundEvidence::fillRegions(const cv::Mat& picture, cv::Mat& foreground) const {
+  const double scale = std::max(parameters_.background_downscale, 1);
+  const int radius = std::max(1, static_cast<int>(std::lround(parameters_.region_radius_px / scale)));
+  cv::Mat grey;
+  cv::cvtColor(picture, grey, cv::COLOR_BGRA2GRAY);
+  foreground = 0.5 * (foreground + guidedFilter(grey, foreground, radius, parameters_.fill_contrast));
+  foreground = cv::min(cv::max(foreground, 0), 1);
 }
 
 ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::Mat& grey,
@@ -50,19 +70,22 @@ ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::M
   Verdict verdict;
   const cv::Mat motion = motion_.learn(utime, grey, K, full);
   if (!motion.empty()) {
-    cv::sqrt(motion, verdict.foreground);
+    verdict.foreground = motion / (motion + parameters_.motion_half);
     cv::resize(motion_.unseen(), verdict.unseen, full, 0, 0, cv::INTER_NEAREST);
   }
   if (parameters_.use_appearance) {
     const cv::Mat picture = pictureToCompare(grey, colour, full);
     cv::Mat moving = cv::Mat::zeros(picture.size(), CV_32F);
+    SurfaceSpeed speed(picture.size(), CV_32FC2, cv::Scalar(0, kUnknownVariance));
     if (!motion.empty()) {
+      cv::resize(motion_.speed(), speed, picture.size(), 0, 0, cv::INTER_LINEAR);
       cv::resize(verdict.foreground, verdict.foreground, picture.size(), 0, 0, cv::INTER_LINEAR);
-      verdict.foreground = verdict.foreground.mul(background_.unlike(picture));
+      verdict.foreground = verdict.foreground.mul(background_.unlike(picture, speed));
+      if (parameters_.region_radius_px > 0) fillRegions(picture, verdict.foreground);
       // Half is sure enough: what is learned by mistake is lost for as long as the background remembers.
       moving = cv::min(2 * verdict.foreground, 1);
     }
-    background_.learn(picture, moving, elapsed_s);
+    background_.learn(picture, moving, speed, elapsed_s);
   }
   if (!motion.empty()) cv::resize(verdict.foreground, verdict.foreground, full, 0, 0, cv::INTER_LINEAR);
   return verdict;

@@ -1,6 +1,6 @@
 // What moves: what no static surface's motion explains (parallax_evidence.hpp: sure, but coarse) and what
 // does not look like the background (carried_background.hpp: sharp, but trees and facades differ too). P_FG
-// is the second times the square root of the first.
+// is the second times M / (M + half) of the first.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +32,7 @@ class ForegroundEvidence {
                 cv::Size full);
 
  private:
+  void fillRegions(const cv::Mat& picture, cv::Mat& foreground) const;
   cv::Mat pictureToCompare(const cv::Mat& grey, const cv::Mat& colour, cv::Size full) const;
 
   SegmentationParameters parameters_;

@@ -36,7 +36,7 @@ cv::Mat disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE,
 
 ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& unknown,
                                     const SegmentationParameters& parameters) {
-  cv::Mat mask = probability > parameters.threshold;
+  cv::Mat mask = probability > std::min(parameters.extent_threshold, parameters.threshold);
   mask.setTo(0, unknown);
   if (parameters.opening_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(parameters.opening_px));
   if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
@@ -54,6 +54,9 @@ ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& u
                      row[cv::CC_STAT_HEIGHT]};
     component.area_px = row[cv::CC_STAT_AREA];
     const cv::Mat own = labels(component.box) == label;
+    double surest = 0;
+    cv::minMaxLoc(probability(component.box), nullptr, &surest, nullptr, nullptr, own);
+    if (surest <= parameters.threshold) continue;
     component.score = cv::mean(probability(component.box), own)[0];
     found.mask(component.box).setTo(255, own);
     found.components.push_back(component);

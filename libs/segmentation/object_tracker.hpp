@@ -17,8 +17,8 @@ struct Detection {
   bool seen = true;    ///< false: carried by the tracker through a frame in which it did not stand out
 };
 
-/// Threshold, opening, closing, and the components that are large enough. `mask` (CV_8U, 0 or 255) holds
-/// exactly those.
+/// Two thresholds (hysteresis), opening, closing, and the components that are large enough. `mask` (CV_8U, 0
+/// or 255) holds exactly those.
 struct ForegroundComponents {
   cv::Mat mask;
   std::vector<Detection> components;  ///< without identity

@@ -6,13 +6,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "segmentation/guided_filter.hpp"
-#include "segmentation/parallax_segment.hpp"
+#include "segmentation/registration_error.hpp"
 #include "segmentation/warping.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr double kMarginPx = 16;  // full-size px: flow so near to what is not there is made up
+constexpr double kExpectedErrorPx = 0.5;  // full-size px, of the registration of two frames
+constexpr double kMarginPx = 16;          // full-size px: flow so near to what is not there is made up
 
 }  // namespace
 
@@ -38,6 +39,7 @@ void ParallaxEvidence::reset() {
   frames_.reset();
   travelling_.reset();
   unseen_.release();
+  speed_.release();
 }
 
 void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
@@ -53,22 +55,29 @@ cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen:
   cv::Mat small;
   cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::Mat found;
-  if (frames_.newest() != nullptr) found = evidence(small, work_ * K, utime);
+  const EarlierFrame* frame = frames_.aged(utime, parameters_.baseline_s);
+  const EarlierFrame* newest = frames_.newest();
+  if (frame != nullptr && newest != nullptr) {
+    const double frames =
+        static_cast<double>(utime - frame->utime) / static_cast<double>(utime - newest->utime);
+    found = evidence(*frame, small, work_ * K, frames);
+  }
   if (small.data == grey.data) small = grey.clone();
   frames_.remember(utime, small, parameters_.baseline_s);
   return found;
 }
 
-cv::Mat ParallaxEvidence::evidence(const cv::Mat& grey, const Eigen::Matrix3d& K, int64_t utime) {
-  const EarlierFrame& frame = *frames_.aged(utime, parameters_.baseline_s);
+cv::Mat ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K,
+                                   double frames) {
   const int margin = static_cast<int>(std::lround(kMarginPx / scale_));
   const AlignedPicture reference = alignPicture(frame, K, margin);
   unseen_ = reference.unseen;
   cv::Mat flow;
   dis_->calc(grey, reference.grey, flow);
-  const double frames =
-      static_cast<double>(utime - frame.utime) / static_cast<double>(utime - frames_.newest()->utime);
-  FrameEvidence now = judgeFlow(frame, K, grey, flow, frames);
+  const bool two_planes = !frame.motion && frame.front;
+  const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
+                                             : ParallaxSegment(frame.motion, K, parameters_);
+  FrameEvidence now = judgeFlow(segment, grey, flow, frames);
   now.off.setTo(cv::Scalar::all(0), unseen_);
   travelling_.update(now, last_step_, unseen_);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
@@ -92,20 +101,26 @@ cv::Mat ParallaxEvidence::flowVariance(const cv::Mat& grey) const {
   return variance;
 }
 
-FrameEvidence ParallaxEvidence::judgeFlow(const EarlierFrame& frame, const Eigen::Matrix3d& K,
-                                          const cv::Mat& grey, const cv::Mat& flow, double frames) const {
-  const bool two_planes = !frame.motion && frame.front;
-  const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
-                                             : ParallaxSegment(frame.motion, K, parameters_);
+FrameEvidence ParallaxEvidence::judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey,
+                                          const cv::Mat& flow, double frames) {
   const cv::Mat variance = flowVariance(grey);
+  AffineFlow error;
+  if (parameters_.use_registration) {
+    const double expected = kExpectedErrorPx / scale_;
+    error = registrationError(flow, variance, unseen_, segment, static_cast<float>(expected));
+  }
   FrameEvidence evidence{cv::Mat(flow.size(), CV_32FC2), flow * (1 / frames)};
+  speed_.create(flow.size(), CV_32FC2);
   for (int y = 0; y < flow.rows; ++y) {
     const cv::Vec2f* back = flow.ptr<cv::Vec2f>(y);
     const float* noise = variance.ptr<float>(y);
     cv::Vec2f* off = evidence.off.ptr<cv::Vec2f>(y);
+    cv::Vec2f* speed = speed_.ptr<cv::Vec2f>(y);
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
-      off[x] = segment.judge(pixel + back[x], -back[x], noise[x]).off_in_sigmas;
+      const cv::Vec2f forth = -back[x] - error.at(pixel[0], pixel[1]);
+      off[x] = segment.judge(pixel + back[x], forth, noise[x]).off_in_sigmas;
+      speed[x] = {std::sqrt(forth.dot(forth)), noise[x]};
     }
   }
   return evidence;

@@ -14,6 +14,7 @@
 
 #include "geometry/homography.hpp"
 #include "segmentation/earlier_frames.hpp"
+#include "segmentation/parallax_segment.hpp"
 #include "segmentation/parameters.hpp"
 #include "segmentation/travelling_evidence.hpp"
 
@@ -36,11 +37,14 @@ class ParallaxEvidence {
 
   /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
   const cv::Mat& unseen() const { return unseen_; }
+  /// What the last learn() saw of the flow; the work's pixels (CV_32FC2, see SurfaceSpeed). Empty where there
+  /// was no earlier frame.
+  const cv::Mat& speed() const { return speed_; }
 
  private:
-  cv::Mat evidence(const cv::Mat& grey, const Eigen::Matrix3d& K, int64_t utime);
-  FrameEvidence judgeFlow(const EarlierFrame& frame, const Eigen::Matrix3d& K, const cv::Mat& grey,
-                          const cv::Mat& flow, double frames) const;
+  cv::Mat evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K, double frames);
+  FrameEvidence judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey, const cv::Mat& flow,
+                          double frames);
   cv::Mat flowVariance(const cv::Mat& grey) const;
 
   SegmentationParameters parameters_;
@@ -51,6 +55,7 @@ class ParallaxEvidence {
   TravellingEvidence travelling_;
   Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< in the work's pixels
   cv::Mat unseen_;
+  cv::Mat speed_;
 };
 
 }  // namespace redbee

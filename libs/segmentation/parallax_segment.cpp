@@ -10,6 +10,7 @@ namespace redbee {
 namespace {
 
 constexpr double kPlanesError = 3;  // times the direction's error with an IMU
+constexpr float kNoDirection = 1e-6F;
 
 }  // namespace
 
@@ -37,9 +38,14 @@ cv::Vec2f ParallaxSegment::end(const cv::Vec2f& ground) const {
   return kBeyondFront * (cv::Vec2f(front[0], front[1]) / front[2] - ground);
 }
 
+cv::Vec2f ParallaxSegment::direction(const cv::Vec2f& ground) const {
+  const cv::Vec2f towards = end(ground);
+  const float length = std::sqrt(towards.dot(towards));
+  return length < kNoDirection ? cv::Vec2f(0, 0) : towards * (1 / length);
+}
+
 ParallaxSegment::Verdict ParallaxSegment::judge(const cv::Vec2f& ground, const cv::Vec2f& flow,
                                                 float noise_variance) const {
-  constexpr float kNoDirection = 1e-6F;
   const cv::Vec2f towards = end(ground);
   const float length = std::sqrt(towards.dot(towards));
   if (length < kNoDirection) return {{0, 0}, flow * (1 / std::sqrt(noise_variance))};

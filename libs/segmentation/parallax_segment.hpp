@@ -33,6 +33,8 @@ class ParallaxSegment {
   /// `ground`: where the scene point would be in the current picture if it lay on the ground [px]; `flow`:
   /// from there to where it is [px], of variance `noise_variance` [px^2].
   Verdict judge(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
+  /// Unit vector along which parallax moves what stands at `ground`; 0 where there is none.
+  cv::Vec2f direction(const cv::Vec2f& ground) const;
 
  private:
   cv::Vec2f end(const cv::Vec2f& ground) const;

@@ -9,6 +9,7 @@ SegmentationParameters paperSegmentation() {
   parameters.sample_grid_px = 16;  // and its tracks are as far apart
   parameters.confirm_frames = 1;
   parameters.threshold = 0.5;  // the paper names none
+  parameters.extent_threshold = parameters.threshold;
   return parameters;
 }
 

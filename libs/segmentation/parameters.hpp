@@ -33,14 +33,19 @@ struct SegmentationParameters {
   double nearest_depth_share = 0.15;  ///< of the height: no static surface is nearer to the camera than this
   double evidence_sigmas = 2.5;  ///< distance from the parallax segment, in sigmas, that is half the evidence
   double evidence_rate = 0.2;    ///< learning rate of the motion that travels along the flow; 1: none travels
+  bool use_registration = true;  ///< false: what the homography leaves everywhere counts as motion
+  double motion_half = 0.15;     ///< evidence of motion that is half enough
   bool use_appearance = true;    ///< false: motion alone, without the background's looks
   int background_downscale =
       2;  ///< 1, 2 or 4: the background's looks are kept on a picture this much smaller
   double background_span_s = 0.5;  ///< s: over which they are averaged
   double background_noise = 20.0;  ///< grey levels: differences of this size are noise
-  int silhouette_window_px = 3;    ///< px of that picture, odd: over which differences are averaged
+  bool use_surfaces = true;        ///< false: the background remembers surfaces that have moved away
+  bool use_shadow_test = true;     ///< false: cast shadows are foreground as their casters are
+  double shadow_noise = 8;         ///< grey levels: what may be left of a shadow once it is brightened
   double fill_radius_px = 8;       ///< px: reach of the edge-aware filter on the motion
   double fill_contrast = 12;       ///< grey levels: contrast below this is no edge to it
+  double region_radius_px = 16;    ///< px: reach of the same filter on P_FG, for half of it; 0: none
 
   // Foreground refinement (paper III.B).
   bool use_refinement = false;  ///< (13) to (16); false: P_FG is the raw foreground
@@ -57,12 +62,13 @@ struct SegmentationParameters {
   double flow_noise_px = 0.4;  ///< px: flow below this has no direction and does not vote
 
   // Masks and objects.
-  double threshold = 0.6;      ///< on P_FG
-  int opening_px = 3;          ///< px: 0 for none
-  int closing_px = 7;          ///< px: 0 for none
-  double min_area_px = 30;     ///< px^2: smaller components are no objects
-  int max_missed_frames = 24;  ///< frames an identity survives unseen
-  int confirm_frames = 2;      ///< frames an object must stand out in before it is told
+  double threshold = 0.45;        ///< on P_FG: somewhere an object exceeds it
+  double extent_threshold = 0.3;  ///< on P_FG: an object reaches as far as it exceeds this
+  int opening_px = 3;             ///< px: 0 for none
+  int closing_px = 7;             ///< px: 0 for none
+  double min_area_px = 30;        ///< px^2: smaller components are no objects
+  int max_missed_frames = 24;     ///< frames an identity survives unseen
+  int confirm_frames = 2;         ///< frames an object must stand out in before it is told
 
   // Pictures that nothing can be learned from.
   double min_contrast = 2.0;  ///< grey levels: standard deviation below which a picture is black or blank

@@ -27,6 +27,7 @@ SegmentationStatus statusOf(RivalStatus status) {
 
 Configuration withDecisionScore(Configuration configuration) {
   configuration.segmentation.threshold = (kDecisionScore - 0.5) / 255;
+  configuration.segmentation.extent_threshold = configuration.segmentation.threshold;
   return configuration;
 }
 

@@ -75,14 +75,16 @@ BENCHMARK(alignHalfSize)->Unit(benchmark::kMillisecond);
 
 void carriedBackground(benchmark::State& state) {
   cv::Mat colour, moving = cv::Mat::zeros(inputs()[0].grey.size(), CV_32F);
-  cv::cvtColor(inputs()[0].grey, colour, cv::COLOR_GRAY2BGR);
+  cv::cvtColor(inputs()[0].grey, colour, cv::COLOR_GRAY2BGRA);
+  colour.convertTo(colour, CV_32F);
+  const SurfaceSpeed speed(colour.size(), CV_32FC2, cv::Scalar(0, 0.1));
   CarriedBackground background{SegmentationParameters{}};
-  background.learn(colour, moving, 0.04);
+  background.learn(colour, moving, speed, 0.04);
   const SceneMotion scene(*inputs()[1].ground, inputs()[1].motion, inputs()[1].K);
   for (auto _ : state) {
     background.carry(scene);
-    benchmark::DoNotOptimize(background.unlike(colour));
-    background.learn(colour, moving, 0.04);
+    benchmark::DoNotOptimize(background.unlike(colour, speed));
+    background.learn(colour, moving, speed, 0.04);
   }
 }
 BENCHMARK(carriedBackground)->Unit(benchmark::kMillisecond);

@@ -1,0 +1,35 @@
+// Is a pixel the background in shadow? A shadow scales what lies under it by one factor for all colours and
+// leaves its texture (Horprasert et al. 1999; here over a window, against the noise).
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace redbee {
+
+class ShadowTest {
+ public:
+  /// `noise`: grey levels, what is left of a shadow once it is scaled.
+  ShadowTest(const cv::Mat& picture, const cv::Mat& background, double noise);
+
+  /// For each pixel of row y: 0 no shadow, 1 surely one. Rows are asked for in order, from 0.
+  const std::vector<float>& row(int y);
+
+ private:
+  /// Sums over three neighbours of a row: picture squared, picture times background, background squared.
+  struct Sums {
+    std::vector<float> pp, pb, bb;
+  };
+  void add(int y);
+  float judge(float pp, float pb, float bb) const;
+
+  const cv::Mat& picture_;
+  const cv::Mat& background_;
+  float noise_variance_;
+  int next_ = 0;
+  Sums products_;
+  Sums rows_[3];
+  std::vector<float> shadow_;
+};
+
+}  // namespace redbee
