@@ -29,8 +29,16 @@ using DualModel = std::array<GreyGaussian, 2>;
 /// is missing lies outside of the picture. Age 0 where all is missing.
 GreyGaussian blendGaussians(const std::array<GreyGaussian, 4>& models, const std::array<float, 4>& weights);
 
-/// Takes in a block's pixels. `mean`: of the block; `least`, `greatest`: its extreme pixels.
-void updateDualModel(DualModel& model, float mean, float least, float greatest);
+/// What the pixels of a block are judged against.
+struct BlockBackground {
+  float mean;      ///< grey levels, of model 0 once it has learned from the block, if it has
+  float variance;  ///< grey levels^2, of model 0 before
+  bool judges;     ///< false: model 0 has seen too little
+};
+
+/// Takes in a block's pixels: the candidate becomes the background where it is as old. `mean`: of the block;
+/// `least`, `greatest`: its extreme pixels.
+BlockBackground updateDualModel(DualModel& model, float mean, float least, float greatest);
 
 class Mcd : public Rival {
  public:
@@ -42,8 +50,7 @@ class Mcd : public Rival {
 
   void carry(const cv::Matx33d& H);
   GreyGaussian modelAt(size_t which, double column, double row) const;
-  void update(const cv::Mat& grey);
-  cv::Mat score(const cv::Mat& grey) const;
+  cv::Mat updateAndScore(const cv::Mat& grey);
 
   Registrar registrar_;
   DualModel& model(int row, int column) { return models_[static_cast<size_t>(row * blocks_.width + column)]; }

@@ -47,6 +47,36 @@ TEST(McdModel, TheOlderCandidateReplacesTheBackground) {
   EXPECT_FLOAT_EQ(model[1].age, 0);
 }
 
+TEST(McdModel, ACandidateAsOldReplacesTheBackground) {
+  DualModel model{GreyGaussian{100, 50, 4}, GreyGaussian{200, 60, 4}};
+  const BlockBackground background = updateDualModel(model, 200, 200, 200);
+  EXPECT_FLOAT_EQ(model[0].mean, 200);
+  EXPECT_FLOAT_EQ(background.mean, 200) << "and this frame is judged against it already";
+  EXPECT_FLOAT_EQ(background.variance, 60);
+}
+
+TEST(McdModel, PixelsAreJudgedByTheMeanWithThemAndTheVarianceWithoutThem) {
+  DualModel model{GreyGaussian{100, 100, 3}, GreyGaussian{0, 400, 0}};
+  const BlockBackground background = updateDualModel(model, 104, 100, 108);
+  EXPECT_FLOAT_EQ(background.mean, 101);
+  EXPECT_FLOAT_EQ(background.variance, 100);
+  EXPECT_TRUE(background.judges);
+}
+
+TEST(McdModel, AYoungBackgroundDoesNotJudge) {
+  for (const float age : {0.5F, 1.0F, 1.5F}) {
+    DualModel model{GreyGaussian{100, 100, age}, GreyGaussian{0, 400, 0}};
+    EXPECT_EQ(updateDualModel(model, 104, 100, 108).judges, age > 1) << age;
+  }
+}
+
+TEST(McdModel, VarianceStartsAnewOnlyWhereNothingIsKnown) {
+  DualModel model{GreyGaussian{100, 100, 0.5F}, GreyGaussian{0, 400, 0}};
+  updateDualModel(model, 103, 103, 103);
+  EXPECT_FLOAT_EQ(model[0].mean, 103) << "less than one frame old";
+  EXPECT_NEAR(model[0].variance, 100.0F / 3, 1e-4) << "1/3 of 100 and 2/3 of 0";
+}
+
 TEST(McdModel, AgeAndVarianceAreBounded) {
   DualModel model{GreyGaussian{100, 25, 30}, GreyGaussian{0, 400, 0}};
   updateDualModel(model, 100, 100, 100);
