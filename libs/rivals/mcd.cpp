@@ -11,13 +11,15 @@ namespace {
 
 constexpr int kMedianPx = 5;
 constexpr float kFirstVariance = 400;
-constexpr float kLeastVariance = 25;
-constexpr float kGreatestAge = 30;
+constexpr float kLeastVariance = 100;
+constexpr float kGreatestAge = 10;
 constexpr float kAgeDecay = 0.001F;
 constexpr float kNoiseVariance = 2500;  // variance above which age decays
 constexpr float kMatch = 2;             // squared sigmas
 constexpr float kForegroundSigmas = 2;  // the square root of the authors' 4
 constexpr float kJudgedFromAge = 1;
+constexpr int kAveragePx = 21;
+constexpr float kDecisionShare = 0.26F;
 
 float squared(float x) { return x * x; }
 
@@ -115,7 +117,7 @@ RivalOutput Mcd::judge(const RivalInput& input) {
     output.status = RivalStatus::kGood;
     output.background = *registration;
   }
-  output.score = updateAndScore(grey);
+  output.score = averagedScore(updateAndScore(grey), kAveragePx, kDecisionShare);
   return output;
 }
 

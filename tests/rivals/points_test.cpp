@@ -10,6 +10,7 @@
 #include "rivals/flow_clusters.hpp"
 #include "rivals/flow_residual.hpp"
 #include "rivals/graded_score.hpp"
+#include "rivals/picture_history.hpp"
 #include "rivals/registration.hpp"
 #include "rivals/trajectory_window.hpp"
 #include "tests/rivals/scene.hpp"
@@ -61,6 +62,25 @@ TEST(Registrar, ATenthOfThePictureIsEnough) {
   Eigen::Matrix3d H;
   cv::cv2eigen(*found, H);
   EXPECT_LT(meanTransferError(H, trueStep(1), 640, 480), 1);
+}
+
+TEST(PictureHistory, TheOldestAnswersToTheNewest) {
+  const auto shift = [](double x) { return cv::Matx33d(1, 0, x, 0, 1, 0, 0, 0, 1); };
+  const auto picture = [](int grey) { return cv::Mat(2, 2, CV_8U, cv::Scalar(grey)); };
+  PictureHistory history(2);
+  EXPECT_TRUE(history.empty());
+  history.push(picture(1));
+  history.carry(shift(3));
+  EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 1);
+  EXPECT_EQ(history.oldestToNewest()(0, 2), 3);
+  history.push(picture(2));
+  history.carry(shift(4));
+  EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 1);
+  EXPECT_EQ(history.oldestToNewest()(0, 2), 7);
+  history.push(picture(3));
+  history.carry(shift(5));
+  EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 2) << "two are kept";
+  EXPECT_EQ(history.oldestToNewest()(0, 2), 9);
 }
 
 TEST(TrajectoryWindow, TracksFollowTheGround) {
