@@ -11,8 +11,8 @@ namespace redbee {
 namespace {
 
 constexpr int kSmoothPx = 3;
-constexpr int kMedianPx = 5;
-constexpr float kDeviations = 1;  // published
+constexpr float kDeviations = 0.1F;
+constexpr int kAveragePx = 15;
 
 }  // namespace
 
@@ -82,7 +82,9 @@ RivalOutput Aurora::judge(const RivalInput& input) {
   }
   cv::Mat smooth;
   cv::GaussianBlur(input.colour, smooth, {kSmoothPx, kSmoothPx}, 0);
-  cv::medianBlur(gradedScore(density_->update(smooth), kDeviations), output.score, kMedianPx);
+  cv::Mat below = density_->update(smooth);
+  cv::blur(below, below, {kAveragePx, kAveragePx});
+  output.score = gradedScore(below, kDeviations);
   return output;
 }
 

@@ -6,9 +6,11 @@
 //   mu_k = (k-1)/k mu_(k-1) + x_k / k,   S_k = (k-1)/k S_(k-1) + |x_k|^2 / k,
 //   D_k = 1 / (1 + |x_k - mu_k|^2 + S_k - |mu_k|^2),
 // and foreground where D_k < mean(D) - deviation(D), both over the pixel's own past. Score: kDecisionScore
-// there, graded by (mean - D_k) / deviation. Their grouping of the foreground pixels is a median filter here.
-// Mean and deviation of D begin when a pixel is first judged: the first densities are all 1. Pictures are
-// smoothed first, or what the carrying blurs would be foreground wherever there is fine texture.
+// at a tenth of a
+// deviation, since a deviation is held up from below (tuned), graded by (mean - D_k) / deviation. Their
+// grouping of the foreground pixels is an average over a box here (tuned, EXPERIMENTS.md). Mean and deviation
+// of D begin when a pixel is first judged: the first densities are all 1. Pictures are smoothed first, or
+// what the carrying blurs would be foreground wherever there is fine texture.
 #pragma once
 
 #include "rivals/registration.hpp"
@@ -20,8 +22,8 @@ namespace redbee {
 class RecursiveDensity {
  public:
   struct Parameters {
-    float unit = 128;    ///< grey levels: distance at which the density has halved; not published, tuned
-    float longest = 60;  ///< frames, k is held here; the paper's grows for ever, this forgets; tuned
+    float unit = 512;    ///< grey levels: distance at which the density has halved; not published, tuned
+    float longest = 10;  ///< frames, k is held here; the paper's grows for ever, this forgets; tuned
     float least_deviation = 0.05F;  ///< of the density: what is flatter than noise does not stand out; tuned
     int learning_frames = 4;        ///< a pixel seen less often is not judged
   };

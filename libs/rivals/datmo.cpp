@@ -8,7 +8,7 @@
 namespace redbee {
 namespace {
 
-constexpr double kThresholdPx = 1.0;  // chosen by reason, not swept
+constexpr double kThresholdPx = 1.0;  // 0.5 was no better
 constexpr float kGatePx = 12;
 constexpr int kMaxMissed = 3;
 

@@ -9,7 +9,8 @@
 //
 // The camera's motion is the IMU's here (theirs is parallel tracking and mapping's); without an IMU it is the
 // homography of the points. The filter is a constant-velocity Kalman filter of each group's centre. Nothing
-// is published of the thresholds.
+// is published of the thresholds; confirmation, neighbours and least number of points were swept
+// (EXPERIMENTS.md).
 #pragma once
 
 #include <opencv2/video/tracking.hpp>
@@ -24,7 +25,7 @@ namespace redbee {
 /// Follows the groups of one decision level.
 class GroupFilter {
  public:
-  static constexpr int kConfirmFrames = 3;
+  static constexpr int kConfirmFrames = 2;
 
   /// The groups of this frame that have been there for kConfirmFrames frames. `background`: previous to
   /// current.

@@ -9,13 +9,17 @@ namespace redbee {
 namespace {
 
 constexpr int kSmoothPx = 5;
+constexpr int kAveragePx = 15;
+constexpr size_t kBackFrames = 2;
 constexpr float kThreshold = 20;  // grey levels
 
 }  // namespace
 
+Difference::Difference() : history_(kBackFrames) {}
+
 void Difference::reset() {
   registrar_.reset();
-  previous_.release();
+  history_.clear();
 }
 
 RivalOutput Difference::judge(const RivalInput& input) {
@@ -28,14 +32,16 @@ RivalOutput Difference::judge(const RivalInput& input) {
     output.status = RivalStatus::kGood;
     output.background = *registration;
     cv::Mat difference;
-    cv::absdiff(smooth, stabilise(previous_, *registration), difference);
-    difference.setTo(0, unseenBy(*registration, smooth.size()));
+    history_.carry(*registration);
+    cv::absdiff(smooth, stabilise(history_.oldest(), history_.oldestToNewest()), difference);
+    difference.setTo(0, unseenBy(history_.oldestToNewest(), smooth.size()));
     difference.convertTo(difference, CV_32F);
+    cv::blur(difference, difference, {kAveragePx, kAveragePx});
     output.score = gradedScore(difference, kThreshold);
   } else if (!first) {
     output.status = RivalStatus::kLost;
   }
-  previous_ = smooth;
+  history_.push(smooth);
   return output;
 }
 

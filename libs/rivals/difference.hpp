@@ -1,20 +1,27 @@
-// The absolute difference to the previous picture, laid onto this one by a homography: the simplest of all.
+// The absolute difference to the picture before the previous one, laid onto this one by homographies: the
+// simplest of all.
 //
-// Nobody's publication. Score: kDecisionScore at 20 grey levels.
+// Nobody's publication. The difference is averaged over a box, which fills what is hollow and drowns what is
+// speckled. Box, smoothing, how far back and the threshold are tuned (EXPERIMENTS.md). Score: kDecisionScore
+// at 20 grey levels.
 #pragma once
 
+#include "rivals/picture_history.hpp"
 #include "rivals/registration.hpp"
 #include "rivals/rival.hpp"
 
 namespace redbee {
 
 class Difference : public Rival {
+ public:
+  Difference();
+
  private:
   void reset() override;
   RivalOutput judge(const RivalInput& input) override;
 
   Registrar registrar_;
-  cv::Mat previous_;
+  PictureHistory history_;
 };
 
 }  // namespace redbee

@@ -1,13 +1,16 @@
 #include "rivals/flow_residual.hpp"
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "rivals/graded_score.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr float kThreshold = 1;  // px
+constexpr float kThreshold = 3.25F;  // px
+constexpr int kAveragePx = 15;
+constexpr size_t kBackFrames = 2;
 
 }  // namespace
 
@@ -29,11 +32,12 @@ cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
   return remains;
 }
 
-FlowResidual::FlowResidual() : flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)) {}
+FlowResidual::FlowResidual()
+    : flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)), history_(kBackFrames) {}
 
 void FlowResidual::reset() {
   registrar_.reset();
-  previous_.release();
+  history_.clear();
 }
 
 RivalOutput FlowResidual::judge(const RivalInput& input) {
@@ -43,13 +47,16 @@ RivalOutput FlowResidual::judge(const RivalInput& input) {
   if (registration) {
     output.status = RivalStatus::kGood;
     output.background = *registration;
+    history_.carry(*registration);
     cv::Mat flow;
-    flow_->calc(input.grey, previous_, flow);
-    output.score = gradedScore(flowAgainst(flow, *registration), kThreshold);
+    flow_->calc(input.grey, history_.oldest(), flow);
+    cv::Mat remains = flowAgainst(flow, history_.oldestToNewest());
+    cv::blur(remains, remains, {kAveragePx, kAveragePx});
+    output.score = gradedScore(remains, kThreshold);
   } else if (!first) {
     output.status = RivalStatus::kLost;
   }
-  previous_ = input.grey.clone();
+  history_.push(input.grey.clone());
   return output;
 }
 

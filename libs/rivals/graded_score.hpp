@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace redbee {
 
@@ -24,6 +25,15 @@ inline cv::Mat gradedScore(const cv::Mat& statistic, float threshold) {
     for (int x = 0; x < score.cols; ++x) to[x] = gradedScore(from[x] / threshold);
   }
   return score;
+}
+
+/// A score as a share of its range, averaged over a box, and graded anew with the decision where that mean is
+/// `decision_share`: what is hollow is filled, what is speckled drowns.
+inline cv::Mat averagedScore(const cv::Mat& score, int box_px, float decision_share) {
+  cv::Mat mean;
+  score.convertTo(mean, CV_32F, 1.0 / 255);
+  cv::blur(mean, mean, {box_px, box_px});
+  return gradedScore(mean, decision_share);
 }
 
 }  // namespace redbee

@@ -13,6 +13,8 @@ constexpr double kVarThreshold = 16;  // OpenCV's default
 constexpr double kMinOverlap = 0.6;
 constexpr int kLearningFrames = 5;
 constexpr float kDifferenceUnit = 30;  // grey levels: what is halfway up within either side of the decision
+constexpr int kAveragePx = 15;
+constexpr float kDecisionShare = 0.38F;
 constexpr uint8_t kMog2Foreground = 255;
 
 double overlap(const cv::Matx33d& H, cv::Size size) {
@@ -85,7 +87,7 @@ RivalOutput HomographyMog2::judge(const RivalInput& input) {
     input.colour.copyTo(here, unseenBy(anchor_, here.size()));
     anchorHere(here);
   }
-  output.score = learn(input.colour);
+  output.score = averagedScore(learn(input.colour), kAveragePx, kDecisionShare);
   output.background = *registration;
   output.status = ++learned_ < kLearningFrames ? RivalStatus::kLearning : RivalStatus::kGood;
   return output;

@@ -3,8 +3,10 @@
 // OpenCV's model cannot be moved. So it stands on the grid of an anchor frame, onto which pictures are laid
 // by the homographies since; what a picture does not show is fed with the model's own background. Once less
 // than kMinOverlap of the anchor's view is left, a new model is begun on the current frame, with the old
-// one's background as its first picture. Score: the mask (shadows are background) decides on which side of
-// kDecisionScore a pixel lies, its difference to the background picture how far.
+// one's background as its first picture. Score: the mask (shadows are background) decides on which half of
+// the scale a pixel lies, its difference to the background picture where within; then averaged over a box,
+// with kDecisionScore where the mean F1 of the development clips is best. History, box and decision are tuned
+// (EXPERIMENTS.md), the variances' threshold is OpenCV's.
 #pragma once
 
 #include <opencv2/video/background_segm.hpp>

@@ -11,13 +11,15 @@ namespace {
 
 constexpr int kMedianPx = 5;
 constexpr float kFirstVariance = 400;
-constexpr float kLeastVariance = 25;
-constexpr float kGreatestAge = 30;
+constexpr float kLeastVariance = 100;
+constexpr float kGreatestAge = 10;
 constexpr float kAgeDecay = 0.001F;
 constexpr float kNoiseVariance = 2500;  // variance above which age decays
 constexpr float kMatch = 2;             // squared sigmas
 constexpr float kForegroundSigmas = 2;  // the square root of the authors' 4
 constexpr float kJudgedFromAge = 1;
+constexpr int kAveragePx = 21;
+constexpr float kDecisionShare = 0.26F;
 
 float squared(float x) { return x * x; }
 
@@ -27,10 +29,11 @@ bool matches(const GreyGaussian& model, float mean) {
 
 void learn(GreyGaussian& model, float mean, float least, float greatest) {
   const float kept = model.age / (model.age + 1);
-  const bool first = model.age < 1;
-  model.mean = first ? mean : kept * model.mean + (1 - kept) * mean;
+  const bool is_new = model.age <= 0;
+  model.mean = model.age < 1 ? mean : kept * model.mean + (1 - kept) * mean;
   const float observed = std::max(squared(least - model.mean), squared(greatest - model.mean));
-  model.variance = first ? std::max(observed, kFirstVariance) : kept * model.variance + (1 - kept) * observed;
+  model.variance =
+      is_new ? std::max(observed, kFirstVariance) : kept * model.variance + (1 - kept) * observed;
   model.variance = std::max(model.variance, kLeastVariance);
   model.age = std::min(model.age + 1, kGreatestAge);
 }
@@ -77,17 +80,19 @@ GreyGaussian blendGaussians(const std::array<GreyGaussian, 4>& models, const std
   return blend;
 }
 
-void updateDualModel(DualModel& model, float mean, float least, float greatest) {
-  if (model[1].age > model[0].age) {
+BlockBackground updateDualModel(DualModel& model, float mean, float least, float greatest) {
+  if (model[1].age > 0 && model[1].age >= model[0].age) {
     model[0] = model[1];
     model[1] = {mean, kFirstVariance, 0};
   }
+  const GreyGaussian before = model[0];
   if (matches(model[0], mean)) {
     learn(model[0], mean, least, greatest);
   } else {
     if (!matches(model[1], mean)) model[1] = {mean, kFirstVariance, 0};
     learn(model[1], mean, least, greatest);
   }
+  return {model[0].mean, before.variance, before.age > kJudgedFromAge};
 }
 
 void Mcd::reset() {
@@ -111,9 +116,8 @@ RivalOutput Mcd::judge(const RivalInput& input) {
     carry(*registration);
     output.status = RivalStatus::kGood;
     output.background = *registration;
-    output.score = score(grey);
   }
-  update(grey);
+  output.score = averagedScore(updateAndScore(grey), kAveragePx, kDecisionShare);
   return output;
 }
 
@@ -137,6 +141,8 @@ GreyGaussian Mcd::modelAt(size_t which, double column, double row) const {
 void Mcd::carry(const cv::Matx33d& H) {
   constexpr double kCentre = 0.5 * (kBlockPx - 1);
   const cv::Matx33d back = H.inv();
+  // The authors forget what comes from the outermost blocks, where neighbours are missing.
+  const cv::Rect2d inner(0.5, 0.5, blocks_.width - 2, blocks_.height - 2);
   std::vector<DualModel> carried(models_.size());
   size_t block = 0;
   for (int row = 0; row < blocks_.height; ++row) {
@@ -144,28 +150,21 @@ void Mcd::carry(const cv::Matx33d& H) {
       const cv::Vec3d at = back * cv::Vec3d(column * kBlockPx + kCentre, row * kBlockPx + kCentre, 1);
       const double x = (at[0] / at[2] - kCentre) / kBlockPx;
       const double y = (at[1] / at[2] - kCentre) / kBlockPx;
-      if (!(at[2] > 0 && x > -1 && y > -1 && x < blocks_.width && y < blocks_.height)) continue;
+      if (!(at[2] > 0 && inner.contains(cv::Point2d(x, y)))) continue;
       for (size_t which = 0; which < 2; ++which) carried[block][which] = modelAt(which, x, y);
     }
   }
   models_ = std::move(carried);
 }
 
-void Mcd::update(const cv::Mat& grey) {
-  for (int row = 0; row < blocks_.height; ++row) {
-    for (int column = 0; column < blocks_.width; ++column) {
-      const BlockPixels block = pixelsOf(grey, row, column);
-      updateDualModel(model(row, column), block.mean, block.least, block.greatest);
-    }
-  }
-}
-
-cv::Mat Mcd::score(const cv::Mat& grey) const {
+cv::Mat Mcd::updateAndScore(const cv::Mat& grey) {
   cv::Mat score = cv::Mat::zeros(grey.size(), CV_8U);
   for (int row = 0; row < blocks_.height; ++row) {
     for (int column = 0; column < blocks_.width; ++column) {
-      const GreyGaussian& background = model(row, column)[0];
-      if (background.age <= kJudgedFromAge) continue;
+      const BlockPixels block = pixelsOf(grey, row, column);
+      const BlockBackground background =
+          updateDualModel(model(row, column), block.mean, block.least, block.greatest);
+      if (!background.judges) continue;
       const float unit = 1 / (kForegroundSigmas * std::sqrt(background.variance));
       for (int y = row * kBlockPx; y < (row + 1) * kBlockPx; ++y) {
         const auto* pixel = grey.ptr<uint8_t>(y) + column * kBlockPx;

@@ -4,13 +4,17 @@
 
 #include "rivals/ego_motion.hpp"
 #include "rivals/flow_clusters.hpp"
+#include "rivals/graded_score.hpp"
 #include "rivals/registration.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr double kThresholdPx = 1.0;      // chosen by reason, not swept
-constexpr double kDirectionError = 0.05;  // of the parallax; chosen by reason, not swept
+constexpr double kThresholdPx = 1.0;  // chosen by reason: the score sweeps it
+constexpr float kReachPx = 24;
+constexpr int kAveragePx = 15;
+constexpr float kDecisionShare = 0.58F;
+constexpr double kDirectionError = 0.05;  // of the parallax
 constexpr double kNearestShare = 0.15;    // of the height
 constexpr double kGroundSlack = 0.1;
 constexpr double kNearestBaselines = 4;
@@ -64,7 +68,10 @@ RivalOutput Meier::judge(const RivalInput& input) {
   }
   output.status = RivalStatus::kGood;
   output.background = background.value_or(cv::Matx33d::eye());
-  output.score = paintClusters(input.grey.size(), strayPoints(tracks, *motion), {});
+  ClusterParameters clusters;
+  clusters.reach_px = kReachPx;
+  output.score = averagedScore(paintClusters(input.grey.size(), strayPoints(tracks, *motion), clusters),
+                               kAveragePx, kDecisionShare);
   return output;
 }
 

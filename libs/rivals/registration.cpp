@@ -5,7 +5,8 @@
 namespace redbee {
 namespace {
 
-constexpr double kMinInlierShare = 0.15;
+// What chance gives does not come near; water and foliage leave little more that follows one plane.
+constexpr double kMinInlierShare = 0.03;
 constexpr size_t kMinInliers = 8;
 
 /// Homographies that turn the picture over, or shrink it to nothing, are no camera motion.

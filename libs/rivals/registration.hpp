@@ -10,8 +10,8 @@
 namespace redbee {
 
 /// Homography of `tracks`, previous to current, by RANSAC with this inlier distance [px]. Nothing where fewer
-/// than 15 % of the points sampled follow it, or it turns or scales the picture as no camera does (the
-/// authors do not check).
+/// than 3 % of the points sampled (and 8 more) follow it, or it turns or scales the picture as no camera does
+/// (the authors do not check).
 std::optional<cv::Matx33d> registerTracks(const GridTracks& tracks, double inlier_px = 1.0);
 
 class Registrar {

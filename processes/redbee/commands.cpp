@@ -39,6 +39,8 @@ void addDetectCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--set", options->settings, "key=value on top of the configuration, as often as needed")
       ->allow_extra_args(false);
+  command->add_option("--frames", options->frames, "only the first so many frames of the log")
+      ->check(CLI::PositiveNumber);
   auto* rate = command->add_option("--rate", options->rate, "pace: 1 is the log's own speed")
                    ->check(CLI::PositiveNumber);
   command->add_flag("--max-rate", "as fast as it goes (what happens unless --rate is given)")->excludes(rate);
@@ -97,6 +99,8 @@ void addEvaluateCommand(CLI::App& app) {
                       "the flight: for pictures of hits and misses, and for masks named by frame number");
   command->add_option("--camera", options->camera_channel, "channel of the log's pictures")
       ->capture_default_str();
+  command->add_option("--frames", options->frames, "only the first so many frames of the recording")
+      ->check(CLI::PositiveNumber);
   command->callback([options] { runEvaluate(*options); });
 }
 

@@ -55,6 +55,7 @@ CellMeasures readCell(const fs::path& folder) {
 
 const std::vector<MeasureName>& measureNames() {
   static const std::vector<MeasureName> names = {
+      {"frames_limit", "measures.json", "/frames_limit"},
       {"labelled_frames", "measures.json", "/objects/labelled_frames"},
       {"error_at_half_recall", "measures.json", "/pixels/error_at_half_recall"},
       {"best_f1", "measures.json", "/pixels/best_f1"},

@@ -70,6 +70,17 @@ void noteUnfinished(const Comparison& comparison, const std::string& set, const 
     table.notes.push_back(std::to_string(missing) + " runs have no result: means leave them out");
 }
 
+/// A method that saw less of the clips than the others is not to be compared with them unsaid.
+void noteLimits(const Comparison& comparison, const std::string& set, const std::string& row, Table& table) {
+  for (const std::string& method : comparison.methods()) {
+    double limit = 0;
+    for (const ListedClip& clip : comparison.clipsOf(set))
+      limit = std::max(limit, valueOf(comparison.cell(clip, row, method), "frames_limit").value_or(0));
+    if (limit > 0)
+      table.notes.push_back(method + ": only the first " + formatted("%.0f", limit) + " frames of each clip");
+  }
+}
+
 Table accuracyTable(const Comparison& comparison, const std::string& set, const std::string& row) {
   Table table;
   table.title = headingOf(set, row) + ": Error@50% / best F1";
@@ -88,6 +99,7 @@ Table accuracyTable(const Comparison& comparison, const std::string& set, const 
     table.rows.push_back(cells);
   }
   noteUnfinished(comparison, set, row, table);
+  noteLimits(comparison, set, row, table);
   return table;
 }
 
@@ -104,6 +116,7 @@ Table decisionTable(const Comparison& comparison, const std::string& set, const 
                           mean("f1", "%.3f", 1), mean("object_recall", "%.1f", 100),
                           mean("false_alarms_per_frame", "%.2f", 1), mean("false_area_percent", "%.3f", 1)});
   }
+  noteLimits(comparison, set, row, table);
   return table;
 }
 
@@ -124,6 +137,7 @@ Table objectTable(const Comparison& comparison, const std::string& set, const st
     table.rows.push_back(cells);
   }
   noteUnfinished(comparison, set, row, table);
+  noteLimits(comparison, set, row, table);
   return table;
 }
 
@@ -162,6 +176,7 @@ Table costTable(const Comparison& comparison, const std::string& set, const std:
       "CPU: decoding and the method itself, all its stages; reading the log, making messages of the answer "
       "and "
       "writing the results left out"};
+  noteLimits(comparison, set, row, table);
   return table;
 }
 

@@ -135,7 +135,8 @@ int64_t runDetect(const DetectOptions& options) {
   Pace pace(options.rate);
   const auto start = Clock::now();
   int64_t pictures = 0;
-  while (const auto event = log.next()) {
+  const auto enough = [&] { return options.frames > 0 && pictures >= options.frames; };
+  while (const auto event = enough() ? std::nullopt : log.next()) {
     if (!isInput(configuration.channels, event->channel)) continue;
     pace.wait(event->utime);
     bus->publish(event->channel, event->data);

@@ -42,6 +42,7 @@ struct DetectOptions {
   std::filesystem::path out;
   std::string method = "redbee";      ///< one of methodNames()
   std::vector<std::string> settings;  ///< key=value, on top of all
+  int64_t frames = 0;                 ///< only the first so many of the log; 0: all
   double rate = 0;                    ///< times the log's own speed; 0: as fast as it goes
   bool quiet = false;
 };

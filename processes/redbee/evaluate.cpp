@@ -66,6 +66,17 @@ FrameOutcome outcome(int64_t utime, const cv::Mat& detected, const cv::Mat& trut
   return frame;
 }
 
+/// `limit`: only the first so many frames of the recording; 0: all.
+std::vector<ClipTruth::Frame> labelledFrames(const ClipTruth& truth, const std::vector<int64_t>& utimes,
+                                             int64_t limit) {
+  std::vector<ClipTruth::Frame> labelled = truth.frames(utimes);
+  if (limit <= 0 || utimes.size() <= static_cast<size_t>(limit)) return labelled;
+  const int64_t first_beyond = utimes[static_cast<size_t>(limit)];
+  const auto beyond = [&](const ClipTruth::Frame& frame) { return frame.utime >= first_beyond; };
+  labelled.erase(std::remove_if(labelled.begin(), labelled.end(), beyond), labelled.end());
+  return labelled;
+}
+
 std::vector<EvaluateOptions> clipsOf(const EvaluateOptions& options) {
   if (options.truth == "none" || ClipTruth::isIn(options.truth)) return {options};
   if (!fs::is_directory(options.truth)) throw InputError(options.truth, "no such folder");
@@ -73,7 +84,7 @@ std::vector<EvaluateOptions> clipsOf(const EvaluateOptions& options) {
   for (const auto& entry : fs::directory_iterator(options.truth)) {
     const fs::path results = options.results / entry.path().filename();
     if (!ClipTruth::isIn(entry.path()) || !fs::is_directory(results)) continue;
-    clips.push_back({entry.path(), results, {}, options.camera_channel});
+    clips.push_back({entry.path(), results, {}, options.camera_channel, options.frames});
   }
   std::sort(clips.begin(), clips.end(), [](const auto& a, const auto& b) { return a.truth < b.truth; });
   if (clips.empty())
@@ -121,8 +132,10 @@ ClipMeasures measureClip(const EvaluateOptions& options) {
   const cv::Size size = readMap(maps.begin()->second).size();
   ClipMeasures clip;
   clip.name = fs::weakly_canonical(options.results).filename().string();
-  const auto labelled =
-      truth.frames(options.log.empty() ? timesOf(maps) : pictureTimes(options.log, options.camera_channel));
+  clip.frames_limit = options.frames;
+  const auto labelled = labelledFrames(
+      truth, options.log.empty() ? timesOf(maps) : pictureTimes(options.log, options.camera_channel),
+      options.frames);
   for (const ClipTruth::Frame& frame : labelled) {
     if (maps.count(frame.utime) == 0) ++clip.truth_without_result;
     const ClipTruth::Labels labels = truth.read(frame, size);

@@ -17,6 +17,7 @@ struct EvaluateOptions {
   std::filesystem::path results;  ///< with probability/<us>.png and mask/<us>.png
   std::filesystem::path log;      ///< the flight; empty: no pictures, and frame numbers are those of the maps
   std::string camera_channel = "CAMERA";  ///< of the log
+  int64_t frames = 0;                     ///< only the first so many of the recording; 0: all
 };
 
 /// How one labelled frame came out, by the mask that the method decided on.
@@ -35,6 +36,7 @@ struct ClipMeasures {
   PixelMeasures decided;    ///< of the mask, which is the method's own operating point
   ObjectMeasures objects;   ///< of the mask
   std::vector<FrameOutcome> frames;
+  int64_t frames_limit = 0;          ///< EvaluateOptions::frames
   int64_t truth_without_result = 0;  ///< labelled frames that the run has no map of; counted as empty maps
 };
 

@@ -73,6 +73,7 @@ void writeFrames(const std::filesystem::path& results, const ClipMeasures& clip)
 void writeMeasures(const std::filesystem::path& results, const ClipMeasures& clip) {
   writeFrames(results, clip);
   writeJson(results / "measures.json", {{"clip", clip.name},
+                                        {"frames_limit", clip.frames_limit},
                                         {"truth_without_result", clip.truth_without_result},
                                         {"pixels", pixelJson(clip)},
                                         {"objects", objectJson(clip)}});

@@ -70,6 +70,15 @@ TEST_F(ComparisonTest, FramerateIsAllFramesOverAllTime) {
   EXPECT_NE(text().find("ours        26.7"), std::string::npos) << text();  // 400 frames in 15 s
 }
 
+TEST_F(ComparisonTest, AMethodThatSawLessOfTheClipsIsTold) {
+  writeCell("flown/a/calibrated/ours", "0.2", "0.8");
+  writeCell("flown/a/calibrated/old", "0.2", "0.8");
+  writeText(folder_ / "cells/flown/a/calibrated/old/measures.json",
+            R"({"frames_limit": 40, "pixels": {"error_at_half_recall": 0.2, "best_f1": 0.8}})");
+  EXPECT_NE(text().find("old: only the first 40 frames of each clip"), std::string::npos) << text();
+  EXPECT_EQ(text().find("ours: only"), std::string::npos) << text();
+}
+
 TEST_F(ComparisonTest, EveryMeasureIsInTheCsv) {
   writeCell("flown/a/calibrated/ours", "0.25", "0.5");
   EXPECT_NE(comparisonCsv(comparison()).find("flown,a,calibrated,ours,error_at_half_recall,0.25\n"),

@@ -11,10 +11,10 @@ namespace redbee {
 namespace {
 
 TEST(McdModel, MatchingBlockIsAveragedByAge) {
-  DualModel model{GreyGaussian{100, 100, 3}, GreyGaussian{0, 400, 0}};
+  DualModel model{GreyGaussian{100, 200, 3}, GreyGaussian{0, 400, 0}};
   updateDualModel(model, 104, 100, 108);
   EXPECT_FLOAT_EQ(model[0].mean, 101);  // 3/4 100 + 1/4 104
-  EXPECT_FLOAT_EQ(model[0].variance, 0.75F * 100 + 0.25F * 49) << "greatest (I - mean)^2 is (108 - 101)^2";
+  EXPECT_FLOAT_EQ(model[0].variance, 0.75F * 200 + 0.25F * 49) << "greatest (I - mean)^2 is (108 - 101)^2";
   EXPECT_FLOAT_EQ(model[0].age, 4);
   EXPECT_FLOAT_EQ(model[1].age, 0);
 }
@@ -47,20 +47,50 @@ TEST(McdModel, TheOlderCandidateReplacesTheBackground) {
   EXPECT_FLOAT_EQ(model[1].age, 0);
 }
 
+TEST(McdModel, ACandidateAsOldReplacesTheBackground) {
+  DualModel model{GreyGaussian{100, 50, 4}, GreyGaussian{200, 60, 4}};
+  const BlockBackground background = updateDualModel(model, 200, 200, 200);
+  EXPECT_FLOAT_EQ(model[0].mean, 200);
+  EXPECT_FLOAT_EQ(background.mean, 200) << "and this frame is judged against it already";
+  EXPECT_FLOAT_EQ(background.variance, 60);
+}
+
+TEST(McdModel, PixelsAreJudgedByTheMeanWithThemAndTheVarianceWithoutThem) {
+  DualModel model{GreyGaussian{100, 100, 3}, GreyGaussian{0, 400, 0}};
+  const BlockBackground background = updateDualModel(model, 104, 100, 108);
+  EXPECT_FLOAT_EQ(background.mean, 101);
+  EXPECT_FLOAT_EQ(background.variance, 100);
+  EXPECT_TRUE(background.judges);
+}
+
+TEST(McdModel, AYoungBackgroundDoesNotJudge) {
+  for (const float age : {0.5F, 1.0F, 1.5F}) {
+    DualModel model{GreyGaussian{100, 100, age}, GreyGaussian{0, 400, 0}};
+    EXPECT_EQ(updateDualModel(model, 104, 100, 108).judges, age > 1) << age;
+  }
+}
+
+TEST(McdModel, VarianceStartsAnewOnlyWhereNothingIsKnown) {
+  DualModel model{GreyGaussian{100, 900, 0.5F}, GreyGaussian{0, 400, 0}};
+  updateDualModel(model, 103, 103, 103);
+  EXPECT_FLOAT_EQ(model[0].mean, 103) << "less than one frame old";
+  EXPECT_NEAR(model[0].variance, 300, 1e-3) << "1/3 of 900 and 2/3 of 0";
+}
+
 TEST(McdModel, AgeAndVarianceAreBounded) {
-  DualModel model{GreyGaussian{100, 25, 30}, GreyGaussian{0, 400, 0}};
+  DualModel model{GreyGaussian{100, 100, 10}, GreyGaussian{0, 400, 0}};
   updateDualModel(model, 100, 100, 100);
-  EXPECT_FLOAT_EQ(model[0].age, 30);
-  EXPECT_FLOAT_EQ(model[0].variance, 25);
+  EXPECT_FLOAT_EQ(model[0].age, 10);
+  EXPECT_FLOAT_EQ(model[0].variance, 100);
 }
 
 TEST(McdModel, BlendCountsTheSpreadOfTheMeans) {
-  const GreyGaussian a{100, 40, 10};
-  const GreyGaussian b{120, 60, 20};
+  const GreyGaussian a{100, 40, 4};
+  const GreyGaussian b{120, 60, 8};
   const GreyGaussian blend = blendGaussians({a, b, {}, {}}, {0.25F, 0.75F, 0, 0});
   EXPECT_FLOAT_EQ(blend.mean, 115);
   EXPECT_FLOAT_EQ(blend.variance, 0.25F * (40 + 225) + 0.75F * (60 + 25));
-  EXPECT_FLOAT_EQ(blend.age, 17.5F);
+  EXPECT_FLOAT_EQ(blend.age, 7);
 }
 
 TEST(McdModel, BlendForgetsWhereTheVarianceIsLarge) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <random>
 #include <set>
 
 #include "rivals/datmo.hpp"
@@ -9,6 +10,7 @@
 #include "rivals/flow_clusters.hpp"
 #include "rivals/flow_residual.hpp"
 #include "rivals/graded_score.hpp"
+#include "rivals/picture_history.hpp"
 #include "rivals/registration.hpp"
 #include "rivals/trajectory_window.hpp"
 #include "tests/rivals/scene.hpp"
@@ -41,6 +43,44 @@ TEST(Registrar, UnrelatedPicturesAreNotRegistered) {
   cv::Mat noise(scene()[0].input.grey.size(), CV_8U);
   cv::RNG(5).fill(noise, cv::RNG::UNIFORM, 0, 255);
   EXPECT_FALSE(registrar.advance(noise));
+}
+
+TEST(Registrar, ATenthOfThePictureIsEnough) {
+  GridTracks tracks;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> anywhere(-12, 12);
+  for (const cv::Point2f& point : gridPoints({640, 480}, {32, 24})) {
+    const Eigen::Vector2d moved = transfer(trueStep(1), Eigen::Vector2d(point.x, point.y));
+    const bool follows = tracks.previous.size() % 10 == 0;
+    tracks.previous.push_back(point);
+    tracks.current.emplace_back(static_cast<float>(moved.x()) + (follows ? 0 : anywhere(random)),
+                                static_cast<float>(moved.y()) + (follows ? 0 : anywhere(random)));
+  }
+  tracks.sampled = tracks.previous.size();
+  const auto found = registerTracks(tracks);
+  ASSERT_TRUE(found);
+  Eigen::Matrix3d H;
+  cv::cv2eigen(*found, H);
+  EXPECT_LT(meanTransferError(H, trueStep(1), 640, 480), 1);
+}
+
+TEST(PictureHistory, TheOldestAnswersToTheNewest) {
+  const auto shift = [](double x) { return cv::Matx33d(1, 0, x, 0, 1, 0, 0, 0, 1); };
+  const auto picture = [](int grey) { return cv::Mat(2, 2, CV_8U, cv::Scalar(grey)); };
+  PictureHistory history(2);
+  EXPECT_TRUE(history.empty());
+  history.push(picture(1));
+  history.carry(shift(3));
+  EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 1);
+  EXPECT_EQ(history.oldestToNewest()(0, 2), 3);
+  history.push(picture(2));
+  history.carry(shift(4));
+  EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 1);
+  EXPECT_EQ(history.oldestToNewest()(0, 2), 7);
+  history.push(picture(3));
+  history.carry(shift(5));
+  EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 2) << "two are kept";
+  EXPECT_EQ(history.oldestToNewest()(0, 2), 9);
 }
 
 TEST(TrajectoryWindow, TracksFollowTheGround) {
