@@ -67,6 +67,19 @@ TEST_P(CanvasMargin, FollowsAPanAndKnowsWhatItHasNotSeen) {
   EXPECT_EQ(cv::countNonZero(verdict.foreground(cv::Rect(40, 20, 10, 10))), 100);
 }
 
+TEST(PictureCheck, RefusesNoiseAndKeepsANoisyScene) {
+  PictureCheck check{SegmentationParameters{}};
+  cv::RNG random(3);
+  cv::Mat noise(240, 320, CV_8U);
+  random.fill(noise, cv::RNG::UNIFORM, 0, 255);
+  EXPECT_FALSE(check.accepts(noise)) << "its neighbours have nothing to do with each other";
+  cv::Mat scene;
+  cv::GaussianBlur(noise, scene, cv::Size(), 2);
+  cv::Mat grain(scene.size(), CV_8U);
+  random.fill(grain, cv::RNG::UNIFORM, 0, 10);
+  EXPECT_TRUE(check.accepts(scene + grain)) << "a dark scene of little contrast, the sensor's grain on it";
+}
+
 TEST(PictureCheck, RefusesBlankAndFrozenPictures) {
   PictureCheck check{SegmentationParameters{}};
   const cv::Mat good = noise({64, 48}, 1, 120, 20);
