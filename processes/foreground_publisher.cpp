@@ -68,7 +68,7 @@ void ForegroundPublisher::publish(const image_t& picture, int64_t utime_previous
   foreground.height = output.mask.rows;
   foreground.probability = encodePng(output.probability);
   foreground.mask = encodePng(output.mask);
-  foreground.unknown = encodePng(output.unknown);
+  foreground.unknown = encodeBilevelPng(output.unknown);
   foreground.probability_size = static_cast<int32_t>(foreground.probability.size());
   foreground.mask_size = static_cast<int32_t>(foreground.mask.size());
   foreground.unknown_size = static_cast<int32_t>(foreground.unknown.size());

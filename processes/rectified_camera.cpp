@@ -5,17 +5,39 @@
 #include "messaging/picture.hpp"
 
 namespace redbee {
+namespace {
+
+/// The camera that takes pictures so much smaller.
+CameraIntrinsics shrunk(CameraIntrinsics camera, int downscale) {
+  camera.width /= downscale;
+  camera.height /= downscale;
+  camera.fx /= downscale;
+  camera.fy /= downscale;
+  camera.cx = (camera.cx + 0.5) / downscale - 0.5;
+  camera.cy = (camera.cy + 0.5) / downscale - 0.5;
+  return camera;
+}
+
+}  // namespace
+
+RectifiedCamera::RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale)
+    : camera_(intrinsics),
+      rectifier_(camera_),
+      downscale_(downscale),
+      picture_rectifier_(Camera(shrunk(intrinsics, downscale))) {}
 
 IdealPicture RectifiedCamera::ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const {
-  const cv::Mat picture = (wants_colour ? decodeColour(message) : decodeGrey(message)).value_or(cv::Mat());
+  const cv::Mat picture = (wants_colour ? decodeColour(message, downscale_) : decodeGrey(message, downscale_))
+                              .value_or(cv::Mat());
   if (picture.empty()) health.noteDamaged();
-  if (picture.cols != camera_.intrinsics().width || picture.rows != camera_.intrinsics().height) return {};
+  const cv::Size wanted(camera_.intrinsics().width / downscale_, camera_.intrinsics().height / downscale_);
+  if (picture.size() != wanted) return {};
   IdealPicture ideal;
   if (wants_colour) {
-    ideal.colour = rectifier_.toIdeal(picture);
+    ideal.colour = picture_rectifier_.toIdeal(picture);
     cv::cvtColor(ideal.colour, ideal.grey, cv::COLOR_BGR2GRAY);
   } else {
-    ideal.grey = rectifier_.toIdeal(picture);
+    ideal.grey = picture_rectifier_.toIdeal(picture);
   }
   return ideal;
 }

@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// Undistorted; both empty where there is no picture.
+/// Undistorted; both empty where there is no picture. As much smaller than the camera's as was asked for.
 struct IdealPicture {
   cv::Mat grey;    ///< CV_8U
   cv::Mat colour;  ///< CV_8UC3, BGR; empty unless asked for
@@ -18,16 +18,20 @@ struct IdealPicture {
 
 class RectifiedCamera {
  public:
-  explicit RectifiedCamera(const CameraIntrinsics& intrinsics) : camera_(intrinsics), rectifier_(camera_) {}
+  /// `downscale`: 1, 2 or 4, how much smaller ideal() makes pictures; it divides the camera's sides.
+  explicit RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale = 1);
 
   const Camera& camera() const { return camera_; }
   const Rectifier& rectifier() const { return rectifier_; }
+  int downscale() const { return downscale_; }
   /// Empty for a picture that is damaged (`health` is told) or not of the camera's size.
   IdealPicture ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const;
 
  private:
   Camera camera_;
   Rectifier rectifier_;
+  int downscale_;
+  Rectifier picture_rectifier_;  ///< of the pictures that ideal() makes
 };
 
 }  // namespace redbee

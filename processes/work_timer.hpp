@@ -1,8 +1,9 @@
-// How long the work on one frame took. For the figures only: no answer depends on it.
+// What the work on one frame took. For the figures only: no answer depends on it.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 
 #include "messaging/health.hpp"
 
@@ -18,14 +19,44 @@ class WorkTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Processor time of this thread: unlike wall time it is the same on a busy machine, or nearly.
+class CpuTimer {
+ public:
+  /// From here on the frame's answer is known, and is only made into messages.
+  void answered() { answered_ = now(); }
+  CpuShare share() const {
+    const double end = now();
+    const double answered = answered_ > 0 ? answered_ : end;
+    return {answered - start_, end - answered};
+  }
+
+ private:
+  static double now() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  }
+
+  double start_ = now();
+  double answered_ = 0;
+};
+
+/// Of the work on one frame, from when it was its turn.
+struct FrameTimers {
+  WorkTimer wall;
+  CpuTimer cpu;
+};
+
 /// The configuration's seconds in the messages' unit.
 inline int64_t microseconds(double seconds) { return static_cast<int64_t>(seconds * 1e6); }
 
-/// `arrival`: since the frame was taken in; `work`: since it was its turn.
-inline void noteDone(HealthMonitor& health, int64_t utime, const WorkTimer& arrival, const WorkTimer& work) {
+/// `arrival`: since the frame was taken in.
+inline void noteDone(HealthMonitor& health, int64_t utime, const WorkTimer& arrival,
+                     const FrameTimers& timers) {
   health.notePublished(utime);
   health.noteLatency(arrival.milliseconds());
-  health.noteWork(work.milliseconds());
+  health.noteWork(timers.wall.milliseconds());
+  health.noteCpu(timers.cpu.share());
 }
 
 /// Something that waits for its turn.

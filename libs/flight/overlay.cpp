@@ -26,11 +26,22 @@ void putLabel(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::
   cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, kScale, colour, 1, cv::LINE_AA);
 }
 
+cv::Vec3b tinted(const cv::Vec3b& pixel) {
+  cv::Vec3b mixed;
+  for (int i = 0; i < 3; ++i) mixed[i] = cv::saturate_cast<uint8_t>(0.6 * pixel[i] + 0.4 * kMaskColour[i]);
+  return mixed;
+}
+
 void drawMask(cv::Mat& canvas, const cv::Mat& mask) {
   if (mask.empty() || mask.size() != canvas.size()) return;
-  cv::Mat tinted;
-  cv::addWeighted(canvas, 0.6, cv::Mat(canvas.size(), CV_8UC3, kMaskColour), 0.4, 0, tinted);
-  tinted.copyTo(canvas, mask);
+  // By hand: OpenCV would tint the whole picture first, and a mask covers little of it.
+  for (int y = 0; y < canvas.rows; ++y) {
+    const uint8_t* marked = mask.ptr(y);
+    auto* pixels = canvas.ptr<cv::Vec3b>(y);
+    for (int x = 0; x < canvas.cols; ++x) {
+      if (marked[x] != 0) pixels[x] = tinted(pixels[x]);
+    }
+  }
   std::vector<std::vector<cv::Point>> outlines;
   cv::findContours(mask, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   cv::drawContours(canvas, outlines, -1, kMaskColour, 1);

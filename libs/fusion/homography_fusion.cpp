@@ -62,6 +62,10 @@ const char* toString(FusionSource source) {
   return "unknown";
 }
 
+double visualNoiseRatio(int inliers, int outliers) {
+  return 1.0 + static_cast<double>(outliers) / std::max(1, inliers);
+}
+
 FusionParameters::FusionParameters() {
   paper_Q << 1e-2, 1e-2, 1, 1e-2, 1e-2, 1, 1e-2, 1e-2;
   paper_P0 << 1e-3, 1e-3, 1e-4, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3;
@@ -161,7 +165,7 @@ HomographyFusion::Sources HomographyFusion::anchorSources(const std::optional<In
     if (step) sources.inertial = ontoAnchor(*step, parameters_.paper_Q);
   }
   if (visual && visual->inliers > 0 && visual->outliers >= 0) {
-    const double ratio = 1.0 + static_cast<double>(visual->outliers) / visual->inliers;  // equation 7
+    const double ratio = visualNoiseRatio(visual->inliers, visual->outliers);
     std::optional<Estimate> step = stepFrom(visual->utime_previous, visual->H,
                                             parameters_.visual_inflation * ratio * visual->covariance);
     if (step) sources.visual = ontoAnchor(*step, ratio * parameters_.paper_P0);

@@ -55,6 +55,9 @@ struct VisualInput {
   int outliers = 0;
 };
 
+/// 1 + outliers / inliers: what vision's noise grows by (equation 7).
+double visualNoiseRatio(int inliers, int outliers);
+
 enum class FusionSource { kNone, kInertial, kVisual, kFused };
 const char* toString(FusionSource source);
 

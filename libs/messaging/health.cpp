@@ -113,6 +113,11 @@ void HealthMonitor::noteWork(double milliseconds) {
   ++work_count_;
 }
 
+void HealthMonitor::noteCpu(const CpuShare& share) {
+  cpu_.work += share.work;
+  cpu_.publishing += share.publishing;
+}
+
 void HealthMonitor::setState(HealthState state, const std::string& message) {
   changed_ = changed_ || state != state_ || message != state_message_;
   state_ = state;

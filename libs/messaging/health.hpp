@@ -68,6 +68,13 @@ const char* toString(HealthState state);
 /// Nothing for a word that names no state.
 std::optional<HealthState> healthStateOf(const std::string& name);
 
+/// Processor time [ms] that a frame took: until its answer was known (decoding included), and to make it into
+/// messages and publish them.
+struct CpuShare {
+  double work = 0;
+  double publishing = 0;
+};
+
 /// Collects what process_health_t tells. One per node, used by its one thread.
 class HealthMonitor {
  public:
@@ -90,6 +97,7 @@ class HealthMonitor {
   void noteLatency(double milliseconds) { latency_.note(milliseconds); }
   /// Wall time of the work on one frame, waiting left out [ms].
   void noteWork(double milliseconds);
+  void noteCpu(const CpuShare& share);
 
   /// `message`: one line that says why, empty when all is well. A change of either is a change to tell at
   /// once.
@@ -118,6 +126,10 @@ class HealthMonitor {
   double latencyP99() const { return latency_.percentile(0.99); }
   double workMedian() const { return work_.percentile(0.5); }
   double workP99() const { return work_.percentile(0.99); }
+
+  /// Sum over all frames [ms].
+  const CpuShare& cpu() const { return cpu_; }
+  const std::string& process() const { return process_; }
 
   /// The message to publish now; each has the next sequence number.
   process_health_t nextMessage();
@@ -149,6 +161,7 @@ class HealthMonitor {
   LatencyWindow work_;
   double work_sum_ = 0;
   int64_t work_count_ = 0;
+  CpuShare cpu_;
 };
 
 /// Resident memory of this process [bytes]; 0 where /proc does not tell.

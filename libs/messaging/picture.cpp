@@ -13,11 +13,27 @@ bool plausibleSize(const image_t& message) {
          message.size >= 0 && static_cast<size_t>(message.size) == message.data.size();
 }
 
-std::optional<cv::Mat> decodeJpeg(const image_t& message, int flags) {
+bool canShrink(const image_t& message, int downscale) {
+  return (downscale == 1 || downscale == 2 || downscale == 4) && message.width % downscale == 0 &&
+         message.height % downscale == 0;
+}
+
+int jpegFlags(bool colour, int downscale) {
+  switch (downscale) {
+    case 2:
+      return colour ? cv::IMREAD_REDUCED_COLOR_2 : cv::IMREAD_REDUCED_GRAYSCALE_2;
+    case 4:
+      return colour ? cv::IMREAD_REDUCED_COLOR_4 : cv::IMREAD_REDUCED_GRAYSCALE_4;
+    default:
+      return colour ? cv::IMREAD_COLOR : cv::IMREAD_GRAYSCALE;
+  }
+}
+
+std::optional<cv::Mat> decodeJpeg(const image_t& message, bool colour, int downscale) {
   const auto declared = jpegSize(message.data.data(), message.data.size());
   if (!declared || *declared != cv::Size(message.width, message.height)) return std::nullopt;
-  cv::Mat decoded = cv::imdecode(message.data, flags);
-  if (decoded.size() != *declared) return std::nullopt;
+  cv::Mat decoded = cv::imdecode(message.data, jpegFlags(colour, downscale));
+  if (decoded.size() != *declared / downscale) return std::nullopt;
   return decoded;
 }
 
@@ -33,7 +49,7 @@ std::optional<cv::Mat> viewRaw(const image_t& message, int channels) {
                  static_cast<size_t>(message.row_stride));
 }
 
-std::optional<cv::Mat> convertRaw(const image_t& message, int channels, int code) {
+std::optional<cv::Mat> convertRaw(const image_t& message, int channels, int code, int downscale) {
   const auto view = viewRaw(message, channels);
   if (!view) return std::nullopt;
   cv::Mat converted;
@@ -42,6 +58,7 @@ std::optional<cv::Mat> convertRaw(const image_t& message, int channels, int code
   } else {
     cv::cvtColor(*view, converted, code);
   }
+  if (downscale > 1) cv::resize(converted, converted, view->size() / downscale, 0, 0, cv::INTER_AREA);
   return converted;
 }
 
@@ -61,33 +78,36 @@ std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size) {
   return std::nullopt;
 }
 
-std::optional<cv::Mat> decodeGrey(const image_t& message) {
-  if (!plausibleSize(message)) return std::nullopt;
+std::optional<cv::Mat> decodeGrey(const image_t& message) { return decodeGrey(message, 1); }
+std::optional<cv::Mat> decodeColour(const image_t& message) { return decodeColour(message, 1); }
+
+std::optional<cv::Mat> decodeGrey(const image_t& message, int downscale) {
+  if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
   switch (message.pixelformat) {
     case kGray:
-      return convertRaw(message, 1, -1);
+      return convertRaw(message, 1, -1, downscale);
     case kRgb:
-      return convertRaw(message, 3, cv::COLOR_RGB2GRAY);
+      return convertRaw(message, 3, cv::COLOR_RGB2GRAY, downscale);
     case kBgr:
-      return convertRaw(message, 3, cv::COLOR_BGR2GRAY);
+      return convertRaw(message, 3, cv::COLOR_BGR2GRAY, downscale);
     case kMjpeg:
-      return decodeJpeg(message, cv::IMREAD_GRAYSCALE);
+      return decodeJpeg(message, false, downscale);
     default:
       return std::nullopt;
   }
 }
 
-std::optional<cv::Mat> decodeColour(const image_t& message) {
-  if (!plausibleSize(message)) return std::nullopt;
+std::optional<cv::Mat> decodeColour(const image_t& message, int downscale) {
+  if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
   switch (message.pixelformat) {
     case kGray:
-      return convertRaw(message, 1, cv::COLOR_GRAY2BGR);
+      return convertRaw(message, 1, cv::COLOR_GRAY2BGR, downscale);
     case kRgb:
-      return convertRaw(message, 3, cv::COLOR_RGB2BGR);
+      return convertRaw(message, 3, cv::COLOR_RGB2BGR, downscale);
     case kBgr:
-      return convertRaw(message, 3, -1);
+      return convertRaw(message, 3, -1, downscale);
     case kMjpeg:
-      return decodeJpeg(message, cv::IMREAD_COLOR);
+      return decodeJpeg(message, true, downscale);
     default:
       return std::nullopt;
   }
@@ -124,6 +144,12 @@ std::vector<uint8_t> encodePng(const cv::Mat& map) {
   std::vector<uint8_t> bytes;
   // Without parameters OpenCV writes for speed; naming any level makes libpng try every filter on every row.
   cv::imencode(".png", map, bytes);
+  return bytes;
+}
+
+std::vector<uint8_t> encodeBilevelPng(const cv::Mat& map) {
+  std::vector<uint8_t> bytes;
+  cv::imencode(".png", map, bytes, {cv::IMWRITE_PNG_BILEVEL, 1});
   return bytes;
 }
 

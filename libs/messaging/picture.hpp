@@ -25,6 +25,10 @@ std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size);
 /// short: sizes are compared with the header's before anything is decoded.
 std::optional<cv::Mat> decodeGrey(const image_t& message);
 std::optional<cv::Mat> decodeColour(const image_t& message);
+/// The same at a size 1, 2 or 4 times smaller, which must divide the picture's. A JPEG is not decoded to its
+/// full size first: at half size it costs half.
+std::optional<cv::Mat> decodeGrey(const image_t& message, int downscale);
+std::optional<cv::Mat> decodeColour(const image_t& message, int downscale);
 
 image_t rawGreyMessage(int64_t utime, const cv::Mat& grey);
 /// `picture`: grey or BGR.
@@ -32,5 +36,7 @@ image_t jpegMessage(int64_t utime, const cv::Mat& picture, int quality);
 
 /// 8-bit single-channel PNG, made for speed: maps with few values shrink to a few hundred bytes.
 std::vector<uint8_t> encodePng(const cv::Mat& map);
+/// PNG of one bit a pixel, for a map of 0 and 255.
+std::vector<uint8_t> encodeBilevelPng(const cv::Mat& map);
 
 }  // namespace redbee

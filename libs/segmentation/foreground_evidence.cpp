@@ -29,12 +29,13 @@ void ForegroundEvidence::carry(const Eigen::Matrix3d& ground, const std::optiona
                                 motion, to_background_ * K));
 }
 
-cv::Mat ForegroundEvidence::pictureToCompare(const cv::Mat& grey, const cv::Mat& colour) const {
+cv::Mat ForegroundEvidence::pictureToCompare(const cv::Mat& grey, const cv::Mat& colour,
+                                             cv::Size full) const {
   cv::Mat picture = colour;
   if (picture.empty()) cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
   cv::Mat small;
-  const double scale = 1.0 / std::max(parameters_.background_downscale, 1);
-  cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(picture, small, shrunkSize(full, std::max(parameters_.background_downscale, 1)), 0, 0,
+             cv::INTER_AREA);
   // The noise of single pixels and of JPEG's blocks.
   constexpr double kSigmaPx = 0.6;
   cv::GaussianBlur(small, small, {3, 3}, kSigmaPx);
@@ -42,17 +43,18 @@ cv::Mat ForegroundEvidence::pictureToCompare(const cv::Mat& grey, const cv::Mat&
 }
 
 ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::Mat& grey,
-                                                      const cv::Mat& colour, const Eigen::Matrix3d& K) {
+                                                      const cv::Mat& colour, const Eigen::Matrix3d& K,
+                                                      cv::Size full) {
   const double elapsed_s = static_cast<double>(utime - last_utime_) * 1e-6;
   last_utime_ = utime;
   Verdict verdict;
-  const cv::Mat motion = motion_.learn(utime, grey, K);
+  const cv::Mat motion = motion_.learn(utime, grey, K, full);
   if (!motion.empty()) {
     cv::sqrt(motion, verdict.foreground);
-    cv::resize(motion_.unseen(), verdict.unseen, grey.size(), 0, 0, cv::INTER_NEAREST);
+    cv::resize(motion_.unseen(), verdict.unseen, full, 0, 0, cv::INTER_NEAREST);
   }
   if (parameters_.use_appearance) {
-    const cv::Mat picture = pictureToCompare(grey, colour);
+    const cv::Mat picture = pictureToCompare(grey, colour, full);
     cv::Mat moving = cv::Mat::zeros(picture.size(), CV_32F);
     if (!motion.empty()) {
       cv::resize(verdict.foreground, verdict.foreground, picture.size(), 0, 0, cv::INTER_LINEAR);
@@ -62,8 +64,7 @@ ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::M
     }
     background_.learn(picture, moving, elapsed_s);
   }
-  if (!motion.empty())
-    cv::resize(verdict.foreground, verdict.foreground, grey.size(), 0, 0, cv::INTER_LINEAR);
+  if (!motion.empty()) cv::resize(verdict.foreground, verdict.foreground, full, 0, 0, cv::INTER_LINEAR);
   return verdict;
 }
 

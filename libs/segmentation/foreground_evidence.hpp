@@ -26,11 +26,13 @@ class ForegroundEvidence {
     cv::Mat foreground;  ///< CV_32F, 0..1, full size; empty where there is no earlier frame
     cv::Mat unseen;      ///< CV_8U, 255 where no earlier frame shows the scene
   };
-  /// `grey`: CV_8U, `colour`: CV_8UC3 of the same size, or empty where the camera has none.
-  Verdict learn(int64_t utime, const cv::Mat& grey, const cv::Mat& colour, const Eigen::Matrix3d& K);
+  /// `grey`: CV_8U, `colour`: CV_8UC3 of the same size, or empty where the camera has none. `full`: the full
+  /// size, which both may be smaller than.
+  Verdict learn(int64_t utime, const cv::Mat& grey, const cv::Mat& colour, const Eigen::Matrix3d& K,
+                cv::Size full);
 
  private:
-  cv::Mat pictureToCompare(const cv::Mat& grey, const cv::Mat& colour) const;
+  cv::Mat pictureToCompare(const cv::Mat& grey, const cv::Mat& colour, cv::Size full) const;
 
   SegmentationParameters parameters_;
   Eigen::Matrix3d to_background_;  ///< full-size pixels to the background's

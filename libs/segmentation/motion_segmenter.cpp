@@ -39,10 +39,10 @@ class MotionSegmenter::Implementation {
   SegmentationOutput step(const SegmentationInput& input) {
     const bool continues = followsOn(input);
     const bool is_first = last_utime_ == kNever;
-    if (!input.grey.empty() && input.grey.size() != size_) {
+    if (!input.grey.empty() && sizeOf(input) != size_) {
       tracker_.reset();
       picture_check_.reset();
-      size_ = input.grey.size();
+      size_ = sizeOf(input);
     }
     last_utime_ = input.utime;
     if (continues) {
@@ -75,9 +75,13 @@ class MotionSegmenter::Implementation {
  private:
   static constexpr int64_t kNever = INT64_MIN;
 
+  static cv::Size sizeOf(const SegmentationInput& input) {
+    return input.size.empty() ? input.grey.size() : input.size;
+  }
+
   bool followsOn(const SegmentationInput& input) const {
     return last_utime_ != kNever && input.utime > last_utime_ && input.utime_previous == last_utime_ &&
-           input.grey.size() == size_ && input.ground && isUsableHomography(*input.ground);
+           sizeOf(input) == size_ && input.ground && isUsableHomography(*input.ground);
   }
 
   void forget() {
@@ -118,7 +122,7 @@ class MotionSegmenter::Implementation {
       verdict.foreground.convertTo(foreground, CV_32F, 1.0 / 255);
     } else {
       const ForegroundEvidence::Verdict found =
-          evidence_.learn(input.utime, input.grey, input.colour, input.K);
+          evidence_.learn(input.utime, input.grey, input.colour, input.K, size_);
       foreground = found.foreground.empty() ? cv::Mat::zeros(size_, CV_32F) : found.foreground;
       verdict.unknown = found.unseen.empty() ? output.unknown : found.unseen;
     }

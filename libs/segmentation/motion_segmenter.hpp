@@ -28,8 +28,9 @@ const char* toString(SegmentationStatus status);
 struct SegmentationInput {
   int64_t utime_previous = 0;
   int64_t utime = 0;
-  cv::Mat grey;                                     ///< CV_8U
-  cv::Mat colour;                                   ///< CV_8UC3 (BGR) of the same picture; may be empty
+  cv::Size size;   ///< of the picture that homographies, points and answer are of; empty: grey's
+  cv::Mat grey;    ///< CV_8U; kParallax: may be smaller than `size`, as the work and the background are
+  cv::Mat colour;  ///< CV_8UC3 (BGR) of the same picture; may be empty
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix, for `motion`
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current
   std::optional<Eigen::Matrix3d> front;             ///< the second plane's; nothing where there is none

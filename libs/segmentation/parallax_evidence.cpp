@@ -49,9 +49,9 @@ void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<
   frames_.carry(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
 }
 
-cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K) {
+cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K, cv::Size full) {
   cv::Mat small;
-  cv::resize(grey, small, {}, 1 / scale_, 1 / scale_, cv::INTER_AREA);
+  cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::Mat found;
   if (frames_.newest() != nullptr) found = evidence(small, work_ * K, utime);
   if (small.data == grey.data) small = grey.clone();

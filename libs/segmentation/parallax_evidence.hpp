@@ -31,8 +31,8 @@ class ParallaxEvidence {
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
              const std::optional<PlaneMotion>& motion);
   /// Evidence of motion per pixel of the work, CV_32F 0..1; empty where there is no earlier frame. Remembers
-  /// the picture (CV_8U, full size).
-  cv::Mat learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K);
+  /// the picture (CV_8U, `full` or smaller).
+  cv::Mat learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K, cv::Size full);
 
   /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
   const cv::Mat& unseen() const { return unseen_; }

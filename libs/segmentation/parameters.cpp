@@ -6,6 +6,7 @@ SegmentationParameters paperSegmentation() {
   SegmentationParameters parameters;
   parameters.method = SegmentationMethod::kTwoPlanes;
   parameters.use_refinement = true;
+  parameters.sample_grid_px = 16;  // and its tracks are as far apart
   parameters.confirm_frames = 1;
   parameters.threshold = 0.5;  // the paper names none
   return parameters;

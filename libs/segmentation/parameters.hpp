@@ -49,7 +49,7 @@ struct SegmentationParameters {
   double beta = 0.4;            ///< spatial learning rate (14)
   double gamma = 0.6;           ///< entropy learning rate (15)
   int spatial_window_px = 9;    ///< px, odd: side w of the neighbourhood in (14)
-  int sample_grid_px = 16;      ///< px between the sample points of the tracks
+  int sample_grid_px = 24;      ///< px between the sample points of the tracks
   int entropy_cell_points = 4;  ///< sample points to a side of an entropy cell (12)
   int entropy_bins = 12;        ///< directions (12)
   double entropy_floor =

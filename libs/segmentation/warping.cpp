@@ -33,6 +33,10 @@ Eigen::Matrix3d downscaling(double downscale) {
   return to_small;
 }
 
+cv::Size shrunkSize(cv::Size full, double downscale) {
+  return {cvRound(full.width / downscale), cvRound(full.height / downscale)};
+}
+
 SceneMotion::SceneMotion(const Eigen::Matrix3d& ground_homography, const std::optional<PlaneMotion>& motion,
                          const Eigen::Matrix3d& K)
     : ground(ground_homography), far(ground_homography), horizon(0, 0, 1) {

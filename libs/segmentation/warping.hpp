@@ -24,6 +24,8 @@ bool isUsableHomography(const Eigen::Matrix3d& H);
 /// Full-size pixels to those of a picture `downscale` times smaller: a pixel of it is the mean of a block, so
 /// its centre lies between theirs.
 Eigen::Matrix3d downscaling(double downscale);
+/// That picture's size.
+cv::Size shrunkSize(cv::Size full, double downscale);
 
 /// How a scene of ground up to the horizon, and of things infinitely far away above it, moves in the picture
 /// from an earlier frame to the current one. Without a camera motion all of it is ground.

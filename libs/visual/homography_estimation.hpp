@@ -3,32 +3,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
 #include "geometry/homography.hpp"
 #include "visual/point_tracker.hpp"
+#include "visual/ransac.hpp"
 
 namespace redbee {
-
-struct RansacParameters {
-  double inlier_px = 1.0;  ///< px: transfer error below which a point follows the plane
-  int max_iterations = 400;
-  double confidence = 0.999;      ///< of having drawn one clean sample
-  int min_inliers = 40;           ///< fewer is no plane
-  double min_inlier_share = 0.0;  ///< of all correspondences
-  double min_spread = 0.02;       ///< of the picture's area: what the inliers' grid cells must cover
-  uint32_t seed = 1;              ///< of the sampler: the same input gives the same output
-};
-
-/// Neighbouring patches overlap, share noise and bias (interpolation, compression, relief), and so err
-/// together; what the fit has swallowed of that does not show in its residuals. The covariance of independent
-/// errors is enlarged by this factor: about right (median normalised error at most that of chi-square with 8
-/// degrees of freedom) for rendered flights over flat ground. Where relief makes whole blocks of residuals
-/// err as one, the factor is measured and larger. What the fit has swallowed of a facade taken for ground, no
-/// residual shows.
-inline constexpr double kCorrelationInflation = 6.0;
 
 struct HomographyEstimate {
   Eigen::Matrix3d H;    ///< previous to current, ideal pixels, h33 = 1

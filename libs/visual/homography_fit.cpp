@@ -6,52 +6,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "visual/normal_equations.hpp"
+
 namespace redbee {
 namespace {
 
-constexpr float kFar = 1e6F;
-
-struct NormalEquations {
-  Matrix8d information = Matrix8d::Zero();
-  Vector8d gradient = Vector8d::Zero();
-  double cost = 0;               ///< Huber
-  double influence_squares = 0;  ///< sum of (w r)^2
-  double weights = 0;            ///< sum of w
-  double slopes = 0;             ///< sum of the influence function's slope, mean of the two directions
-  int pairs = 0;
-};
+/// A step shorter than this moves no point of the picture by a thousandth of a pixel (scaled units, 640 px).
+constexpr double kSettled = 1e-6;
 
 /// What to multiply (J' W J)^-1 with for the estimate's covariance (Huber, Robust Statistics, 7.6): E[psi^2]
 /// / E[psi']^2 belongs to (J'J)^-1, and W brings in its mean.
-double varianceOf(const NormalEquations& equations) {
-  const double influence = equations.influence_squares / std::max(2 * equations.pairs - 8, 1);
-  const double slope = equations.slopes / equations.pairs;
-  return influence * (equations.weights / equations.pairs) / (slope * slope);
+double varianceOf(const NormalEquations& equations, int pairs) {
+  const double influence = equations.influence_squares / std::max(2 * pairs - 8, 1);
+  const double slope = equations.slopes / pairs;
+  return influence * (equations.weights / pairs) / (slope * slope);
 }
 
-double huberCost(double squared, double knee) {
-  return squared <= knee * knee ? 0.5 * squared : knee * (std::sqrt(squared) - 0.5 * knee);
-}
-
-NormalEquations linearise(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen,
-                          const Eigen::Matrix3d& H, double knee, const FitPrior* prior) {
-  NormalEquations equations;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!chosen[i]) continue;
-    const Eigen::Vector2d a = pairs.previous(i);
-    const Eigen::Vector2d residual = pairs.current(i) - transfer(H, a);
-    const Eigen::Matrix<double, 2, 8> J = transferJacobian(H, a);
-    const double squared = residual.squaredNorm();
-    const double weight = squared <= knee * knee ? 1.0 : knee / std::sqrt(squared);
-    equations.information.noalias() += weight * J.transpose() * J;
-    equations.gradient.noalias() += weight * J.transpose() * residual;
-    equations.cost += huberCost(squared, knee);
-    equations.influence_squares += weight * weight * squared;
-    equations.weights += weight;
-    // Beyond the knee the influence keeps its length: it only turns with the residual's direction.
-    equations.slopes += weight < 1 ? 0.5 * weight : 1.0;
-    ++equations.pairs;
-  }
+NormalEquations linearise(const PackedPairs& pairs, const Eigen::Matrix3d& H, double knee,
+                          const FitPrior* prior) {
+  NormalEquations equations = pairs.linearise(H, knee);
   if (prior) {
     const Vector8d difference = prior->mean - toVector(H);
     equations.information += prior->information;
@@ -86,30 +59,6 @@ bool isWellPosed(const std::array<Eigen::Vector2d, 4>& a, const std::array<Eigen
 
 }  // namespace
 
-ScaledPairs::ScaledPairs(const PointTracks& tracks, const ImageScaling& scaling) {
-  const auto scaleX = [&](float x) { return static_cast<float>(scaling.T(0, 0) * x + scaling.T(0, 2)); };
-  const auto scaleY = [&](float y) { return static_cast<float>(scaling.T(1, 1) * y + scaling.T(1, 2)); };
-  for (std::size_t i = 0; i < tracks.previous.size(); ++i) {
-    ax.push_back(scaleX(tracks.previous[i].x));
-    ay.push_back(scaleY(tracks.previous[i].y));
-    bx.push_back(scaleX(tracks.current[i].x));
-    by.push_back(scaleY(tracks.current[i].y));
-  }
-}
-
-void squaredErrors(const ScaledPairs& pairs, const Eigen::Matrix3d& H, std::vector<float>& squared) {
-  const Eigen::Matrix3f h = H.cast<float>();
-  squared.resize(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const float x = pairs.ax[i], y = pairs.ay[i];
-    const float w = h(2, 0) * x + h(2, 1) * y + h(2, 2);
-    const float depth = w > 1e-6F ? w : 1e-6F;
-    const float ex = (h(0, 0) * x + h(0, 1) * y + h(0, 2)) / depth - pairs.bx[i];
-    const float ey = (h(1, 0) * x + h(1, 1) * y + h(1, 2)) / depth - pairs.by[i];
-    squared[i] = w > 1e-6F ? ex * ex + ey * ey : kFar;
-  }
-}
-
 std::optional<Eigen::Matrix3d> homographyThroughFour(const ScaledPairs& pairs,
                                                      const std::array<std::size_t, 4>& sample) {
   std::array<Eigen::Vector2d, 4> a, b;
@@ -126,24 +75,26 @@ std::optional<Eigen::Matrix3d> homographyThroughFour(const ScaledPairs& pairs,
 std::optional<LeastSquares> fitHomography(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen,
                                           const Eigen::Matrix3d& start, double knee, int iterations,
                                           const FitPrior* prior) {
+  const PackedPairs packed(pairs, chosen);
+  if (packed.size() < 5) return std::nullopt;
   Vector8d h = toVector(start);
-  NormalEquations equations = linearise(pairs, chosen, start, knee, prior);
-  if (equations.pairs < 5 || !std::isfinite(equations.cost)) return std::nullopt;
+  NormalEquations equations = linearise(packed, start, knee, prior);
+  if (!std::isfinite(equations.cost)) return std::nullopt;
   double damping = 1e-6;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     Matrix8d damped = equations.information;
     damped.diagonal() *= 1 + damping;
     const Vector8d step = damped.ldlt().solve(equations.gradient);
     if (!step.allFinite()) return std::nullopt;
-    const NormalEquations next = linearise(pairs, chosen, fromVector(h + step), knee, prior);
+    const NormalEquations next = linearise(packed, fromVector(h + step), knee, prior);
     if (next.cost <= equations.cost) {
       h += step;
       equations = next;
       damping *= 0.1;
-      if (step.norm() < 1e-9) break;
     } else {
       damping = std::max(1e-4, damping * 10);
     }
+    if (step.norm() < kSettled) break;
   }
   const Eigen::LDLT<Matrix8d> factors(equations.information);
   if (factors.info() != Eigen::Success || !factors.isPositive() || factors.rcond() < 1e-12)
@@ -152,7 +103,7 @@ std::optional<LeastSquares> fitHomography(const ScaledPairs& pairs, const std::v
   fit.H = fromVector(h);
   fit.inverse_information = factors.solve(Matrix8d::Identity());
   fit.inverse_information = 0.5 * (fit.inverse_information + fit.inverse_information.transpose()).eval();
-  fit.variance = varianceOf(equations);
+  fit.variance = varianceOf(equations, packed.size());
   return fit;
 }
 

@@ -1,5 +1,5 @@
-// The pieces that the robust estimation is made of: residuals, the minimal solution, least squares.
-// Everything here is in scaled coordinates (geometry/homography.hpp, ImageScaling).
+// The pieces that the robust estimation is made of: the minimal solution and least squares. Everything here
+// is in scaled coordinates (geometry/homography.hpp, ImageScaling).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,24 +9,9 @@
 #include <vector>
 
 #include "geometry/homography.hpp"
-#include "visual/point_tracker.hpp"
+#include "visual/scaled_pairs.hpp"
 
 namespace redbee {
-
-/// Point pairs, scaled, each coordinate on its own so that loops over them vectorise.
-struct ScaledPairs {
-  ScaledPairs(const PointTracks& tracks, const ImageScaling& scaling);
-
-  std::size_t size() const { return ax.size(); }
-  Eigen::Vector2d previous(std::size_t i) const { return {ax[i], ay[i]}; }
-  Eigen::Vector2d current(std::size_t i) const { return {bx[i], by[i]}; }
-
-  std::vector<float> ax, ay, bx, by;
-};
-
-/// Squared transfer error of every pair into `squared`; huge where H sends a point to infinity or behind the
-/// camera.
-void squaredErrors(const ScaledPairs& pairs, const Eigen::Matrix3d& H, std::vector<float>& squared);
 
 /// The homography through four pairs (Hartley and Zisserman, 2nd ed., 4.1.1, by way of the projective basis);
 /// nothing where three points are nearly in a line or the pairs turn the quadrilateral over, which no plane

@@ -16,7 +16,7 @@ struct SamplePlace {
     const double fx = centre.x() - floor_x;
     const double fy = centre.y() - floor_y;
     constexpr int kOne = 1 << BilinearWeights::kWeightBits;
-    const auto fixed = [](double w) { return static_cast<int16_t>(std::lround(w * kOne)); };
+    const auto fixed = [](double w) { return static_cast<int16_t>(w * kOne + 0.5); };  // w is not negative
     weights.top_left = fixed((1 - fx) * (1 - fy));
     weights.top_right = fixed(fx * (1 - fy));
     weights.bottom_left = fixed((1 - fx) * fy);
@@ -55,67 +55,70 @@ struct PatchTemplate<Lanes>::Moments {
 
 template <typename Lanes>
 void PatchTemplate<Lanes>::take(const PyramidLevel& level, int x, int y) {
+  solve(cut(level, x, y));
+  if (smallest_eigenvalue_ > 0) projectGradients();
+}
+
+template <typename Lanes>
+double PatchTemplate<Lanes>::texture(const PyramidLevel& level, int x, int y) {
+  solve(cut(level, x, y));
+  return smallest_eigenvalue_;
+}
+
+template <typename Lanes>
+typename PatchTemplate<Lanes>::Moments PatchTemplate<Lanes>::cut(const PyramidLevel& level, int x, int y) {
   const std::size_t stride = level.stride();
   const uint8_t* row = level.at(x - shape_.half, y - shape_.half);
+  const auto one = Lanes::spread(1);
+  auto grey = Lanes::zero(), grey_grey = Lanes::zero(), sum_x = Lanes::zero(), sum_y = Lanes::zero();
+  auto x_grey = Lanes::zero(), y_grey = Lanes::zero();
+  auto xx = Lanes::zero(), xy = Lanes::zero(), yy = Lanes::zero();
   std::size_t at = 0;
   for (int i = 0; i < shape_.side; ++i, row += stride) {
     for (int lane = 0; lane < shape_.lanes; ++lane, at += 8) {
       const uint8_t* p = row + 8 * lane;
       const auto mask = Lanes::load(&mask_[static_cast<std::size_t>(8 * lane)]);
-      Lanes::store(&grey_[at], Lanes::mask(Lanes::loadBytes(p), mask));
-      Lanes::store(&gradient_x_[at],
-                   Lanes::mask(Lanes::subtract(Lanes::loadBytes(p + 1), Lanes::loadBytes(p - 1)), mask));
-      Lanes::store(
-          &gradient_y_[at],
-          Lanes::mask(Lanes::subtract(Lanes::loadBytes(p + stride), Lanes::loadBytes(p - stride)), mask));
+      const auto t = Lanes::mask(Lanes::loadBytes(p), mask);
+      const auto gx = Lanes::mask(Lanes::subtract(Lanes::loadBytes(p + 1), Lanes::loadBytes(p - 1)), mask);
+      const auto gy =
+          Lanes::mask(Lanes::subtract(Lanes::loadBytes(p + stride), Lanes::loadBytes(p - stride)), mask);
+      Lanes::store(&grey_[at], t);
+      Lanes::store(&gradient_x_[at], gx);
+      Lanes::store(&gradient_y_[at], gy);
+      grey = Lanes::addProducts(grey, t, one);
+      grey_grey = Lanes::addProducts(grey_grey, t, t);
+      sum_x = Lanes::addProducts(sum_x, gx, one);
+      sum_y = Lanes::addProducts(sum_y, gy, one);
+      x_grey = Lanes::addProducts(x_grey, gx, t);
+      y_grey = Lanes::addProducts(y_grey, gy, t);
+      xx = Lanes::addProducts(xx, gx, gx);
+      xy = Lanes::addProducts(xy, gx, gy);
+      yy = Lanes::addProducts(yy, gy, gy);
     }
-  }
-  projectGradients(moments());
-}
-
-template <typename Lanes>
-typename PatchTemplate<Lanes>::Moments PatchTemplate<Lanes>::moments() const {
-  const auto one = Lanes::spread(1);
-  auto grey = Lanes::zero(), grey_grey = Lanes::zero(), x = Lanes::zero(), y = Lanes::zero();
-  auto x_grey = Lanes::zero(), y_grey = Lanes::zero();
-  auto xx = Lanes::zero(), xy = Lanes::zero(), yy = Lanes::zero();
-  for (std::size_t at = 0; at < size_; at += 8) {
-    const auto t = Lanes::load(&grey_[at]);
-    const auto gx = Lanes::load(&gradient_x_[at]);
-    const auto gy = Lanes::load(&gradient_y_[at]);
-    grey = Lanes::addProducts(grey, t, one);
-    grey_grey = Lanes::addProducts(grey_grey, t, t);
-    x = Lanes::addProducts(x, gx, one);
-    y = Lanes::addProducts(y, gy, one);
-    x_grey = Lanes::addProducts(x_grey, gx, t);
-    y_grey = Lanes::addProducts(y_grey, gy, t);
-    xx = Lanes::addProducts(xx, gx, gx);
-    xy = Lanes::addProducts(xy, gx, gy);
-    yy = Lanes::addProducts(yy, gy, gy);
   }
   // The differences above span two pixels: half of them is the gradient.
   const auto sum = [](const auto& lanes, double scale) {
     return scale * static_cast<double>(Lanes::total(lanes));
   };
-  return {sum(grey, 1),     sum(grey_grey, 1), sum(x, 0.5),   sum(y, 0.5),  sum(x_grey, 0.5),
-          sum(y_grey, 0.5), sum(xx, 0.25),     sum(xy, 0.25), sum(yy, 0.25)};
+  return {sum(grey, 1),     sum(grey_grey, 1), sum(sum_x, 0.5), sum(sum_y, 0.5), sum(x_grey, 0.5),
+          sum(y_grey, 0.5), sum(xx, 0.25),     sum(xy, 0.25),   sum(yy, 0.25)};
 }
 
 template <typename Lanes>
-void PatchTemplate<Lanes>::projectGradients(const Moments& m) {
+void PatchTemplate<Lanes>::solve(const Moments& m) {
   const double n = shape_.side * shape_.side;
   const double variance = m.grey_grey - m.grey * m.grey / n;
   mean_grey_ = m.grey / n;
   const auto slope = [&](double g, double g_grey) {
     return variance > n ? (g_grey - g * m.grey / n) / variance : 0.0;
   };
-  const double slope_x = slope(m.x, m.x_grey);
-  const double slope_y = slope(m.y, m.y_grey);
-  const double constant_x = (m.x - slope_x * m.grey) / n;
-  const double constant_y = (m.y - slope_y * m.grey) / n;
-  const double xx = m.xx - constant_x * m.x - slope_x * m.x_grey;
-  const double xy = m.xy - constant_x * m.y - slope_x * m.y_grey;
-  const double yy = m.yy - constant_y * m.y - slope_y * m.y_grey;
+  slope_x_ = slope(m.x, m.x_grey);
+  slope_y_ = slope(m.y, m.y_grey);
+  constant_x_ = (m.x - slope_x_ * m.grey) / n;
+  constant_y_ = (m.y - slope_y_ * m.grey) / n;
+  const double xx = m.xx - constant_x_ * m.x - slope_x_ * m.x_grey;
+  const double xy = m.xy - constant_x_ * m.y - slope_x_ * m.y_grey;
+  const double yy = m.yy - constant_y_ * m.y - slope_y_ * m.y_grey;
   const double determinant = xx * yy - xy * xy;
   smallest_eigenvalue_ = (0.5 * (xx + yy) - std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy)) / n;
   if (!(smallest_eigenvalue_ > 0) || !(determinant > 0)) {
@@ -125,7 +128,10 @@ void PatchTemplate<Lanes>::projectGradients(const Moments& m) {
   inverse_xx_ = yy / determinant;
   inverse_xy_ = -xy / determinant;
   inverse_yy_ = xx / determinant;
+}
 
+template <typename Lanes>
+void PatchTemplate<Lanes>::projectGradients() {
   const int unit = shape_.gradient_scale << kProjectBits;
   const auto factor = static_cast<int16_t>(unit / 2);
   const auto fixedSlope = [&](double s) {
@@ -134,8 +140,8 @@ void PatchTemplate<Lanes>::projectGradients(const Moments& m) {
   const auto fixedConstant = [&](double c) {
     return static_cast<int32_t>(-std::lround(c * unit)) + (1 << (kProjectBits - 1));
   };
-  const int16_t fixed_slope_x = fixedSlope(slope_x), fixed_slope_y = fixedSlope(slope_y);
-  const int32_t fixed_constant_x = fixedConstant(constant_x), fixed_constant_y = fixedConstant(constant_y);
+  const int16_t fixed_slope_x = fixedSlope(slope_x_), fixed_slope_y = fixedSlope(slope_y_);
+  const int32_t fixed_constant_x = fixedConstant(constant_x_), fixed_constant_y = fixedConstant(constant_y_);
   auto sum_x = Lanes::zero(), sum_y = Lanes::zero();
   std::size_t at = 0;
   for (int i = 0; i < shape_.side; ++i) {
@@ -157,13 +163,13 @@ void PatchTemplate<Lanes>::projectGradients(const Moments& m) {
 }
 
 template <typename Lanes>
-bool PatchTemplate<Lanes>::align(const PyramidLevel& level, Eigen::Vector2d& centre,
-                                 const AlignmentLimits& limits) const {
-  if (smallest_eigenvalue_ <= 0) return false;
+Alignment PatchTemplate<Lanes>::align(const PyramidLevel& level, Eigen::Vector2d& centre,
+                                      const AlignmentLimits& limits) const {
+  if (smallest_eigenvalue_ <= 0) return Alignment::kLost;
   const std::size_t stride = level.stride();
   const double unit = 1.0 / (shape_.gradient_scale << kSampleBits);
   for (int iteration = 0; iteration < limits.iterations; ++iteration) {
-    if (!isNear(level, centre)) return false;
+    if (!isNear(level, centre)) return Alignment::kLost;
     const SamplePlace place(level, centre, shape_.half);
     auto sum_x = Lanes::zero(), sum_y = Lanes::zero();
     const uint8_t* row = place.corner;
@@ -179,9 +185,11 @@ bool PatchTemplate<Lanes>::align(const PyramidLevel& level, Eigen::Vector2d& cen
     const double by = unit * static_cast<double>(Lanes::total(sum_y) - offset_y_);
     const Eigen::Vector2d step(inverse_xx_ * bx + inverse_xy_ * by, inverse_xy_ * bx + inverse_yy_ * by);
     centre -= step;
-    if (step.squaredNorm() < limits.epsilon_px * limits.epsilon_px) return isNear(level, centre);
+    if (step.squaredNorm() < limits.epsilon_px * limits.epsilon_px) {
+      return isNear(level, centre) ? Alignment::kSettled : Alignment::kLost;
+    }
   }
-  return isNear(level, centre);
+  return isNear(level, centre) ? Alignment::kUnsettled : Alignment::kLost;
 }
 
 template <typename Lanes>

@@ -33,6 +33,12 @@ struct AlignmentLimits {
   double epsilon_px;
 };
 
+enum class Alignment {
+  kLost,       ///< wandered off the picture
+  kUnsettled,  ///< moved to the last
+  kSettled,    ///< the last step was short
+};
+
 /// Lanes: PortableLanes or Sse2Lanes.
 template <typename Lanes>
 class PatchTemplate {
@@ -50,26 +56,30 @@ class PatchTemplate {
   /// Takes the patch around a pixel; the pixel lies in the picture.
   void take(const PyramidLevel& level, int x, int y);
 
+  /// smallestEigenvalue() of the patch around a pixel, which is not taken.
+  double texture(const PyramidLevel& level, int x, int y);
+
   /// grey levels^2 / px^2, per pixel: the smaller eigenvalue of the mean gradient matrix.
   double smallestEigenvalue() const { return smallest_eigenvalue_; }
 
-  /// Moves `centre` [px of `level`] to where the patch fits; false where it wanders off the picture or does
-  /// not settle.
-  bool align(const PyramidLevel& level, Eigen::Vector2d& centre, const AlignmentLimits& limits) const;
+  /// Moves `centre` [px of `level`] to where the patch fits.
+  Alignment align(const PyramidLevel& level, Eigen::Vector2d& centre, const AlignmentLimits& limits) const;
 
   /// Mean absolute difference [grey levels] to the patch at `centre`, the means taken out.
   double residual(const PyramidLevel& level, const Eigen::Vector2d& centre) const;
 
  private:
   struct Moments;
-  Moments moments() const;
-  void projectGradients(const Moments& m);
+  Moments cut(const PyramidLevel& level, int x, int y);
+  void solve(const Moments& m);
+  void projectGradients();
 
   PatchShape shape_;
   std::size_t size_;
   std::vector<int16_t> mask_;
   std::vector<int16_t> grey_, gradient_x_, gradient_y_;
   double smallest_eigenvalue_ = 0;
+  double slope_x_ = 0, slope_y_ = 0, constant_x_ = 0, constant_y_ = 0;
   double inverse_xx_ = 0, inverse_xy_ = 0, inverse_yy_ = 0;
   int64_t offset_x_ = 0, offset_y_ = 0;
   double mean_grey_ = 0;

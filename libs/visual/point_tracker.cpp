@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "geometry/homography.hpp"
 #include "visual/patch_alignment.hpp"
@@ -17,6 +19,11 @@ constexpr int kMinSide = 24;
 /// pixels.
 constexpr int kShiftLevel = 3;
 constexpr int kShiftReach = 8;
+/// Of texture on the grid; where there are fewer, the grid is twice as fine.
+constexpr int kEnoughPoints = 160;
+/// What counts as found at once: so few iterations, and no further from where it began [px].
+constexpr int kQuickIterations = 5;
+constexpr double kQuickReachPx = 1.5;
 
 using Template = PatchTemplate<NativeLanes>;
 
@@ -33,39 +40,49 @@ class PointTracker::Implementation {
     }
   }
 
-  PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
+  Pyramid pyramidOf(const cv::Mat& grey) const {
     if (grey.empty() || grey.type() != CV_8UC1) {
       throw std::invalid_argument("the tracker takes 8-bit pictures of one channel");
     }
-    current_.build(grey, std::max(parameters_.levels, kShiftLevel + 1), shape_.margin(), kMinSide);
+    return {grey, std::max(parameters_.levels, kShiftLevel + 1), shape_.margin(), kMinSide};
+  }
+
+  PointTracks advance(Pyramid picture, const std::optional<Eigen::Matrix3d>& guess) {
+    current_ = std::move(picture);
     PointTracks tracks;
     if (hasPrevious()) tracks = track(guess);
-    std::swap(previous_, current_);
+    previous_ = std::move(current_);
     return tracks;
   }
 
-  int texturedPoints(const cv::Mat& grey) {
-    current_.build(grey, 1, shape_.margin(), kMinSide);
-    int textured = 0;
-    forEachGridPoint(current_[0], [&](int x, int y) {
-      forward_.take(current_[0], x, y);
-      textured += forward_.smallestEigenvalue() >= parameters_.min_eigenvalue ? 1 : 0;
-    });
-    return textured;
+  bool hasTexture(const Pyramid& picture, int points) const {
+    return hasTexture(picture, points, stepFor(picture));
   }
 
   void reset() { previous_.clear(); }
 
  private:
-  bool hasPrevious() const {
-    return !previous_.empty() && previous_[0].width == current_[0].width &&
-           previous_[0].height == current_[0].height;
+  bool hasPrevious() const { return !previous_.empty() && previous_[0].size() == current_[0].size(); }
+
+  /// Where little of a picture can be followed, that is followed more densely.
+  int stepFor(const Pyramid& picture) const {
+    const int step = parameters_.grid_px;
+    return hasTexture(picture, kEnoughPoints, step) ? step : std::max(1, step / 2);
+  }
+
+  bool hasTexture(const Pyramid& picture, int points, int step) const {
+    Template patch(shape_);
+    int textured = 0;
+    forEachGridPoint(picture[0], step, [&](int x, int y) {
+      if (textured >= points) return;
+      textured += patch.texture(picture[0], x, y) >= parameters_.min_eigenvalue ? 1 : 0;
+    });
+    return textured >= points;
   }
 
   /// Grid points whose patch and gradients lie wholly in the picture.
   template <typename Visitor>
-  void forEachGridPoint(const PyramidLevel& level, const Visitor& visit) const {
-    const int step = parameters_.grid_px;
+  void forEachGridPoint(const PyramidLevel& level, int step, const Visitor& visit) const {
     const int edge = shape_.half + 1;
     for (int y = step / 2; y < level.height - edge; y += step) {
       for (int x = step / 2; x < level.width - edge; x += step) {
@@ -76,14 +93,18 @@ class PointTracker::Implementation {
 
   PointTracks track(const std::optional<Eigen::Matrix3d>& guess) {
     const Eigen::Vector2d shift = guess ? Eigen::Vector2d::Zero() : coarseShift();
+    const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    Eigen::Vector2d neighbour = unknown;  // displacement of the point before
     PointTracks tracks;
-    forEachGridPoint(previous_[0], [&](int x, int y) {
+    forEachGridPoint(previous_[0], stepFor(previous_), [&](int x, int y) {
       ++tracks.sampled;
       const Eigen::Vector2d start(x, y);
-      Eigen::Vector2d found = guess ? transfer(*guess, start) : Eigen::Vector2d(start + shift);
-      if (!follow(x, y, found)) return;
+      const Eigen::Vector2d expected = guess ? transfer(*guess, start) : Eigen::Vector2d(start + shift);
+      const auto found = follow(x, y, expected, guess.has_value(), neighbour);
+      neighbour = found ? Eigen::Vector2d(*found - start) : unknown;
+      if (!found) return;
       tracks.previous.emplace_back(static_cast<float>(x), static_cast<float>(y));
-      tracks.current.emplace_back(static_cast<float>(found.x()), static_cast<float>(found.y()));
+      tracks.current.emplace_back(static_cast<float>(found->x()), static_cast<float>(found->y()));
     });
     return tracks;
   }
@@ -94,12 +115,34 @@ class PointTracker::Implementation {
     return Eigen::Vector2d(shift.x, shift.y) * (1 << level);
   }
 
-  bool follow(int x, int y, Eigen::Vector2d& found) {
+  /// Where a point is found that is `expected` somewhere, which is `predicted` or only a beginning. What is
+  /// found at once where a prediction said, looking as it did, needs no way back.
+  std::optional<Eigen::Vector2d> follow(int x, int y, const Eigen::Vector2d& expected, bool predicted,
+                                        const Eigen::Vector2d& neighbour) {
     forward_.take(previous_[0], x, y);
-    if (forward_.smallestEigenvalue() < parameters_.min_eigenvalue || !isFinite(found)) return false;
-    if (!descend(x, y, found)) return false;
-    return isInside(found) && returns(x, y, found) &&
-           forward_.residual(current_[0], found) <= parameters_.max_residual;
+    if (forward_.smallestEigenvalue() < parameters_.min_eigenvalue || !isFinite(expected))
+      return std::nullopt;
+    Eigen::Vector2d found = expected;
+    if (predicted && settlesNear(found)) return found;
+    if (isFinite(neighbour)) {
+      found = Eigen::Vector2d(x, y) + neighbour;
+      if (settlesNear(found) && returns(x, y, found)) return found;
+    }
+    found = expected;
+    if (descend(x, y, found) && isInside(found) && looksAlike(found) && returns(x, y, found)) return found;
+    return std::nullopt;
+  }
+
+  /// Few steps on the picture itself, and short ones: no coarser level is needed.
+  bool settlesNear(Eigen::Vector2d& found) const {
+    const Eigen::Vector2d start = found;
+    const AlignmentLimits limits{kQuickIterations, parameters_.epsilon_px};
+    return forward_.align(current_[0], found, limits) == Alignment::kSettled &&
+           (found - start).norm() <= kQuickReachPx && isInside(found) && looksAlike(found);
+  }
+
+  bool looksAlike(const Eigen::Vector2d& found) const {
+    return forward_.residual(current_[0], found) <= parameters_.max_residual;
   }
 
   /// From the coarsest level to the picture; levels on which the patch has no texture or runs away are passed
@@ -113,9 +156,10 @@ class PointTracker::Implementation {
       Eigen::Vector2d there = at + (found - start) / scale;
       coarse_.take(previous_[level], static_cast<int>(at.x()), static_cast<int>(at.y()));
       if (coarse_.smallestEigenvalue() < parameters_.min_eigenvalue) continue;
-      if (coarse_.align(current_[level], there, limits)) found = start + (there - at) * scale;
+      if (coarse_.align(current_[level], there, limits) == Alignment::kLost) continue;
+      found = start + (there - at) * scale;
     }
-    return forward_.align(current_[0], found, limits);
+    return forward_.align(current_[0], found, limits) != Alignment::kLost;
   }
 
   /// Forward and backward agree. The way back begins at the whole pixel next to `found`, where the template
@@ -127,7 +171,8 @@ class PointTracker::Implementation {
     if (backward_.smallestEigenvalue() < parameters_.min_eigenvalue) return false;
     const Eigen::Vector2d expected = nearest - displacement;
     Eigen::Vector2d back = expected;
-    if (!backward_.align(previous_[0], back, {parameters_.iterations, parameters_.epsilon_px})) return false;
+    const AlignmentLimits limits{parameters_.iterations, parameters_.epsilon_px};
+    if (backward_.align(previous_[0], back, limits) == Alignment::kLost) return false;
     return (back - expected).norm() <= parameters_.max_forward_backward_px;
   }
 
@@ -149,11 +194,15 @@ PointTracker::PointTracker(const TrackerParameters& parameters)
     : implementation_(std::make_unique<Implementation>(parameters)) {}
 PointTracker::~PointTracker() = default;
 
-PointTracks PointTracker::advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
-  return implementation_->advance(grey, guess);
+Pyramid PointTracker::pyramidOf(const cv::Mat& grey) const { return implementation_->pyramidOf(grey); }
+
+PointTracks PointTracker::advance(Pyramid picture, const std::optional<Eigen::Matrix3d>& guess) {
+  return implementation_->advance(std::move(picture), guess);
 }
 
-int PointTracker::texturedPoints(const cv::Mat& grey) { return implementation_->texturedPoints(grey); }
+bool PointTracker::hasTexture(const Pyramid& picture, int points) const {
+  return implementation_->hasTexture(picture, points);
+}
 
 void PointTracker::reset() { implementation_->reset(); }
 

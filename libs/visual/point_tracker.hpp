@@ -7,14 +7,17 @@
 #include <optional>
 #include <vector>
 
+#include "visual/pyramid.hpp"
+
 namespace redbee {
 
 struct TrackerParameters {
-  int grid_px = 16;          ///< px between sample points, both ways (paper: 16)
+  int grid_px = 24;          ///< px between sample points, both ways (paper: 16); half of it in a picture of
+                             ///< little texture
   int window_px = 13;        ///< px, odd: side of the patch that is followed
   int levels = 3;            ///< pyramid levels, 1 = the picture alone
   int iterations = 12;       ///< at most, per level
-  double epsilon_px = 0.02;  ///< px: a smaller step ends the iteration
+  double epsilon_px = 0.04;  ///< px: a smaller step ends the iteration
   double min_eigenvalue =
       1.5;  ///< grey levels^2 per px: smaller eigenvalue of the mean gradient matrix; texture
   double max_forward_backward_px = 0.7;  ///< px: a point tracked there and back must return this close
@@ -34,13 +37,17 @@ class PointTracker {
   explicit PointTracker(const TrackerParameters& parameters);
   ~PointTracker();
 
+  /// A picture as advance() takes it. Throws std::invalid_argument for one that is empty or not 8-bit grey.
+  Pyramid pyramidOf(const cv::Mat& grey) const;
   /// Tracks the grid of the previous picture into this one, `guess` (previous to current, ideal pixels) as
   /// the starting point. Empty on the first picture and after a change of size. Without a guess the shift of
-  /// the picture as a whole serves. Throws std::invalid_argument for a picture that is empty or not 8-bit
-  /// grey.
-  PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess);
-  /// Grid points of a picture with texture enough to be followed; changes nothing.
-  int texturedPoints(const cv::Mat& grey);
+  /// the picture as a whole serves, and what the neighbouring point did.
+  PointTracks advance(Pyramid picture, const std::optional<Eigen::Matrix3d>& guess);
+  PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
+    return advance(pyramidOf(grey), guess);
+  }
+  /// True where at least `points` grid points of a picture have texture enough to be followed.
+  bool hasTexture(const Pyramid& picture, int points) const;
   void reset();
 
  private:

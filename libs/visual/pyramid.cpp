@@ -19,10 +19,6 @@ PyramidLevel withMargin(const cv::Mat& picture, int margin) {
   return level;
 }
 
-cv::Mat interior(const PyramidLevel& level) {
-  return level.padded(cv::Rect(level.margin, level.margin, level.width, level.height));
-}
-
 double meanDifference(const cv::Mat& from, const cv::Mat& to, cv::Point shift, int brightness) {
   const cv::Rect frame(cv::Point(0, 0), from.size());
   const cv::Rect common = frame & (frame - shift);
@@ -39,8 +35,7 @@ double meanDifference(const cv::Mat& from, const cv::Mat& to, cv::Point shift, i
 
 }  // namespace
 
-void Pyramid::build(const cv::Mat& grey, int levels, int margin, int min_side) {
-  levels_.clear();
+Pyramid::Pyramid(const cv::Mat& grey, int levels, int margin, int min_side) {
   cv::Mat picture = grey;
   while (true) {
     // A mirrored margin cannot be wider than the picture itself.
@@ -53,8 +48,8 @@ void Pyramid::build(const cv::Mat& grey, int levels, int margin, int min_side) {
 }
 
 cv::Point bestShift(const PyramidLevel& from, const PyramidLevel& to, int reach) {
-  const cv::Mat a = interior(from);
-  const cv::Mat b = interior(to);
+  const cv::Mat a = from.picture();
+  const cv::Mat b = to.picture();
   const int brightness = cvRound(cv::mean(b)[0] - cv::mean(a)[0]);
   const int reach_x = std::min(reach, from.width / 4);
   const int reach_y = std::min(reach, from.height / 4);

@@ -16,13 +16,17 @@ struct PyramidLevel {
 
   /// Address of a pixel; -margin <= x < width + margin, y alike.
   const uint8_t* at(int x, int y) const { return padded.ptr(y + margin) + x + margin; }
+  cv::Size size() const { return {width, height}; }
+  /// The level without its margin.
+  cv::Mat picture() const { return padded(cv::Rect(margin, margin, width, height)); }
   std::size_t stride() const { return padded.step[0]; }
 };
 
 class Pyramid {
  public:
+  Pyramid() = default;
   /// `grey`: 8-bit, one channel. Levels whose shorter side would fall below `min_side` px are left out.
-  void build(const cv::Mat& grey, int levels, int margin, int min_side);
+  Pyramid(const cv::Mat& grey, int levels, int margin, int min_side);
 
   bool empty() const { return levels_.empty(); }
   int size() const { return static_cast<int>(levels_.size()); }

@@ -2,8 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace redbee {
 namespace {
@@ -15,16 +15,33 @@ constexpr double kOverwhelming = 2.0;
 
 /// Mean squared gradient [grey levels^2] of the half-size picture in the direction that has least of it:
 /// noise counts little at half size, and a picture blurred along one direction only is blurred.
-double sharpnessOf(const cv::Mat& grey) {
-  if (grey.cols < 8 || grey.rows < 8) return 0;
-  cv::Mat half, dx, dy;
-  cv::pyrDown(grey, half);
-  cv::Sobel(half, dx, CV_16S, 1, 0, 1, 0.5);
-  cv::Sobel(half, dy, CV_16S, 0, 1, 1, 0.5);
-  const double pixels = static_cast<double>(half.total());
+double sharpnessOf(const Pyramid& pyramid) {
+  if (pyramid.size() < 2) return 0;
+  const cv::Mat half = pyramid[1].picture();
+  int64_t xx = 0, xy = 0, yy = 0;
+  for (int y = 1; y + 1 < half.rows; ++y) {
+    const uint8_t* above = half.ptr(y - 1);
+    const uint8_t* row = half.ptr(y);
+    const uint8_t* below = half.ptr(y + 1);
+    int32_t row_xx = 0, row_xy = 0, row_yy = 0;
+    for (int x = 1; x + 1 < half.cols; ++x) {
+      const int dx =
+          above[x + 1] - above[x - 1] + 2 * (row[x + 1] - row[x - 1]) + below[x + 1] - below[x - 1];
+      const int dy = below[x - 1] - above[x - 1] + 2 * (below[x] - above[x]) + below[x + 1] - above[x + 1];
+      row_xx += dx * dx;
+      row_xy += dx * dy;
+      row_yy += dy * dy;
+    }
+    xx += row_xx;
+    xy += row_xy;
+    yy += row_yy;
+  }
+  constexpr double kSobelGain = 8;
+  const double scale = 1 / (kSobelGain * kSobelGain * (half.cols - 2.0) * (half.rows - 2.0));
   Eigen::Matrix2d tensor;
-  tensor << dx.dot(dx), dx.dot(dy), dy.dot(dx), dy.dot(dy);
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(tensor / pixels).eigenvalues()(0);
+  tensor << static_cast<double>(xx), static_cast<double>(xy), static_cast<double>(xy),
+      static_cast<double>(yy);
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scale * tensor).eigenvalues()(0);
 }
 
 }  // namespace
@@ -52,16 +69,16 @@ void VisualHomographyEstimator::forgetReference() {
   reference_sharpness_ = 0;
 }
 
-void VisualHomographyEstimator::adopt(int64_t utime, const cv::Mat& grey, double sharpness) {
+void VisualHomographyEstimator::adopt(int64_t utime, cv::Size size, double sharpness) {
   previous_utime_ = utime;
-  size_ = grey.size();
+  size_ = size;
   reference_sharpness_ = sharpness;
 }
 
-bool VisualHomographyEstimator::isBlind(const cv::Mat& grey, double sharpness) {
+bool VisualHomographyEstimator::isBlind(const Pyramid& picture, double sharpness) const {
   if (sharpness < parameters_.min_sharpness) return true;
   if (sharpness < parameters_.min_sharpness_share * reference_sharpness_) return true;
-  return tracker_.texturedPoints(grey) < parameters_.ransac.min_inliers;
+  return !tracker_.hasTexture(picture, parameters_.ransac.min_inliers);
 }
 
 std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
@@ -93,15 +110,16 @@ VisualHomography VisualHomographyEstimator::step(int64_t utime, const cv::Mat& g
   if (!connected) forgetReference();
   result.utime_previous = previous_utime_.value_or(utime);
 
-  const double sharpness = sharpnessOf(grey);
-  if (isBlind(grey, sharpness)) {
+  Pyramid picture = tracker_.pyramidOf(grey);
+  const double sharpness = sharpnessOf(picture);
+  if (isBlind(picture, sharpness)) {
     result.status = VisualStatus::kNoTexture;
     return result;
   }
   const std::optional<Eigen::Matrix3d> guess =
       prediction && prediction->H.allFinite() ? std::optional(prediction->H) : std::nullopt;
-  result.tracks = tracker_.advance(grey, guess);
-  adopt(utime, grey, sharpness);
+  result.tracks = tracker_.advance(std::move(picture), guess);
+  adopt(utime, grey.size(), sharpness);
   if (!connected) return result;
 
   if (static_cast<int>(result.tracks.previous.size()) < parameters_.ransac.min_inliers) {

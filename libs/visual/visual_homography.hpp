@@ -59,8 +59,8 @@ class VisualHomographyEstimator {
 
  private:
   void forgetReference();
-  void adopt(int64_t utime, const cv::Mat& grey, double sharpness);
-  bool isBlind(const cv::Mat& grey, double sharpness);
+  void adopt(int64_t utime, cv::Size size, double sharpness);
+  bool isBlind(const Pyramid& picture, double sharpness) const;
   std::optional<HomographyEstimate> estimateGround(
       const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const;
 

@@ -111,7 +111,7 @@ void HomographyFusionNode::finish() {
 }
 
 void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
-  const WorkTimer timer;
+  FrameTimers timers;
   const inertial_homography_t* inertial = inertial_.find(utime);
   const visual_homography_t* visual = visual_.find(utime);
   std::optional<InertialInput> inertial_input;
@@ -132,18 +132,20 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
                                         configuration_.camera.height));
     health_.setCalibration(calibration_.verdict());
   }
-  publish(fused, inertial, visual);
+  fused_homography_t message = messageOf(fused);
+  addSources(message, fused, inertial, visual);
+  timers.cpu.answered();
+  bus_.publish(configuration_.channels.fused_homography, message);
   inertial_.forgetUpTo(utime);
   visual_.forgetUpTo(utime);
-  noteDone(health_, utime, since_arrival, timer);
+  noteDone(health_, utime, since_arrival, timers);
   const bool good = fused.source == FusionSource::kFused ||
                     (!configuration_.has_imu && fused.source == FusionSource::kVisual);
   health_.setState(good ? HealthState::kGood : HealthState::kDegraded,
                    good ? "" : std::string("homography from: ") + toString(fused.source));
 }
 
-void HomographyFusionNode::publish(const FusedHomography& fused, const inertial_homography_t* inertial,
-                                   const visual_homography_t* visual) {
+fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused) {
   fused_homography_t message{};
   message.utime = fused.utime;
   message.utime_previous = fused.utime_previous;
@@ -163,6 +165,12 @@ void HomographyFusionNode::publish(const FusedHomography& fused, const inertial_
     fill(message.innovation_covariance, fused.innovation_covariance);
     message.test_ratio = fused.test_ratio;
   }
+  return message;
+}
+
+void HomographyFusionNode::addSources(fused_homography_t& message, const FusedHomography& fused,
+                                      const inertial_homography_t* inertial,
+                                      const visual_homography_t* visual) const {
   if (inertial != nullptr && inertial->valid != 0 && inertial->utime_previous == fused.utime_previous) {
     message.has_motion = 1;
     fill(message.R, matrix3(inertial->R));
@@ -177,9 +185,9 @@ void HomographyFusionNode::publish(const FusedHomography& fused, const inertial_
       // Refused or not: the inertial filter judges for itself, or a filter gone wrong would never be told.
       message.has_observation = 1;
       fill(message.H_observed, matrix3(visual->H));
-      const double ratio = 1.0 + static_cast<double>(visual->outliers) / std::max(1, visual->inliers);
-      fill(message.covariance_observed,
-           configuration_.fusion.visual_inflation * ratio * matrix8(visual->covariance));
+      fill(message.covariance_observed, configuration_.fusion.visual_inflation *
+                                            visualNoiseRatio(visual->inliers, visual->outliers) *
+                                            matrix8(visual->covariance));
     }
     if (fused.source != FusionSource::kNone) {
       const auto front =
@@ -191,7 +199,6 @@ void HomographyFusionNode::publish(const FusedHomography& fused, const inertial_
       }
     }
   }
-  bus_.publish(configuration_.channels.fused_homography, message);
 }
 
 }  // namespace redbee

@@ -33,8 +33,10 @@ class HomographyFusionNode : public Node {
   void expect(int64_t utime);
   bool ready(int64_t utime);
   void fuse(int64_t utime, const WorkTimer& since_arrival);
-  void publish(const FusedHomography& fused, const inertial_homography_t* inertial,
-               const visual_homography_t* visual);
+  fused_homography_t messageOf(const FusedHomography& fused);
+  /// What the fusion had: the camera's motion, vision's points and homography, the second plane among them.
+  void addSources(fused_homography_t& message, const FusedHomography& fused,
+                  const inertial_homography_t* inertial, const visual_homography_t* visual) const;
   void restart();
 
   Bus& bus_;

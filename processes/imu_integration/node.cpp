@@ -122,12 +122,13 @@ void ImuIntegrationNode::finish() {
 }
 
 void ImuIntegrationNode::integrate(const Frame& frame) {
-  const WorkTimer timer;
+  FrameTimers timers;
   applyFeedback();
   if (last_frame_utime_) feedback_.forgetUpTo(*last_frame_utime_);
   const InertialHomography result = filter_.advanceTo(frame.utime);
   last_frame_utime_ = frame.utime;
   last_H_ = result.valid ? std::optional<Eigen::Matrix3d>(result.H) : std::nullopt;
+  timers.cpu.answered();
 
   inertial_homography_t message{};
   message.utime = frame.utime;
@@ -153,7 +154,7 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
   }
   message.feedback_test_ratio = feedback_test_ratio_;
   bus_.publish(configuration_.channels.inertial_homography, message);
-  noteDone(health_, frame.utime, frame.since_arrival, timer);
+  noteDone(health_, frame.utime, frame.since_arrival, timers);
   if (result.valid && result.status == InertialStatus::kGood) {
     health_.setState(HealthState::kGood, "");
   } else {

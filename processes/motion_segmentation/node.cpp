@@ -1,6 +1,7 @@
 #include "processes/motion_segmentation/node.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
@@ -12,13 +13,24 @@ namespace {
 constexpr int kFrameQueue = 64;
 constexpr int8_t kVisualGood = 0;
 
+/// How much smaller a picture may be decoded: the parallax segmentation shrinks it anyway.
+int pictureDownscale(const Configuration& configuration) {
+  const SegmentationParameters& segmentation = configuration.segmentation;
+  if (segmentation.method != SegmentationMethod::kParallax) return 1;
+  int downscale = segmentation.work_downscale;
+  if (segmentation.use_appearance) downscale = std::min(downscale, segmentation.background_downscale);
+  const bool divides =
+      configuration.camera.width % downscale == 0 && configuration.camera.height % downscale == 0;
+  return divides ? downscale : 1;
+}
+
 }  // namespace
 
 MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration)
     : bus_(bus),
       configuration_(configuration),
       health_("redbee-motion-segmentation", configurationHash(configuration)),
-      camera_(configuration.camera),
+      camera_(configuration.camera, pictureDownscale(configuration)),
       publisher_(bus_, configuration_, camera_),
       segmenter_(configuration.segmentation),
       pictures_(configuration.waits.max_backlog),
@@ -110,11 +122,13 @@ void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
 }
 
 void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
-  const WorkTimer timer;
+  FrameTimers timers;
   const image_t& message = frame.content;
   SegmentationInput input = inputFor(message);
   decodeInto(input, message);
-  publish(message, input, segmenter_.step(input));
+  const SegmentationOutput output = segmenter_.step(input);
+  timers.cpu.answered();
+  publish(message, input, output);
   if (const fused_homography_t* fused = fused_.find(message.utime)) {
     last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->H_anchor)};
   } else {
@@ -122,17 +136,18 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   }
   fused_.forgetUpTo(message.utime);
   visual_.forgetUpTo(message.utime);
-  noteDone(health_, message.utime, frame.since, timer);
+  noteDone(health_, message.utime, frame.since, timers);
 }
 
 void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
   const bool wants_colour =
       configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
   const IdealPicture picture = camera_.ideal(message, wants_colour, health_);
+  input.size = {configuration_.camera.width, configuration_.camera.height};
   input.grey = picture.grey;
   input.colour = picture.colour;
   if (!input.grey.empty()) return;
-  input.grey = cv::Mat::zeros(configuration_.camera.height, configuration_.camera.width, CV_8U);
+  input.grey = cv::Mat::zeros(input.size, CV_8U);
 }
 
 void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input,

@@ -159,7 +159,9 @@ Table costTable(const Comparison& comparison, const std::string& set, const std:
   table.notes = {
       "frames/s: frames over wall time of the slowest stage, decoding included; it means something only "
       "where nothing else ran (scripts/evaluate --table 3)",
-      "CPU: the whole process, reading the log and writing the results included"};
+      "CPU: decoding and the method itself, all its stages; reading the log, making messages of the answer "
+      "and "
+      "writing the results left out"};
   return table;
 }
 

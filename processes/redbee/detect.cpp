@@ -107,6 +107,12 @@ void InProcessStack::publishHealth() {
   settle();
 }
 
+std::map<std::string, CpuShare> InProcessStack::cpu() const {
+  std::map<std::string, CpuShare> stages;
+  for (const auto& node : nodes_) stages[node->health().process()] = node->health().cpu();
+  return stages;
+}
+
 std::vector<std::string> methodNames() {
   std::vector<std::string> names{"redbee", "default", "paper"};
   for (const std::string& rival : rivalNames()) names.push_back(rival);
@@ -145,7 +151,9 @@ int64_t runDetect(const DetectOptions& options) {
   stack.publishHealth();
   progress.finish();
   if (!log.complaint().empty()) std::fprintf(stderr, "warning: %s\n", log.complaint().c_str());
-  collector.writeTables(wall_s, processUsage());
+  ProcessUsage usage = processUsage();
+  usage.stages = stack.cpu();
+  collector.writeTables(wall_s, usage);
   return collector.frames();
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ class InProcessStack {
   void finish();
   /// Each node tells its health once.
   void publishHealth();
+  /// Processor time of each node, by its name.
+  std::map<std::string, CpuShare> cpu() const;
 
  private:
   Bus& bus_;

@@ -119,15 +119,16 @@ SegmentationOutput RivalNode::detect(const RivalInput& input) {
 }
 
 void RivalNode::work(const Arrived<image_t>& frame) {
-  const WorkTimer timer;
+  FrameTimers timers;
   const int64_t utime = frame.content.utime;
   const SegmentationOutput output = detect(inputFor(frame.content));
+  timers.cpu.answered();
   publisher_.publish(frame.content, last_utime_.value_or(utime), output);
   last_utime_ = utime;
   inertial_.forgetUpTo(utime);
   const bool good = output.status == SegmentationStatus::kGood;
   health_.setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(output.status));
-  noteDone(health_, utime, frame.since, timer);
+  noteDone(health_, utime, frame.since, timers);
 }
 
 }  // namespace redbee

@@ -80,7 +80,7 @@ void VisualHomographyNode::finish() {
 }
 
 void VisualHomographyNode::track(const Arrived<image_t>& frame) {
-  const WorkTimer timer;
+  FrameTimers timers;
   const image_t& message = frame.content;
   const auto grey = decodeGrey(message);
   if (!grey || grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
@@ -93,7 +93,7 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
     refusal.width = configuration_.camera.width;
     refusal.height = configuration_.camera.height;
     bus_.publish(configuration_.channels.visual_homography, refusal);
-    noteDone(health_, message.utime, frame.since, timer);
+    noteDone(health_, message.utime, frame.since, timers);
     health_.setState(HealthState::kDegraded,
                      "picture is " + std::to_string(message.width) + "x" + std::to_string(message.height) +
                          " or damaged; configured are " + std::to_string(configuration_.camera.width) + "x" +
@@ -102,12 +102,13 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
   }
   const auto predicted = prediction(message.utime);
   const VisualHomography result = estimator_->step(message.utime, rectifier_.toIdeal(*grey), predicted);
+  timers.cpu.answered();
   publish(result);
   if (predicted && result.ground) judgeCalibration(*predicted, result);
   // After a picture that nothing could be tracked in, the next one is tracked from an earlier frame: its
   // links are still needed.
   inertial_.forgetUpTo(estimator_->previousTime().value_or(message.utime));
-  noteDone(health_, message.utime, frame.since, timer);
+  noteDone(health_, message.utime, frame.since, timers);
 }
 
 void VisualHomographyNode::judgeCalibration(const HomographyPrediction& prediction,

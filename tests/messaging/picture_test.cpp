@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace redbee {
@@ -53,6 +54,41 @@ TEST(Picture, LiesAboutTheSizeAreRefused) {
   EXPECT_TRUE(refused(raw, [](image_t& m) { m.size -= 1; }));
   EXPECT_TRUE(refused(jpeg, [](image_t& m) { m.width = 6400; }));
   EXPECT_TRUE(refused(jpeg, [](image_t& m) { m.data.assign(m.data.size(), 0); }));
+}
+
+TEST(Picture, SmallerOnesAreTheMeanOfBlocks) {
+  // Smooth, so that a JPEG's own way of shrinking, which leaves out the finest waves, finds nothing to leave
+  // out.
+  for (const int downscale : {2, 4}) {
+    cv::Mat expected;
+    cv::resize(ramp(), expected, ramp().size() / downscale, 0, 0, cv::INTER_AREA);
+    const auto raw = decodeGrey(rawGreyMessage(7, ramp()), downscale);
+    ASSERT_TRUE(raw);
+    EXPECT_EQ(cv::norm(*raw, expected, cv::NORM_INF), 0);
+    const image_t jpeg = jpegMessage(7, ramp(), 95);
+    const auto grey = decodeGrey(jpeg, downscale);
+    const auto colour = decodeColour(jpeg, downscale);
+    ASSERT_TRUE(grey && colour);
+    ASSERT_EQ(grey->size(), expected.size());
+    EXPECT_LT(cv::norm(*grey, expected, cv::NORM_L1) / static_cast<double>(expected.total()), 2.0);
+    cv::Mat of_colour;
+    cv::cvtColor(*colour, of_colour, cv::COLOR_BGR2GRAY);
+    ASSERT_EQ(of_colour.size(), expected.size());
+    EXPECT_LT(cv::norm(of_colour, expected, cv::NORM_L1) / static_cast<double>(expected.total()), 2.0);
+  }
+}
+
+TEST(Picture, ASizeThatDoesNotDivideIsRefused) {
+  EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()(cv::Rect(0, 0, 63, 48))), 2));
+  EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()(cv::Rect(0, 0, 64, 46))), 4));
+  EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()), 3));
+}
+
+TEST(Picture, OneBitAPixelIsEnoughForAMask) {
+  const cv::Mat mask = ramp() > 90;
+  const std::vector<uint8_t> png = encodeBilevelPng(mask);
+  EXPECT_EQ(cv::norm(cv::imdecode(png, cv::IMREAD_GRAYSCALE), mask, cv::NORM_INF), 0);
+  EXPECT_LT(png.size(), encodePng(mask).size());
 }
 
 TEST(Picture, HeaderOfAJpegTellsItsSize) {

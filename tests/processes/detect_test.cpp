@@ -75,6 +75,19 @@ TEST_F(Commands, DetectLeavesTheTablesOfTheContract) {
   EXPECT_GT(summary.at("peak_rss_bytes").get<double>(), 0);
 }
 
+TEST_F(Commands, ProcessorTimeAddsUpAndStaysBelowTheProcesss) {
+  const auto summary = nlohmann::json::parse(text(options_.out / "summary.json"));
+  double work = 0, publishing = 0;
+  for (const auto& stage : summary.at("stages")) {
+    EXPECT_GT(stage.at("cpu_ms_per_frame"), 0);
+    work += stage.at("cpu_ms_per_frame").get<double>();
+    publishing += stage.at("cpu_publishing_ms_per_frame").get<double>();
+  }
+  EXPECT_NEAR(summary.at("cpu_ms_per_frame"), work, 1e-9);
+  EXPECT_NEAR(summary.at("cpu_publishing_ms_per_frame"), publishing, 1e-9);
+  EXPECT_LT(work + publishing, summary.at("cpu_process_ms_per_frame").get<double>());
+}
+
 TEST_F(Commands, SettingsFromTheCommandLineReachTheStack) {
   DetectOptions options = options_;
   options.out = folder_ / "late";

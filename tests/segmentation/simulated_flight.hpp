@@ -35,7 +35,9 @@ struct RecordedFlight {
   /// `front_patch`: the surface whose homography is given as the front plane's; nothing gives none.
   RecordedFlight(const simulation::Scenario& scenario, int frames, std::optional<size_t> front_patch = {}) {
     const simulation::FlightSimulator simulator(scenario);
-    PointTracker tracker{TrackerParameters{}};
+    TrackerParameters dense;
+    dense.grid_px = paperSegmentation().sample_grid_px;
+    PointTracker tracker{dense};
     for (int k = 0; k < frames; ++k) {
       const simulation::SimulatedFrame frame = simulator.frame(k);
       SegmentationInput input;

@@ -1,0 +1,25 @@
+// RANSAC's plane made exact: least squares on all its inliers, and what is known of the result.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "visual/homography_estimation.hpp"
+#include "visual/scaled_pairs.hpp"
+
+namespace redbee {
+
+/// kFromStart: the pairs near the starting plane and no others are fitted. A fit that chose its own pairs
+/// anew could slide from the predicted ground to a larger plane nearby.
+enum class Selection { kFollowsFit, kFromStart };
+
+/// Of the pairs only those that are `allowed` may be inliers. `start`: scaled. Nothing where the minima of
+/// the parameters are not reached.
+std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const std::vector<uint8_t>& allowed,
+                                              const Eigen::Matrix3d& start, cv::Size picture,
+                                              const RansacParameters& parameters, Selection selection);
+
+}  // namespace redbee

@@ -1,0 +1,84 @@
+// The plane that most of a set of pairs follow, by random sampling with local optimisation (Chum, Matas,
+// Kittler 2003). Scaled coordinates (geometry/homography.hpp, ImageScaling).
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "visual/homography_fit.hpp"
+
+namespace redbee {
+
+struct RansacParameters {
+  double inlier_px = 1.0;  ///< px: transfer error below which a point follows the plane
+  int max_iterations = 400;
+  double confidence = 0.999;      ///< of having drawn one clean sample
+  int min_inliers = 40;           ///< fewer is no plane
+  double min_inlier_share = 0.0;  ///< of all correspondences
+  double min_spread = 0.02;       ///< of the picture's area: what the inliers' grid cells must cover
+  uint32_t seed = 1;              ///< of the sampler: the same input gives the same output
+};
+
+/// Neighbouring patches overlap, share noise and bias (interpolation, compression, relief), and so err
+/// together; what the fit has swallowed of that does not show in its residuals. The covariance of independent
+/// errors is enlarged by this factor: about right (median normalised error at most that of chi-square with 8
+/// degrees of freedom) for rendered flights over flat ground. Where relief makes whole blocks of residuals
+/// err as one, the factor is measured and larger. What the fit has swallowed of a facade taken for ground, no
+/// residual shows.
+inline constexpr double kCorrelationInflation = 6.0;
+
+/// px: typical tracking noise, the unit in which points and prediction are weighed against each other.
+inline constexpr double kTypicalSigmaPx = 0.3;
+
+/// What the inertial prediction says of a candidate plane.
+struct PlanePrior {
+  /// `H`, `covariance`: scaled.
+  PlanePrior(const Eigen::Matrix3d& H, const Matrix8d& covariance);
+
+  bool isUsable() const;
+  FitPrior forFit(double variance) const;
+  double squaredDistance(const Eigen::Matrix3d& candidate) const;
+
+  Eigen::Matrix3d H;
+  Matrix8d covariance;
+  Eigen::LDLT<Matrix8d> factors;
+};
+
+class Ransac {
+ public:
+  /// `candidates`: what samples are drawn from and what counts. `unit_px`: pixels in one scaled unit.
+  Ransac(ScaledPairs candidates, double unit_px, const RansacParameters& parameters, const PlanePrior* prior);
+
+  /// Nothing where no plane has five inliers.
+  std::optional<Eigen::Matrix3d> run();
+
+ private:
+  struct Candidate {
+    Eigen::Matrix3d H;
+    double cost = std::numeric_limits<double>::infinity();
+    int inliers = 0;
+  };
+
+  std::array<std::size_t, 4> draw();
+  Candidate judge(const Eigen::Matrix3d& H);
+  bool improve(const Eigen::Matrix3d& start, Candidate& best);
+  int neededIterations(int inliers) const;
+
+  ScaledPairs candidates_;
+  const RansacParameters& parameters_;
+  const PlanePrior* prior_;
+  std::optional<FitPrior> fit_prior_;
+  std::mt19937 generator_;
+  std::vector<float> squared_;
+  std::vector<uint8_t> chosen_;
+  double threshold_;
+  double typical_variance_;
+};
+
+}  // namespace redbee

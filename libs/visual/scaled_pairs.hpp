@@ -1,0 +1,39 @@
+// Point pairs in scaled coordinates (geometry/homography.hpp, ImageScaling).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "geometry/homography.hpp"
+#include "visual/point_tracker.hpp"
+
+namespace redbee {
+
+/// Each coordinate on its own so that loops over them vectorise.
+struct ScaledPairs {
+  ScaledPairs() = default;
+  ScaledPairs(const PointTracks& tracks, const ImageScaling& scaling);
+
+  void append(float a_x, float a_y, float b_x, float b_y) {
+    ax.push_back(a_x);
+    ay.push_back(a_y);
+    bx.push_back(b_x);
+    by.push_back(b_y);
+  }
+  std::size_t size() const { return ax.size(); }
+  Eigen::Vector2d previous(std::size_t i) const { return {ax[i], ay[i]}; }
+  Eigen::Vector2d current(std::size_t i) const { return {bx[i], by[i]}; }
+
+  std::vector<float> ax, ay, bx, by;
+};
+
+/// Squared transfer error of every pair into `squared`; huge where H sends a point to infinity or behind the
+/// camera.
+void squaredErrors(const ScaledPairs& pairs, const Eigen::Matrix3d& H, std::vector<float>& squared);
+
+/// Pairs whose transfer error is at most `reach`: 1 in `within`. Returns how many.
+int flagWithin(const ScaledPairs& pairs, const Eigen::Matrix3d& H, double reach,
+               std::vector<uint8_t>& within);
+
+}  // namespace redbee

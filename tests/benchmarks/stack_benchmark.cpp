@@ -1,0 +1,84 @@
+// Processor time a frame of the whole stack and of rivals, decoding included, in one run: read the ratios.
+// The bundled flight's pictures, from memory, on memq://. `work` is what the answer took, `publishing` what
+// it took to make messages of it [ms a frame]; the time of an iteration holds both and the bus.
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <opencv2/core/utility.hpp>
+#include <string>
+#include <vector>
+
+#include "flight/log.hpp"
+#include "processes/redbee/detect.hpp"
+
+namespace {
+
+using namespace redbee;
+
+const std::vector<LogEvent>& flight() {
+  static const std::vector<LogEvent> events = [] {
+    cv::setNumThreads(1);
+    LogReader log(REDBEE_SOURCE_DIR "/logs/park1.lcm");
+    std::vector<LogEvent> all;
+    while (const auto event = log.next()) all.push_back(*event);
+    return all;
+  }();
+  return events;
+}
+
+Configuration configurationOf(const std::string& preset, const std::vector<std::string>& settings) {
+  Configuration configuration = loadConfiguration(REDBEE_SOURCE_DIR "/config/park1.yaml");
+  applyPreset(configuration, preset);
+  configuration.overlay_period_frames = 0;
+  for (const std::string& setting : settings) {
+    const size_t equals = setting.find('=');
+    applySetting(configuration, setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  return configuration;
+}
+
+/// One iteration is the whole flight.
+void fly(benchmark::State& state, const Configuration& configuration, const std::string& rival) {
+  CpuShare sum;
+  int64_t frames = 0;
+  for (auto _ : state) {
+    const auto bus = makeLcmBus("memq://");
+    InProcessStack stack =
+        rival.empty() ? InProcessStack(*bus, configuration) : InProcessStack(*bus, configuration, rival);
+    for (const LogEvent& event : flight()) {
+      bus->publish(event.channel, event.data);
+      stack.settle();
+      frames += event.channel == configuration.channels.camera ? 1 : 0;
+    }
+    stack.finish();
+    for (const auto& [stage, share] : stack.cpu()) {
+      sum.work += share.work;
+      sum.publishing += share.publishing;
+      state.counters[stage] += share.work;
+    }
+  }
+  for (auto& [name, counter] : state.counters) counter.value /= static_cast<double>(frames);
+  state.counters["work"] = sum.work / static_cast<double>(frames);
+  state.counters["publishing"] = sum.publishing / static_cast<double>(frames);
+}
+
+void ours(benchmark::State& state, const std::string& preset, const std::vector<std::string>& settings) {
+  fly(state, configurationOf(preset, settings), "");
+}
+void rival(benchmark::State& state, const std::string& name) {
+  fly(state, configurationOf("default", {}), name);
+}
+
+#define REDBEE_FLIGHT(function, name, ...) \
+  BENCHMARK_CAPTURE(function, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)->Iterations(1)
+using Settings = std::vector<std::string>;
+REDBEE_FLIGHT(ours, default, "default", Settings{});
+REDBEE_FLIGHT(ours, quarter_size_motion, "default", Settings{"segmentation.work_downscale=4"});
+REDBEE_FLIGHT(ours, full_size_background, "default", Settings{"segmentation.background_downscale=1"});
+REDBEE_FLIGHT(ours, preset_paper, "paper", Settings{});
+REDBEE_FLIGHT(rival, mcd, "mcd");
+REDBEE_FLIGHT(rival, aurora, "aurora");
+REDBEE_FLIGHT(rival, meier, "meier");
+REDBEE_FLIGHT(rival, homography_mog2, "homography-mog2");
+
+}  // namespace
