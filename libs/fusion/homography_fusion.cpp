@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusion/transfer_sigma.hpp"
 #include "geometry/chi_square.hpp"
 
 namespace redbee {
@@ -13,6 +14,10 @@ namespace {
 constexpr std::size_t kMaxPast = 32;
 constexpr int kOverlapGrid = 16;  // px
 constexpr double kMinDeterminant = 1e-6;
+/// Where the ground goes must be known better than by this, or nothing that is said of single pixels holds.
+/// An inertial filter that has not been told its velocity yet is off by ten, one that lost vision a second
+/// ago by tenths.
+constexpr double kMaxStepSigma_px = 2;
 constexpr double kUnknownVariance = 1.0;  // scaled units: half the picture's width
 
 Matrix8d symmetric(const Matrix8d& P) { return 0.5 * (P + P.transpose()); }
@@ -98,6 +103,11 @@ FusedHomography HomographyFusion::step(int64_t utime, const std::optional<Inerti
   }
   const Estimate& step = past_.back().step;
   if (!isUsable(step.H) || !isUsable(anchor_.H) || !isCovariance(step.P) || !isCovariance(anchor_.P)) {
+    return beginChain(utime);
+  }
+  // The paper's constant noise is no statement about this step.
+  const bool knows_its_error = parameters_.noise == FusionNoise::kPropagated;
+  if (knows_its_error && transferSigma(step.H, step.P, width_, height_) > kMaxStepSigma_px) {
     return beginChain(utime);
   }
   if (overlap() < parameters_.min_overlap) anchorAt(utime);

@@ -49,8 +49,12 @@ class Bus {
   }
 };
 
-/// A bus on an LCM URL (udpm://..., memq://). Throws std::runtime_error where LCM cannot open it. Refuses
-/// anything but memq:// where the environment has REDBEE_NETWORK_POLICY=none.
+/// Throws where the environment has REDBEE_NETWORK_POLICY=none and this is anything but memq://; warns of a
+/// receive buffer in which pictures will be lost.
+void checkLcmUrl(const std::string& url);
+
+/// A bus on an LCM URL (udpm://..., memq://). Throws std::runtime_error where LCM cannot open it, or
+/// checkLcmUrl() refuses it.
 std::unique_ptr<Bus> makeLcmBus(const std::string& url);
 
 }  // namespace redbee

@@ -138,7 +138,7 @@ void HealthMonitor::setQuiet(double seconds) {
 bool HealthMonitor::takeChange() { return std::exchange(changed_, false); }
 
 int64_t HealthMonitor::lost() const {
-  int64_t sum = 0;
+  int64_t sum = lost_otherwise_;
   for (const auto& [channel, counter] : sequences_) sum += counter.lost();
   return sum;
 }

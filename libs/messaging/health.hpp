@@ -89,6 +89,8 @@ class HealthMonitor {
   void noteSkipped(int64_t frames = 1) { skipped_ += frames; }
   void noteDamaged(int64_t messages = 1) { damaged_ += messages; }
   void noteLate(int64_t inputs = 1) { late_ += inputs; }
+  /// Messages that no sequence number tells of.
+  void noteLost(int64_t messages) { lost_otherwise_ += messages; }
   /// `sequence` of a message on `channel`: holes count as lost messages.
   void noteSequence(const std::string& channel, int32_t sequence) { sequences_[channel].note(sequence); }
   /// From taking the driving input to publishing what came of it [ms].
@@ -151,6 +153,7 @@ class HealthMonitor {
   int64_t skipped_ = 0;
   int64_t damaged_ = 0;
   int64_t late_ = 0;
+  int64_t lost_otherwise_ = 0;
   std::map<std::string, SequenceCounter> sequences_;
   MessageRate rate_in_;
   MessageRate rate_out_;

@@ -119,19 +119,19 @@ class LcmBus : public Bus {
   bool in_process_;
 };
 
-void enforceNetworkPolicy(const std::string& url) {
+}  // namespace
+
+void checkLcmUrl(const std::string& url) {
   const char* policy = std::getenv("REDBEE_NETWORK_POLICY");  // NOLINT(concurrency-mt-unsafe)
   if (policy != nullptr && std::string(policy) == "none" && !isInProcess(url)) {
     throw std::runtime_error("REDBEE_NETWORK_POLICY=none allows memq:// only, not " + url);
   }
-}
-
-}  // namespace
-
-std::unique_ptr<Bus> makeLcmBus(const std::string& url) {
-  enforceNetworkPolicy(url);
   const UdpBufferCheck check = checkReceiveBuffer(url);
   if (!check.enough) spdlog::warn("{}", check.advice);
+}
+
+std::unique_ptr<Bus> makeLcmBus(const std::string& url) {
+  checkLcmUrl(url);
   return std::make_unique<LcmBus>(url);
 }
 

@@ -23,9 +23,9 @@ extern "C" void requestStop(int) { stop_requested = true; }
 /// What escapes one frame's work must not end the flight: the node goes on with the next and says so. But a
 /// process that is out of memory would go on failing for ever: it ends, and is started again with a clean
 /// heap.
-void processGuarded(Node& node) {
+void guarded(Node& node, void (Node::*work)()) {
   try {
-    node.process();
+    (node.*work)();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -62,13 +62,14 @@ void runNode(Bus& bus, Node& node, const std::string& health_channel, const std:
     bus.handle(kPatience);
     node.health().noteDamaged(bus.handlerFailures() - failures);
     failures = bus.handlerFailures();
-    processGuarded(node);
+    guarded(node, &Node::process);
     const auto now = std::chrono::steady_clock::now();
     node.health().setQuiet(quiet.seconds(node.health().inputs(), now));
     const bool due = now >= next_health;
     if (node.health().takeChange() || due) bus.publish(health_channel, node.health().nextMessage());
     if (due) next_health = now + kHealthPeriod;
   }
+  guarded(node, &Node::finish);
   node.health().setState(HealthState::kStopping);
   bus.publish(health_channel, node.health().nextMessage());
 }

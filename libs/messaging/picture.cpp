@@ -1,5 +1,7 @@
 #include "messaging/picture.hpp"
 
+#include <algorithm>
+#include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -29,9 +31,36 @@ int jpegFlags(bool colour, int downscale) {
   }
 }
 
+int big16(const uint8_t* data) { return data[0] << 8 | data[1]; }
+
+/// Offset of the marker that begins the frame header.
+std::optional<size_t> jpegFrameHeader(const uint8_t* data, size_t size) {
+  if (size < 4 || data[0] != 0xFF || data[1] != 0xD8) return std::nullopt;
+  size_t at = 2;
+  while (at + 9 <= size && data[at] == 0xFF) {
+    const uint8_t marker = data[at + 1];
+    const bool is_frame_header =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (is_frame_header) return at;
+    at += marker == 0xFF ? 1 : 2 + static_cast<size_t>(big16(data + at + 2));
+  }
+  return std::nullopt;
+}
+
+/// libjpeg fills what is missing of a picture with grey and says nothing. Cameras may pad behind the end
+/// marker, and a thumbnail has one of its own, before the frame header.
+bool isWholeJpeg(const std::vector<uint8_t>& data) {
+  const std::array<uint8_t, 2> end_of_image = {0xFF, 0xD9};
+  const auto header = jpegFrameHeader(data.data(), data.size());
+  if (!header) return false;
+  const auto first = data.begin() + static_cast<std::ptrdiff_t>(*header);
+  return std::find_end(first, data.end(), end_of_image.begin(), end_of_image.end()) != data.end();
+}
+
 std::optional<cv::Mat> decodeJpeg(const image_t& message, bool colour, int downscale) {
   const auto declared = jpegSize(message.data.data(), message.data.size());
   if (!declared || *declared != cv::Size(message.width, message.height)) return std::nullopt;
+  if (!isWholeJpeg(message.data)) return std::nullopt;
   cv::Mat decoded = cv::imdecode(message.data, jpegFlags(colour, downscale));
   if (decoded.size() != *declared / downscale) return std::nullopt;
   return decoded;
@@ -65,17 +94,9 @@ std::optional<cv::Mat> convertRaw(const image_t& message, int channels, int code
 }  // namespace
 
 std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size) {
-  if (size < 4 || data[0] != 0xFF || data[1] != 0xD8) return std::nullopt;
-  const auto big16 = [&](size_t at) { return data[at] << 8 | data[at + 1]; };
-  size_t at = 2;
-  while (at + 9 <= size && data[at] == 0xFF) {
-    const uint8_t marker = data[at + 1];
-    const bool is_frame_header =
-        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-    if (is_frame_header) return cv::Size(big16(at + 7), big16(at + 5));
-    at += marker == 0xFF ? 1 : 2 + static_cast<size_t>(big16(at + 2));
-  }
-  return std::nullopt;
+  const auto header = jpegFrameHeader(data, size);
+  if (!header) return std::nullopt;
+  return cv::Size(big16(data + *header + 7), big16(data + *header + 5));
 }
 
 std::optional<cv::Mat> decodeGrey(const image_t& message) { return decodeGrey(message, 1); }

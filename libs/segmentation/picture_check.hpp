@@ -1,4 +1,4 @@
-// Pictures that nothing should be learned from: black, blank, frozen.
+// Pictures that nothing should be learned from: black, blank, frozen, noise.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -12,8 +12,8 @@ class PictureCheck {
   explicit PictureCheck(const SegmentationParameters& parameters) : min_contrast_(parameters.min_contrast) {}
 
   void reset() { previous_.release(); }
-  /// 8-bit grey. False for an empty picture, one with next to no contrast, and one that repeats the previous
-  /// picture to the last bit: a sensor's noise never does.
+  /// 8-bit grey. False for an empty picture, one with next to no contrast, one of pure noise, and one that
+  /// repeats the previous picture to the last bit: a sensor's noise never does.
   bool accepts(const cv::Mat& grey);
 
  private:

@@ -148,7 +148,7 @@ int runTool(int argc, char** argv) {
   addDoctorCommand(app);
   addTopCommand(app);
   addWatchCommand(app);
-  addAnnounceCommand(app);
+  addRecordCommand(app);
   cv::setNumThreads(1);  // figures for one core, and the same sums on every machine
   try {
     app.parse(argc, argv);

@@ -21,7 +21,7 @@ void addSimulateCommand(CLI::App& app);
 void addDoctorCommand(CLI::App& app);
 void addTopCommand(CLI::App& app);
 void addWatchCommand(CLI::App& app);
-void addAnnounceCommand(CLI::App& app);
+void addRecordCommand(CLI::App& app);
 
 /// 0 on success, 2 on bad use or bad input (one line on stderr), 1 on anything else.
 int runTool(int argc, char** argv);

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "messaging/receive_buffer.hpp"
-#include "processes/redbee/announce.hpp"
 #include "processes/redbee/commands.hpp"
+#include "processes/redbee/record.hpp"
 #include "processes/redbee/top.hpp"
 #include "processes/redbee/watch.hpp"
 
@@ -38,18 +38,25 @@ void addWatchCommand(CLI::App& app) {
   command->callback([options] { runWatch(*options); });
 }
 
-void addAnnounceCommand(CLI::App& app) {
-  auto options = std::make_shared<AnnounceOptions>();
+void addRecordCommand(CLI::App& app) {
+  auto options = std::make_shared<RecordOptions>();
   options->url = kDefaultLcmUrl;
-  auto* command = app.add_subcommand("announce", "one word on PROCESS_HEALTH, for scripts");
-  command->add_option("--lcm-url", options->url, "where the messages are")->capture_default_str();
-  command->add_option("--channel", options->channel, "of PROCESS_HEALTH")->capture_default_str();
-  command->add_option("--process", options->process, "who speaks")->required();
-  command->add_option("--process-id", options->process_id, "of who speaks")->capture_default_str();
-  command->add_option("--state", options->state, "starting, good, degraded, stopping or dead")
+  auto* command =
+      app.add_subcommand("record", "write every message into split logs, until SIGINT or SIGTERM");
+  command->add_option("--out", options->out, "folder for <date>_<time>.lcm.00, .01, ...")
       ->capture_default_str();
-  command->add_option("--message", options->message, "one line");
-  command->callback([options] { runAnnounce(*options); });
+  command->add_option("--split", options->split_mb, "MB, a new file begins behind so many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--min-free", options->min_free_mb, "MB of the disk that are left to others: exit 3")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--lcm-url", options->url, "where the messages are")
+      ->envname("LCM_DEFAULT_URL")
+      ->capture_default_str();
+  command->callback([options] {
+    if (!runRecord(*options)) throw CLI::RuntimeError(3);
+  });
 }
 
 }  // namespace redbee

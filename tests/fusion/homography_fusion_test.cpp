@@ -271,6 +271,20 @@ TEST(HomographyFusion, EitherSourceMayBeLostForASecondAndComeBack) {
   }
 }
 
+TEST(HomographyFusion, AnInertialStepThatKnowsNoVelocityIsNoHomographyByItself) {
+  Scene scene(4);
+  HomographyFusion fusion(kWidth, kHeight, {});
+  const double unknown_velocity = 3.0 * kPeriod * 1e-6;  // m in a frame, at 3 m/s
+  fusion.step(frameTime(0), std::nullopt, std::nullopt);
+  const auto alone = fusion.step(frameTime(1), scene.inertial(0, 1, 4e-4, unknown_velocity), std::nullopt);
+  EXPECT_EQ(alone.source, FusionSource::kNone) << "its covariance says that it may be off by many pixels";
+  const auto both =
+      fusion.step(frameTime(2), scene.inertial(1, 2, 4e-4, unknown_velocity), scene.visual(1, 2));
+  EXPECT_EQ(both.source, FusionSource::kFused) << "it still knows the rotation, and vision knows the rest";
+  const auto known = fusion.step(frameTime(3), scene.inertial(2, 3), std::nullopt);
+  EXPECT_EQ(known.source, FusionSource::kInertial);
+}
+
 TEST(HomographyFusion, BothLostBreaksTheChainAndStartsANewEpoch) {
   Scene scene(5);
   HomographyFusion fusion = makeFusion();

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "flight/log.hpp"
+#include "flight/video_writer.hpp"
 #include "fuzz_input.hpp"
 #include "messaging/codec.hpp"
 #include "messaging/picture.hpp"
@@ -179,6 +180,14 @@ void writeGpmfSeed(const fs::path& folder) {
   write(folder / "gpmf" / "two_payloads", payload + "\n%%\n" + payload);
 }
 
+void writeVideoSeed(const fs::path& folder) {
+  fs::create_directories(folder / "video");
+  VideoWriter video(folder / "video" / "clip.mp4", cv::Size(32, 32), 24);
+  for (int k = 0; k < 4; ++k) video.write(cv::Mat(32, 32, CV_8U, cv::Scalar(40 * k)));
+  video.close();
+  fs::rename(folder / "video" / "clip.mp4", folder / "video" / "clip");
+}
+
 }  // namespace
 }  // namespace redbee::fuzz
 
@@ -194,5 +203,6 @@ int main(int argc, char** argv) {
   writeLogSeed(folder, flight);
   writeTableSeeds(folder);
   writeGpmfSeed(folder);
+  writeVideoSeed(folder);
   return 0;
 }

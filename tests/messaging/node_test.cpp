@@ -43,10 +43,11 @@ class ScriptedNode : public Node {
     stop = step + 1 >= script_.size();
     script_[step](health_);
   }
-  void finish() override {}
+  void finish() override { finished = true; }
   HealthMonitor& health() override { return health_; }
 
   std::atomic<bool> stop{false};
+  bool finished = false;
 
  private:
   std::vector<std::function<void(HealthMonitor&)>> script_;
@@ -104,6 +105,13 @@ TEST(RunNode, doesNothingWhenStoppedBefore) {
   node.stop = true;
   runNode(bus, node, "HEALTH", node.stop);
   EXPECT_THAT(statesOf(bus), ::testing::ElementsAre(3));
+}
+
+TEST(RunNode, whatWasHeardBeforeTheStopIsWorkedOff) {
+  RecordingBus bus;
+  ScriptedNode node({[](HealthMonitor&) {}});
+  runNode(bus, node, "HEALTH", node.stop);
+  EXPECT_TRUE(node.finished);
 }
 
 TEST(StopOnSignals, terminationSetsTheFlag) {

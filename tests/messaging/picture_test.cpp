@@ -56,6 +56,21 @@ TEST(Picture, LiesAboutTheSizeAreRefused) {
   EXPECT_TRUE(refused(jpeg, [](image_t& m) { m.data.assign(m.data.size(), 0); }));
 }
 
+TEST(Picture, AJpegThatIsCutShortIsRefused) {
+  const image_t whole = jpegMessage(7, ramp(), 90);
+  for (const size_t size : {whole.data.size() / 3, whole.data.size() / 2, whole.data.size() - 2}) {
+    image_t cut = whole;
+    cut.data.resize(size);
+    cut.size = static_cast<int32_t>(size);
+    EXPECT_FALSE(decodeGrey(cut)) << size << " of " << whole.data.size() << " bytes";
+    EXPECT_FALSE(decodeColour(cut));
+  }
+  image_t padded = whole;
+  padded.data.resize(whole.data.size() + 100);
+  padded.size = static_cast<int32_t>(padded.data.size());
+  EXPECT_TRUE(decodeGrey(padded)) << "cameras pad";
+}
+
 TEST(Picture, SmallerOnesAreTheMeanOfBlocks) {
   // Smooth, so that a JPEG's own way of shrinking, which leaves out the finest waves, finds nothing to leave
   // out.

@@ -145,6 +145,15 @@ INSTANTIATE_TEST_SUITE_P(Each, ProcessKilled,
                                            Case{"segmentation", kSegmentation, 24, 16}),
                          [](const auto& each) { return each.param.name; });
 
+/// An overloaded machine does this: the IMU's homographies come in time, vision's do not, and nobody has told
+/// the filter how fast the drone is.
+TEST(ProcessesStart, WithoutVisionNoWrongMaskIsCalledGood) {
+  const Seen seen = flyWith(walk(), {{0, kVisual}});
+  expectNoWrongMask(seen.said);
+  for (int k = 0; k < kDownFrames; ++k) EXPECT_FALSE(isGood(seen.said, k)) << "frame " << k;
+  EXPECT_EQ(untrusted(seen.said, kKilledAt, kFrames), 0);
+}
+
 TEST(RestartedTracker, GivesNoIdentityTwice) {
   const testing::ScratchFolder folder;
   KeptIdentities first(folder.path() / "identities");

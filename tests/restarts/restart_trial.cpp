@@ -207,7 +207,7 @@ class Trial {
   std::string since(int64_t utime) const {
     const auto next =
         std::find_if(kills_.begin(), kills_.end(), [&](const Kill& kill) { return kill.utime >= utime; });
-    if (next == kills_.begin()) return "before any kill";
+    if (next == kills_.begin()) return "before any kill, frame " + std::to_string(flight_.frameAt(utime));
     const Kill& last = *std::prev(next);
     return std::to_string(static_cast<double>(utime - last.utime) * 1e-6) + " s after " + last.process +
            ", frame " + std::to_string(flight_.frameAt(utime) % kLoopFrames) + " of the loop";
@@ -222,7 +222,7 @@ class Trial {
       shares.push_back(told.false_share);
       found.push_back(told.found_share);
       if (told.false_share <= kWildShare) continue;
-      wild += utime > kills_.front().utime ? 1 : 0;  // what the start does is told, and another test's matter
+      ++wild;
       std::printf("wild: %.1f %% false, %s\n", 100 * told.false_share, since(utime).c_str());
     }
     std::printf("%zu trusted masks: false area median %.2f %%, worst %.2f %%; movers found, median %.0f %%\n",

@@ -67,15 +67,34 @@ TEST_P(CanvasMargin, FollowsAPanAndKnowsWhatItHasNotSeen) {
   EXPECT_EQ(cv::countNonZero(verdict.foreground(cv::Rect(40, 20, 10, 10))), 100);
 }
 
+TEST(PictureCheck, RefusesNoiseAndKeepsANoisyScene) {
+  PictureCheck check{SegmentationParameters{}};
+  cv::RNG random(3);
+  cv::Mat noise(240, 320, CV_8U);
+  random.fill(noise, cv::RNG::UNIFORM, 0, 255);
+  EXPECT_FALSE(check.accepts(noise)) << "its neighbours have nothing to do with each other";
+  cv::Mat scene;
+  cv::GaussianBlur(noise, scene, cv::Size(), 2);
+  cv::Mat grain(scene.size(), CV_8U);
+  random.fill(grain, cv::RNG::UNIFORM, 0, 10);
+  EXPECT_TRUE(check.accepts(scene + grain)) << "a dark scene of little contrast, the sensor's grain on it";
+}
+
 TEST(PictureCheck, RefusesBlankAndFrozenPictures) {
   PictureCheck check{SegmentationParameters{}};
-  const cv::Mat good = noise({64, 48}, 1, 120, 20);
+  // Blurred, since pure noise is no picture either.
+  const auto scene = [](int seed) {
+    cv::Mat picture;
+    cv::GaussianBlur(noise({64, 48}, seed, 120, 60), picture, cv::Size(), 1.5);
+    return picture;
+  };
+  const cv::Mat good = scene(1);
   EXPECT_TRUE(check.accepts(good));
   EXPECT_FALSE(check.accepts(good));
   EXPECT_FALSE(check.accepts(cv::Mat(48, 64, CV_8U, cv::Scalar(0))));
   EXPECT_FALSE(check.accepts(cv::Mat(48, 64, CV_8U, cv::Scalar(255))));
   EXPECT_FALSE(check.accepts(cv::Mat()));
-  EXPECT_TRUE(check.accepts(noise({64, 48}, 2, 120, 20)));
+  EXPECT_TRUE(check.accepts(scene(2)));
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+// A recording in flight: LCM logs NAME.00, NAME.01, ..., each readable by itself; joined in order they are
+// one log.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace redbee {
+
+/// A message as it was heard.
+struct HeardMessage {
+  int64_t utime = 0;  ///< us, of its arrival
+  std::string channel;
+  std::vector<uint8_t> data;
+
+  int64_t bytes() const { return static_cast<int64_t>(sizeof *this + channel.size() + data.size()); }
+};
+
+/// Unlike LogWriter, which finishes a file or leaves none: here whatever is written stays, also of a process
+/// that is killed. Files that are there already are never touched; the numbers go on behind them. What the
+/// disk does not take throws InputError.
+class SplitLog {
+ public:
+  /// A new file begins behind the message with which one exceeds `split_bytes`.
+  SplitLog(std::filesystem::path prefix, int64_t split_bytes);
+
+  void write(const HeardMessage& message);
+  /// Hands everything to the disk and waits until it is there.
+  void sync();
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  void openNext();
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path prefix_;
+  int64_t split_bytes_;
+  int number_ = 0;
+  int64_t bytes_ = 0;
+  std::filesystem::path file_;
+  std::unique_ptr<lcm::LogFile> log_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,11 @@
+// What a homography's covariance means in the picture.
+#pragma once
+
+#include "geometry/homography.hpp"
+
+namespace redbee {
+
+/// Standard deviation [px] of where `H` takes a point, RMS over a grid of the picture. Both scaled.
+double transferSigma(const Eigen::Matrix3d& H, const Matrix8d& covariance, int width, int height);
+
+}  // namespace redbee
