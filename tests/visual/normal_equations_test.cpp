@@ -54,7 +54,7 @@ TEST(NormalEquations, AreTheSumsOverTheChosenPairs) {
   for (const int count : {9, 12, 250}) {  // 9 and 250: the last group of four is not full
     const ScaledPairs pairs = disturbedPairs(count);
     std::vector<uint8_t> chosen(pairs.size(), 1);
-    chosen[1] = 0;
+    chosen.at(1) = 0;
     const NormalEquations expected = summed(pairs, chosen);
     const PackedPairs packed(pairs, chosen);
     const NormalEquations found = packed.linearise(tilted(), kKnee);
