@@ -193,6 +193,7 @@ Settings backgroundSettings() {
       setting("segmentation.fill_radius_px", MEMBER(segmentation.fill_radius_px), positive),
       setting("segmentation.fill_contrast", MEMBER(segmentation.fill_contrast), positive),
       setting("segmentation.region_radius_px", MEMBER(segmentation.region_radius_px), notNegative),
+      setting("segmentation.edge_doubt_px", MEMBER(segmentation.edge_doubt_px), notNegative),
       setting("segmentation.use_surfaces", MEMBER(segmentation.use_surfaces), anything),
       setting("segmentation.use_shadow_test", MEMBER(segmentation.use_shadow_test), anything),
       setting("segmentation.shadow_noise", MEMBER(segmentation.shadow_noise), positive),

@@ -29,6 +29,29 @@ float meanSquare(const Eigen::Array4f& difference) {
   return counted.square().sum() * (1.0F / kColours);
 }
 
+/// Squared slope of the mean colour about pixel (x, y), of one channel [grey levels^2 a px^2].
+class Slope {
+ public:
+  Slope(const cv::Mat& model, int y)
+      : here_(model.ptr<float>(y)),
+        above_(model.ptr<float>(std::max(y - 1, 0))),
+        below_(model.ptr<float>(std::min(y + 1, model.rows - 1))),
+        last_(model.cols - 1) {}
+
+  float squared(int x) const {
+    const int left = 4 * std::max(x - 1, 0), right = 4 * std::min(x + 1, last_);
+    const Eigen::Array4f across = ConstPixel(here_ + right) - ConstPixel(here_ + left);
+    const Eigen::Array4f down = ConstPixel(below_ + 4 * x) - ConstPixel(above_ + 4 * x);
+    return 0.25F * (meanSquare(across) + meanSquare(down));
+  }
+
+ private:
+  const float* here_;
+  const float* above_;
+  const float* below_;
+  int last_;
+};
+
 /// 1 / (age + 1), at least `slowest`.
 std::array<float, 256> ratesByAge(double slowest) {
   std::array<float, 256> rates{};
@@ -68,11 +91,13 @@ cv::Mat CarriedBackground::unlike(const cv::Mat& picture, const SurfaceSpeed& sp
   cv::Mat evidence = cv::Mat::zeros(picture.size(), CV_32F);
   if (model_.empty()) return evidence;
   const auto noise2 = static_cast<float>(parameters_.background_noise * parameters_.background_noise);
+  const auto edge2 = static_cast<float>(parameters_.edge_doubt_px * parameters_.edge_doubt_px);
   std::optional<ShadowTest> shadows;
   if (parameters_.use_shadow_test) shadows.emplace(picture, model_, parameters_.shadow_noise);
   const std::vector<float> none(static_cast<size_t>(picture.cols), 0.0F);
   for (int y = 0; y < picture.rows; ++y) {
     const std::vector<float>& shadow = shadows ? shadows->row(y) : none;
+    const Slope slope(model_, y);
     const float* now = picture.ptr<float>(y);
     const float* known = model_.ptr<float>(y);
     const cv::Vec2f* is = speed.ptr<cv::Vec2f>(y);
@@ -82,7 +107,8 @@ cv::Mat CarriedBackground::unlike(const cv::Mat& picture, const SurfaceSpeed& sp
     for (int x = 0; x < picture.cols; ++x) {
       if (age[x] == 0) continue;
       const float d2 = meanSquare(ConstPixel(now + 4 * x) - ConstPixel(known + 4 * x));
-      const float foreign = d2 / (d2 + known[4 * x + kColours] + noise2);
+      const float doubt = known[4 * x + kColours] + noise2 + edge2 * slope.squared(x);
+      const float foreign = d2 / (d2 + doubt);
       to[x] = foreign * (1 - shadow[static_cast<size_t>(x)]) * (1 - movedAway(was[x], is[x]));
     }
   }

@@ -21,9 +21,10 @@ class CarriedBackground {
   void reset();
   /// The view moves (pixels of the pictures that are compared and learned).
   void carry(const SceneMotion& scene);
-  /// CV_32F, 0..1: d^2 / (d^2 + variance + noise^2) of the pixel's difference d. Less where it may be the
-  /// background in shadow, and where the background was learned from a surface that has moved away since; 0
-  /// where the model has not seen the scene. `picture`: CV_32FC4 (blue, green, red, anything).
+  /// CV_32F, 0..1: d^2 / (d^2 + variance + noise^2 + (edge doubt * slope)^2) of the pixel's difference d.
+  /// Less where it may be the background in shadow, and where the background was learned from a surface that
+  /// has moved away since; 0 where the model has not seen the scene. `picture`: CV_32FC4 (blue, green, red,
+  /// anything).
   cv::Mat unlike(const cv::Mat& picture, const SurfaceSpeed& speed) const;
   /// What moves (CV_32F, 0..1) is learned slowly, so that it leaves no trail. `elapsed_s`: since the last
   /// picture.

@@ -67,27 +67,28 @@ ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::M
                                                       cv::Size full) {
   const double elapsed_s = static_cast<double>(utime - last_utime_) * 1e-6;
   last_utime_ = utime;
-  Verdict verdict;
   const cv::Mat motion = motion_.learn(utime, grey, K, full);
-  if (!motion.empty()) {
-    verdict.foreground = motion / (motion + parameters_.motion_half);
-    cv::resize(motion_.unseen(), verdict.unseen, full, 0, 0, cv::INTER_NEAREST);
-  }
+  cv::Mat foreground;
+  if (!motion.empty()) foreground = motion / (motion + parameters_.motion_half);
   if (parameters_.use_appearance) {
     const cv::Mat picture = pictureToCompare(grey, colour, full);
     cv::Mat moving = cv::Mat::zeros(picture.size(), CV_32F);
     SurfaceSpeed speed(picture.size(), CV_32FC2, cv::Scalar(0, kUnknownVariance));
     if (!motion.empty()) {
       cv::resize(motion_.speed(), speed, picture.size(), 0, 0, cv::INTER_LINEAR);
-      cv::resize(verdict.foreground, verdict.foreground, picture.size(), 0, 0, cv::INTER_LINEAR);
-      verdict.foreground = verdict.foreground.mul(background_.unlike(picture, speed));
-      if (parameters_.region_radius_px > 0) fillRegions(picture, verdict.foreground);
+      cv::resize(foreground, foreground, picture.size(), 0, 0, cv::INTER_LINEAR);
+      foreground = foreground.mul(background_.unlike(picture, speed));
+      if (parameters_.region_radius_px > 0) fillRegions(picture, foreground);
       // Half is sure enough: what is learned by mistake is lost for as long as the background remembers.
-      moving = cv::min(2 * verdict.foreground, 1);
+      moving = cv::min(2 * foreground, 1);
     }
     background_.learn(picture, moving, speed, elapsed_s);
   }
-  if (!motion.empty()) cv::resize(verdict.foreground, verdict.foreground, full, 0, 0, cv::INTER_LINEAR);
+  Verdict verdict;
+  if (motion.empty()) return verdict;
+  cv::resize(motion_.unseen(), verdict.unseen, full, 0, 0, cv::INTER_NEAREST);
+  foreground.convertTo(verdict.foreground, CV_8U, 255);
+  cv::resize(verdict.foreground, verdict.foreground, full, 0, 0, cv::INTER_LINEAR);
   return verdict;
 }
 

@@ -23,7 +23,7 @@ class ForegroundEvidence {
              const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K);
 
   struct Verdict {
-    cv::Mat foreground;  ///< CV_32F, 0..1, full size; empty where there is no earlier frame
+    cv::Mat foreground;  ///< CV_8U, P_FG * 255, full size; empty where there is no earlier frame
     cv::Mat unseen;      ///< CV_8U, 255 where no earlier frame shows the scene
   };
   /// `grey`: CV_8U, `colour`: CV_8UC3 of the same size, or empty where the camera has none. `full`: the full

@@ -1,12 +1,13 @@
-// Edge-aware smoothing (He, Sun and Tang, "Guided image filtering", ECCV 2010).
+// Edge-aware smoothing (He, Sun and Tang, "Guided image filtering", ECCV 2010; on a shrunk picture: He and
+// Sun, "Fast guided filter", 2015).
 #pragma once
 
 #include <opencv2/core.hpp>
 
 namespace redbee {
 
-/// `map` (CV_32F) as a locally linear function of `guide` (CV_8U) over squares of 2 radius + 1: it fills even
-/// surfaces and stops at their edges. Contrast below `contrast` grey levels is no edge.
+/// `map` (CV_32F) as a locally linear function of `guide` (CV_8U or CV_32F) over squares of 2 radius + 1: it
+/// fills even surfaces and stops at their edges. Contrast below `contrast` grey levels is no edge.
 cv::Mat guidedFilter(const cv::Mat& guide, const cv::Mat& map, int radius_px, double contrast);
 
 }  // namespace redbee

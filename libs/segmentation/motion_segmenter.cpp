@@ -112,29 +112,29 @@ class MotionSegmenter::Implementation {
     return output;
   }
 
-  /// Learns the picture and leaves P_FG and the unknown pixels in the output.
+  /// Learns the picture; leaves P_FG in probability_map_.
   BackgroundVerdict learn(const SegmentationInput& input, SegmentationOutput& output) {
     BackgroundVerdict verdict;
-    cv::Mat foreground;
-    cv::Mat order;
     if (parameters_.method == SegmentationMethod::kTwoPlanes) {
       verdict = planes_.learn(input.grey);
-      verdict.foreground.convertTo(foreground, CV_32F, 1.0 / 255);
     } else {
-      const ForegroundEvidence::Verdict found =
+      ForegroundEvidence::Verdict found =
           evidence_.learn(input.utime, input.grey, input.colour, input.K, size_);
-      foreground = found.foreground.empty() ? cv::Mat::zeros(size_, CV_32F) : found.foreground;
+      verdict.foreground = found.foreground.empty() ? cv::Mat::zeros(size_, CV_8U) : found.foreground;
       verdict.unknown = found.unseen.empty() ? output.unknown : found.unseen;
     }
-    if (parameters_.use_refinement) {
-      if (parameters_.use_entropy && input.ground) {
-        order = flowOrder(input.tracks, *input.ground, size_, parameters_);
-      }
-      probability_map_ = probability_.update(foreground, order);
-    } else {
-      probability_map_ = foreground;
-    }
+    probability_map_ = parameters_.use_refinement ? refined(verdict.foreground, input) : verdict.foreground;
     return verdict;
+  }
+
+  cv::Mat refined(const cv::Mat& foreground, const SegmentationInput& input) {
+    cv::Mat evidence, order, probability;
+    foreground.convertTo(evidence, CV_32F, 1.0 / 255);
+    if (parameters_.use_entropy && input.ground) {
+      order = flowOrder(input.tracks, *input.ground, size_, parameters_);
+    }
+    probability_.update(evidence, order).convertTo(probability, CV_8U, 255);
+    return probability;
   }
 
   void judge(const BackgroundVerdict& verdict, SegmentationOutput& output) {
@@ -142,10 +142,9 @@ class MotionSegmenter::Implementation {
     output.unknown = verdict.unknown;
     probability_map_.setTo(0, verdict.unknown);
     // Less than this is noise, and would make most of the map's bytes on the wire.
-    constexpr double kNoise = 6.0 / 255;
-    cv::threshold(probability_map_, probability_map_, kNoise, 0, cv::THRESH_TOZERO);
-    probability_map_.convertTo(output.probability, CV_8U, 255);
-    ForegroundComponents found = findComponents(probability_map_, verdict.unknown, parameters_);
+    constexpr double kNoise = 6;
+    cv::threshold(probability_map_, output.probability, kNoise, 0, cv::THRESH_TOZERO);
+    ForegroundComponents found = findComponents(output.probability, verdict.unknown, parameters_);
     output.mask = found.mask;
     output.detections = tracker_.update(found.components, size_);
   }
@@ -156,7 +155,7 @@ class MotionSegmenter::Implementation {
   ForegroundEvidence evidence_;
   ForegroundProbability probability_;
   ObjectTracker tracker_;
-  cv::Mat probability_map_;
+  cv::Mat probability_map_;  ///< CV_8U, P_FG * 255
   cv::Size size_;
   int64_t last_utime_ = kNever;
   int learned_ = 0;

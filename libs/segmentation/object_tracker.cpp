@@ -13,6 +13,7 @@ namespace {
 constexpr double kVelocityRate = 0.3;     // of the newest step in an object's velocity
 constexpr double kUnseenVelocity = 0.85;  // share of the velocity that an unseen object keeps per frame
 constexpr int kUnmatched = -1;
+constexpr double kFull = 255;  // P_FG of 1
 
 Eigen::Vector2d centreOf(const cv::Rect& box) { return {box.x + 0.5 * box.width, box.y + 0.5 * box.height}; }
 
@@ -36,7 +37,7 @@ cv::Mat disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE,
 
 ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& unknown,
                                     const SegmentationParameters& parameters) {
-  cv::Mat mask = probability > std::min(parameters.extent_threshold, parameters.threshold);
+  cv::Mat mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
   mask.setTo(0, unknown);
   if (parameters.opening_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(parameters.opening_px));
   if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
@@ -56,8 +57,8 @@ ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& u
     const cv::Mat own = labels(component.box) == label;
     double surest = 0;
     cv::minMaxLoc(probability(component.box), nullptr, &surest, nullptr, nullptr, own);
-    if (surest <= parameters.threshold) continue;
-    component.score = cv::mean(probability(component.box), own)[0];
+    if (surest <= kFull * parameters.threshold) continue;
+    component.score = cv::mean(probability(component.box), own)[0] / kFull;
     found.mask(component.box).setTo(255, own);
     found.components.push_back(component);
   }

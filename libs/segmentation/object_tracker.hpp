@@ -18,7 +18,7 @@ struct Detection {
 };
 
 /// Two thresholds (hysteresis), opening, closing, and the components that are large enough. `mask` (CV_8U, 0
-/// or 255) holds exactly those.
+/// or 255) holds exactly those. `probability`: CV_8U, P_FG * 255.
 struct ForegroundComponents {
   cv::Mat mask;
   std::vector<Detection> components;  ///< without identity

@@ -40,6 +40,7 @@ struct SegmentationParameters {
       2;  ///< 1, 2 or 4: the background's looks are kept on a picture this much smaller
   double background_span_s = 0.5;  ///< s: over which they are averaged
   double background_noise = 20.0;  ///< grey levels: differences of this size are noise
+  double edge_doubt_px = 1.5;      ///< px of that picture: the background's edges may be off by so much
   bool use_surfaces = true;        ///< false: the background remembers surfaces that have moved away
   bool use_shadow_test = true;     ///< false: cast shadows are foreground as their casters are
   double shadow_noise = 8;         ///< grey levels: what may be left of a shadow once it is brightened
@@ -62,7 +63,7 @@ struct SegmentationParameters {
   double flow_noise_px = 0.4;  ///< px: flow below this has no direction and does not vote
 
   // Masks and objects.
-  double threshold = 0.45;        ///< on P_FG: somewhere an object exceeds it
+  double threshold = 0.5;         ///< on P_FG: somewhere an object exceeds it
   double extent_threshold = 0.3;  ///< on P_FG: an object reaches as far as it exceeds this
   int opening_px = 3;             ///< px: 0 for none
   int closing_px = 7;             ///< px: 0 for none

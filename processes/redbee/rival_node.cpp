@@ -109,9 +109,8 @@ SegmentationOutput RivalNode::detect(const RivalInput& input) {
     Eigen::Matrix3d background;
     cv::cv2eigen(answer.background, background);
     tracker_.carry(background);
-    cv::Mat probability;
-    output.probability.convertTo(probability, CV_32F, 1.0 / 255);
-    ForegroundComponents found = findComponents(probability, output.unknown, configuration_.segmentation);
+    ForegroundComponents found =
+        findComponents(output.probability, output.unknown, configuration_.segmentation);
     output.mask = found.mask;
     components = std::move(found.components);
   }

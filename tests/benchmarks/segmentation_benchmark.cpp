@@ -118,8 +118,8 @@ void travelHalfSize(benchmark::State& state) {
 BENCHMARK(travelHalfSize)->Unit(benchmark::kMillisecond);
 
 void components(benchmark::State& state) {
-  cv::Mat probability = cv::Mat::zeros(480, 640, CV_32F);
-  for (int i = 0; i < 20; ++i) probability(cv::Rect(30 * i, 20 * i, 12, 25)).setTo(0.9);
+  cv::Mat probability = cv::Mat::zeros(480, 640, CV_8U);
+  for (int i = 0; i < 20; ++i) probability(cv::Rect(30 * i, 20 * i, 12, 25)).setTo(230);
   const cv::Mat unknown = cv::Mat::zeros(480, 640, CV_8U);
   for (auto _ : state) benchmark::DoNotOptimize(findComponents(probability, unknown, {}));
 }

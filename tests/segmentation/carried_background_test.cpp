@@ -157,6 +157,19 @@ TEST_F(Background, AShadowIsBackground) {
   EXPECT_GT(mean(background_.unlike(painted, allAt(0)), {64, 54, 12, 12}), 0.5);
 }
 
+TEST_F(Background, AnEdgeThatIsOffByHalfAPixelAccusesLessThanASurface) {
+  // Half of the step's 150 grey levels, in the column beside it and over a surface.
+  cv::Mat step = plain(cv::Scalar::all(50));
+  step.colRange(80, kSize.width).setTo(cv::Scalar::all(200));
+  for (int k = 0; k < kPictures; ++k) background_.learn(step, nothingMoves(), allAt(0), kFrame_s);
+  cv::Mat now = step.clone();
+  now.col(79).setTo(cv::Scalar::all(125));
+  now.colRange(20, 40).setTo(cv::Scalar::all(125));
+  const cv::Mat evidence = background_.unlike(now, allAt(0));
+  EXPECT_LT(mean(evidence, {79, 10, 1, 100}), 0.4);
+  EXPECT_GT(mean(evidence, {22, 10, 16, 100}), 0.8);
+}
+
 TEST_F(Background, AboveTheHorizonOnlyTheRotationCounts) {
   // Level flight to the right, low: the ground slides by, the sky stays.
   Eigen::Matrix3d K;

@@ -95,10 +95,10 @@ TEST(ObjectTracker, FlickerIsNotTold) {
 
 TEST(FindComponents, SmallAndUnknownRegionsAreNoObjects) {
   SegmentationParameters parameters;
-  cv::Mat probability = cv::Mat::zeros(kPicture, CV_32F);
-  probability(cv::Rect(100, 100, 20, 30)).setTo(0.8);
-  probability(cv::Rect(300, 100, 4, 4)).setTo(0.8);
-  probability(cv::Rect(500, 100, 20, 30)).setTo(0.8);
+  cv::Mat probability = cv::Mat::zeros(kPicture, CV_8U);
+  probability(cv::Rect(100, 100, 20, 30)).setTo(204);
+  probability(cv::Rect(300, 100, 4, 4)).setTo(204);
+  probability(cv::Rect(500, 100, 20, 30)).setTo(204);
   cv::Mat unknown = cv::Mat::zeros(kPicture, CV_8U);
   unknown(cv::Rect(480, 80, 80, 80)).setTo(255);
   const ForegroundComponents found = findComponents(probability, unknown, parameters);
@@ -106,6 +106,19 @@ TEST(FindComponents, SmallAndUnknownRegionsAreNoObjects) {
   EXPECT_EQ(found.components[0].box, cv::Rect(100, 100, 20, 30));
   EXPECT_NEAR(found.components[0].score, 0.8, 0.01);
   EXPECT_EQ(cv::countNonZero(found.mask), found.components[0].area_px);
+}
+
+TEST(FindComponents, AnObjectReachesAsFarAsTheLowerThresholdAndIsSureSomewhere) {
+  SegmentationParameters parameters;
+  parameters.threshold = 0.5;
+  parameters.extent_threshold = 0.3;
+  cv::Mat probability = cv::Mat::zeros(kPicture, CV_8U);
+  probability(cv::Rect(100, 100, 20, 30)).setTo(100);  // 0.39
+  probability(cv::Rect(105, 105, 4, 4)).setTo(200);
+  probability(cv::Rect(300, 100, 20, 30)).setTo(100);
+  const ForegroundComponents found = findComponents(probability, cv::Mat::zeros(kPicture, CV_8U), parameters);
+  ASSERT_EQ(found.components.size(), 1U);
+  EXPECT_EQ(found.components[0].box, cv::Rect(100, 100, 20, 30));
 }
 
 }  // namespace
