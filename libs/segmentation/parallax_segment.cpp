@@ -38,18 +38,19 @@ cv::Vec2f ParallaxSegment::end(const cv::Vec2f& ground) const {
   return kBeyondFront * (cv::Vec2f(front[0], front[1]) / front[2] - ground);
 }
 
-cv::Vec2f ParallaxSegment::direction(const cv::Vec2f& ground) const {
+ParallaxSegment::Ray ParallaxSegment::ray(const cv::Vec2f& ground) const {
   const cv::Vec2f towards = end(ground);
   const float length = std::sqrt(towards.dot(towards));
-  return length < kNoDirection ? cv::Vec2f(0, 0) : towards * (1 / length);
+  if (length < kNoDirection) return {{0, 0}, 0};
+  return {towards * (1 / length), length};
 }
+
+cv::Vec2f ParallaxSegment::direction(const cv::Vec2f& ground) const { return ray(ground).direction; }
 
 ParallaxSegment::Verdict ParallaxSegment::judge(const cv::Vec2f& ground, const cv::Vec2f& flow,
                                                 float noise_variance) const {
-  const cv::Vec2f towards = end(ground);
-  const float length = std::sqrt(towards.dot(towards));
-  if (length < kNoDirection) return {{0, 0}, flow * (1 / std::sqrt(noise_variance))};
-  const cv::Vec2f direction = towards * (1 / length);
+  const auto [direction, length] = ray(ground);
+  if (length == 0) return {{0, 0}, flow * (1 / std::sqrt(noise_variance))};
   const float along = flow.dot(direction);
   const cv::Vec2f nearest = direction * std::clamp(along, 0.0F, length);
   const float sigma = std::sqrt(noise_variance + direction_variance_ * along * along);
