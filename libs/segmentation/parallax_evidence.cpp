@@ -114,7 +114,7 @@ cv::Mat ParallaxEvidence::flowVariance(const cv::Mat& grey) const {
 FrameEvidence ParallaxEvidence::judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey,
                                           const cv::Mat& flow, double frames) {
   const cv::Mat variance = flowVariance(grey);
-  AffineFlow error;
+  HomographyFlow error(flow.size());
   if (parameters_.use_registration) {
     const double expected = kExpectedErrorPx / scale_;
     error = registrationError(flow, variance, unseen_, segment, static_cast<float>(expected));
