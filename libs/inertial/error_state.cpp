@@ -7,8 +7,8 @@
 namespace redbee {
 namespace {
 
-constexpr int kMovingSize = kCloneAttitude;   // the clone and the mounting stand still
-constexpr double kMaxSpeed = 1e3;             // m/s: a faster state is a broken one
+constexpr int kMovingSize = kCloneAttitude;  // the clone and the mounting stand still
+constexpr double kMaxSpeed = 1e3;            // m/s: a faster state is a broken one
 
 using MovingMatrix = Eigen::Matrix<double, kMovingSize, kMovingSize>;
 

@@ -10,7 +10,8 @@
 
 namespace redbee {
 
-/// Holds what may be believed of the samples. Frames are told by the camera's clock, other times by the IMU's.
+/// Holds what may be believed of the samples. Frames are told by the camera's clock, other times by the
+/// IMU's.
 class FrameSamples {
  public:
   explicit FrameSamples(const InertialParameters& parameters);

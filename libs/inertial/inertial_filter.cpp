@@ -77,15 +77,16 @@ class InertialFilter::Implementation {
 
   std::optional<InertialState> state() const {
     if (!state_) return std::nullopt;
-    return InertialState{
-        *frame_,          state_->R_GI, state_->v_GI, cameraHeight(*state_, p_IC()), state_->gyro_bias,
-        state_->accel_bias, state_->R_CI};
+    return InertialState{*frame_,           state_->R_GI,       state_->v_GI, cameraHeight(*state_, p_IC()),
+                         state_->gyro_bias, state_->accel_bias, state_->R_CI};
   }
 
   const std::optional<InertialKnowledge>& knowledge() const { return known_; }
 
+  bool begins() const { return state_ && !has_moved_; }
+
   KnowledgeVerdict goOnFrom(const InertialKnowledge& known) {
-    if (!state_ || has_moved_) return KnowledgeVerdict::kNotWanted;
+    if (!begins()) return KnowledgeVerdict::kNotWanted;
     const KnowledgeVerdict verdict = judge(known, *frame_, parameters_);
     if (verdict == KnowledgeVerdict::kBelieved) {
       known_ = known;
@@ -103,8 +104,7 @@ class InertialFilter::Implementation {
     forgetFrames();
     if (before.empty()) {
       state_.reset();
-      return nothing(frame, frame,
-                     status == InertialStatus::kClockJump ? status : InertialStatus::kNoImu);
+      return nothing(frame, frame, status == InertialStatus::kClockJump ? status : InertialStatus::kNoImu);
     }
     state_ = initialState(frame, before, parameters_, known_);
     frame_ = frame;
@@ -225,6 +225,7 @@ std::optional<InertialState> InertialFilter::state() const { return implementati
 const std::optional<InertialKnowledge>& InertialFilter::knowledge() const {
   return implementation_->knowledge();
 }
+bool InertialFilter::begins() const { return implementation_->begins(); }
 KnowledgeVerdict InertialFilter::goOnFrom(const InertialKnowledge& known) {
   return implementation_->goOnFrom(known);
 }

@@ -101,8 +101,9 @@ class InertialFilter {
 
   /// What has been learned up to the last frame that a motion was found for; nothing before.
   const std::optional<InertialKnowledge>& knowledge() const;
-  /// Takes at the first frame what another filter had learned before. A filter that has moved flies by its
-  /// own, and what it does not believe changes nothing.
+  /// True at the first frame that it was ever at.
+  bool begins() const;
+  /// While it begins: takes what another filter had learned before. What it does not believe changes nothing.
   KnowledgeVerdict goOnFrom(const InertialKnowledge& known);
 
  private:

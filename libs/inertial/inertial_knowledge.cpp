@@ -20,6 +20,8 @@ constexpr double kMaxSigmas = 10;
 constexpr double kGyroDrift = 0.02;       // rad/s
 constexpr double kAccelDrift = 0.3;       // m/s^2
 constexpr double kMountingDrift = 0.035;  // rad
+constexpr double kMaxTilt = 3.2;          // rad, of its sigma
+constexpr double kUnitTolerance = 1e-6;
 constexpr double kDoubt = 2;
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
@@ -44,14 +46,16 @@ bool isHeight(const InertialKnowledge& known) {
 bool couldBeLearned(const InertialKnowledge& known, const InertialParameters& parameters) {
   const double mounting_sigma = parameters.extrinsic_rotation_sigma_deg * kRadiansPerDegree;
   const Eigen::Matrix3d turned = known.R_CI * parameters.extrinsics.R_CI.transpose();
-  return isHeight(known) && known.velocity.norm() <= kMaxVelocity &&
+  return isHeight(known) && std::abs(known.up.norm() - 1) < kUnitTolerance &&
+         isSigma(known.up_sigma, kMaxTilt) && known.velocity.norm() <= kMaxVelocity &&
          isSigma(known.velocity_sigma, kMaxVelocity) &&
          isSensorError(known.gyro_bias - parameters.gyro_bias, known.gyro_bias_sigma,
                        std::max(kGyroDrift, kMaxSigmas * parameters.gyro_bias_sigma)) &&
          isSensorError(known.accel_bias - parameters.accel_bias, known.accel_bias_sigma,
                        std::max(kAccelDrift, kMaxSigmas * parameters.accel_bias_sigma)) &&
          known.R_CI.allFinite() && isRotation(known.R_CI) &&
-         isSensorError(logSO3(turned), known.R_CI_sigma, std::max(kMountingDrift, kMaxSigmas * mounting_sigma));
+         isSensorError(logSO3(turned), known.R_CI_sigma,
+                       std::max(kMountingDrift, kMaxSigmas * mounting_sigma));
 }
 
 }  // namespace
@@ -87,13 +91,14 @@ KnowledgeVerdict judge(const InertialKnowledge& known, int64_t utime, const Iner
 
 InertialKnowledge aged(InertialKnowledge known, int64_t utime) {
   const double age = ageAt(known, utime);
-  for (Eigen::Vector3d* sigma :
-       {&known.velocity_sigma, &known.gyro_bias_sigma, &known.accel_bias_sigma, &known.R_CI_sigma}) {
+  for (Eigen::Vector3d* sigma : {&known.up_sigma, &known.velocity_sigma, &known.gyro_bias_sigma,
+                                 &known.accel_bias_sigma, &known.R_CI_sigma}) {
     *sigma *= kDoubt;
   }
   known.height_m = std::max(kMinCameraHeight, known.height_m + age * known.velocity.z());
   known.height_sigma_m = std::hypot(kDoubt * known.height_sigma_m, age * known.velocity_sigma.z(),
                                     0.5 * age * age * kUnknownAcceleration);
+  for (double& sigma : known.up_sigma) sigma = std::hypot(sigma, age * kUnknownRate);
   const double turned = age * kUnknownRate * known.velocity.head<2>().norm();
   for (const int axis : {0, 1, 2}) {
     double& sigma = known.velocity_sigma(axis);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/so3.hpp"
+#include "inertial/corrections.hpp"
 #include "inertial/homography_measurement.hpp"
 
 namespace redbee {
@@ -65,17 +66,28 @@ InertialKnowledge configured(const InertialParameters& parameters) {
   return known;
 }
 
-InertialKnowledge knownAt(int64_t utime, const std::optional<InertialKnowledge>& learned,
-                          const InertialParameters& parameters) {
-  const InertialKnowledge start = configured(parameters);
-  if (!learned) return start;
-  if (isRecent(*learned, utime)) return aged(*learned, utime);
-  InertialKnowledge sensors = *learned;
-  sensors.height_m = start.height_m;
-  sensors.height_sigma_m = start.height_sigma_m;
-  sensors.velocity = start.velocity;
-  sensors.velocity_sigma = start.velocity_sigma;
-  return sensors;
+/// The sensors of `learned`, all else of the configured start.
+InertialKnowledge sensorsOf(const InertialKnowledge& learned, const InertialParameters& parameters) {
+  InertialKnowledge known = configured(parameters);
+  known.gyro_bias = learned.gyro_bias;
+  known.gyro_bias_sigma = learned.gyro_bias_sigma;
+  known.accel_bias = learned.accel_bias;
+  known.accel_bias_sigma = learned.accel_bias_sigma;
+  known.R_CI = learned.R_CI;
+  known.R_CI_sigma = learned.R_CI_sigma;
+  return known;
+}
+
+/// Both the vertical that was known and the one that specific force shows.
+void mergeTilt(NavigationState& state, const Eigen::Vector3d& force, const InertialKnowledge& known,
+               const InertialParameters& parameters) {
+  state.R_GI = righting(known.up);
+  const Eigen::Matrix3d across =
+      Eigen::Matrix3d::Identity() - known.up * known.up.transpose();  // yaw is free
+  setVariance(state.P, kAttitude, known.up_sigma);
+  state.P.block<3, 3>(kAttitude, kAttitude) =
+      across * state.P.block<3, 3>(kAttitude, kAttitude).eval() * across;
+  correctVertical(state, force, square(parameters.gravity_sigma), parameters);
 }
 
 Eigen::Vector3d sigmaOf(const Eigen::Matrix3d& covariance) {
@@ -87,20 +99,28 @@ Eigen::Vector3d sigmaOf(const Eigen::Matrix3d& covariance) {
 NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before,
                              const InertialParameters& parameters,
                              const std::optional<InertialKnowledge>& learned) {
-  const InertialKnowledge known = knownAt(utime, learned, parameters);
+  const bool is_recent = learned && isRecent(*learned, utime);
+  const InertialKnowledge known = is_recent ? aged(*learned, utime)
+                                  : learned ? sensorsOf(*learned, parameters)
+                                            : configured(parameters);
   NavigationState state;
   state.P.setZero();
   state.gyro_bias = known.gyro_bias;
   state.accel_bias = known.accel_bias;
   state.R_CI = known.R_CI;
+  state.v_GI = known.velocity;
   setVariance(state.P, kGyroBias, known.gyro_bias_sigma);
   setVariance(state.P, kAccelBias, known.accel_bias_sigma);
   setVariance(state.P, kMounting, known.R_CI_sigma);
-  setTilt(state, meanForce(before, state.gyro_bias, state.accel_bias), parameters);
-  state.p_GI = {0, 0, known.height_m - state.R_GI.row(2) * parameters.extrinsics.p_IC};
-  state.v_GI = known.velocity;
   setVariance(state.P, kVelocity, known.velocity_sigma);
   state.P(kPosition + 2, kPosition + 2) = square(known.height_sigma_m);
+  const Eigen::Vector3d force = meanForce(before, state.gyro_bias, state.accel_bias);
+  if (is_recent) {
+    mergeTilt(state, force, known, parameters);
+  } else {
+    setTilt(state, force, parameters);
+  }
+  state.p_GI = {0, 0, known.height_m - state.R_GI.row(2) * parameters.extrinsics.p_IC};
   clonePose(state);
   return state;
 }
@@ -112,6 +132,8 @@ InertialKnowledge knowledgeOf(const NavigationState& state, int64_t utime, const
   known.utime = utime;
   known.height_m = cameraHeight(state, p_IC);
   known.height_sigma_m = cameraHeightSigma(state, p_IC);
+  known.up = state.R_GI.row(2).normalized();
+  known.up_sigma = sigmaOf(block(kAttitude));
   known.velocity = from_G * state.v_GI;
   known.velocity_sigma = sigmaOf(from_G * block(kVelocity) * from_G.transpose());
   known.gyro_bias = state.gyro_bias;

@@ -15,7 +15,8 @@ namespace redbee {
 /// averaged. The covariance counts the drone's own acceleration (gravity_sigma) as constant over them, and
 /// holds the correlation of tilt and accelerometer bias.
 /// `known`: what was learned before. The sensors are the same, so biases and mounting stay with what is known
-/// of them; height and velocity do while it is recent, and are the configured start's otherwise.
+/// of them. While it is recent, so do height, vertical and velocity, and specific force only corrects the
+/// vertical; later they are those of the configured start.
 NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before,
                              const InertialParameters& parameters,
                              const std::optional<InertialKnowledge>& known);

@@ -231,6 +231,8 @@ Settings messagingSettings() {
       setting("channels.imu", MEMBER(channels.imu), channelName),
       setting("channels.altimeter", MEMBER(channels.altimeter), channelName),
       setting("channels.inertial_homography", MEMBER(channels.inertial_homography), channelName),
+      setting("channels.inertial_state", MEMBER(channels.inertial_state), channelName),
+      setting("channels.kept_state", MEMBER(channels.kept_state), channelName),
       setting("channels.visual_homography", MEMBER(channels.visual_homography), channelName),
       setting("channels.fused_homography", MEMBER(channels.fused_homography), channelName),
       setting("channels.foreground", MEMBER(channels.foreground), channelName),

@@ -32,7 +32,11 @@ void write(const fs::path& file, const Bytes& content) {
   write(file, std::string(content.begin(), content.end()));
 }
 
-/// A message as a recording holds it: time, channel's number in messages_fuzz, bytes.
+/// The states' channels in messages_fuzz; the other channels are numbered as the types in codec_fuzz are.
+constexpr uint8_t kStateRecord = 6;
+constexpr uint8_t kKeptStateRecord = 7;
+
+/// A message as a recording holds it: time, channel's number in codec_fuzz, bytes.
 struct Event {
   int64_t utime;
   uint8_t channel;
@@ -74,9 +78,9 @@ std::vector<Event> inputs() {
 std::vector<Event> outputs(const std::vector<Event>& events) {
   const auto bus = makeLcmBus("memq://");
   std::vector<Event> said;
-  const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY",
-                               "FOREGROUND",          "DETECTIONS",        "PROCESS_HEALTH"};
-  for (uint8_t i = 0; i < 6; ++i) {
+  const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY", "FOREGROUND",
+                               "DETECTIONS",          "PROCESS_HEALTH",    "INERTIAL_STATE"};
+  for (uint8_t i = 0; i < std::size(names); ++i) {
     bus->subscribe(names[i], 64, [&said, i, &names](const uint8_t* data, int size) {
       said.push_back({0, static_cast<uint8_t>(3 + i), names[i], Bytes(data, data + size)});
     });
@@ -110,6 +114,18 @@ void writeMessageSeeds(const fs::path& folder, const std::vector<Event>& flight,
     if (strangers.size() > 6000) break;
   }
   write(folder / "messages" / "homographies", strangers);
+  Bytes states;
+  for (Event event : said) {
+    if (event.name != "INERTIAL_STATE" || states.size() > 2000) continue;
+    for (const uint8_t channel : {kStateRecord, kKeptStateRecord}) {
+      event.channel = channel;
+      appendRecord(states, event);
+    }
+  }
+  for (const Event& event : flight) {
+    if (event.data.size() < 8000 && states.size() < 9000) appendRecord(states, event);
+  }
+  write(folder / "messages" / "states", states);
   std::map<uint8_t, Event> one_of_each;
   for (const auto* events : {&flight, &said}) {
     for (const Event& event : *events) one_of_each.insert_or_assign(event.channel, event);
