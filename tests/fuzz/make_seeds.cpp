@@ -10,6 +10,7 @@
 #include "fuzz_input.hpp"
 #include "messaging/codec.hpp"
 #include "messaging/picture.hpp"
+#include "processes/conversions.hpp"
 #include "processes/redbee/detect.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/detections_t.hpp"
@@ -32,11 +33,7 @@ void write(const fs::path& file, const Bytes& content) {
   write(file, std::string(content.begin(), content.end()));
 }
 
-/// The states' channels in messages_fuzz; the other channels are numbered as the types in codec_fuzz are.
-constexpr uint8_t kStateRecord = 6;
-constexpr uint8_t kKeptStateRecord = 7;
-
-/// A message as a recording holds it: time, channel's number in codec_fuzz, bytes.
+/// A message as a recording holds it: time, channel's number in messages_fuzz, bytes.
 struct Event {
   int64_t utime;
   uint8_t channel;
@@ -95,6 +92,19 @@ std::vector<Event> outputs(const std::vector<Event>& events) {
   return said;
 }
 
+/// What a neighbour says to an inertial process at the flight's first frame.
+Event keptState(const std::vector<Event>& flight) {
+  constexpr uint8_t kKeptState = 7;
+  InertialKnowledge known;
+  known.utime =
+      std::find_if(flight.begin(), flight.end(), [](const Event& e) { return e.name == "CAMERA"; })->utime;
+  known.height_m = 5;
+  known.height_sigma_m = 0.1;
+  known.R_CI = smallVehicle().inertial.extrinsics.R_CI;
+  return {known.utime, kKeptState, "KEPT_STATE",
+          encodeMessage(messageOf(known, configurationHash(smallVehicle())))};
+}
+
 void appendRecord(Bytes& seed, const Event& event) {
   const size_t length = event.data.size() - kHashBytes;
   seed.push_back(event.channel);
@@ -114,27 +124,25 @@ void writeMessageSeeds(const fs::path& folder, const std::vector<Event>& flight,
     if (strangers.size() > 6000) break;
   }
   write(folder / "messages" / "homographies", strangers);
-  Bytes states;
-  for (Event event : said) {
-    if (event.name != "INERTIAL_STATE" || states.size() > 2000) continue;
-    for (const uint8_t channel : {kStateRecord, kKeptStateRecord}) {
-      event.channel = channel;
-      appendRecord(states, event);
-    }
-  }
+  Bytes begun;
   for (const Event& event : flight) {
-    if (event.data.size() < 8000 && states.size() < 9000) appendRecord(states, event);
+    if (event.utime > keptState(flight).utime) break;
+    appendRecord(begun, event);
   }
-  write(folder / "messages" / "states", states);
+  appendRecord(begun, keptState(flight));
+  write(folder / "messages" / "kept_state", begun);
   std::map<uint8_t, Event> one_of_each;
   for (const auto* events : {&flight, &said}) {
     for (const Event& event : *events) one_of_each.insert_or_assign(event.channel, event);
   }
-  for (const auto& [channel, event] : one_of_each) {
-    Bytes seed = {channel};
+  const auto writeCodecSeed = [&](uint8_t type, const Event& event) {
+    Bytes seed = {type};
     seed.insert(seed.end(), event.data.begin() + kHashBytes, event.data.end());
     write(folder / "codec" / event.name, seed);
-  }
+  };
+  for (const auto& [channel, event] : one_of_each) writeCodecSeed(channel, event);
+  constexpr uint8_t kStateType = 9;
+  writeCodecSeed(kStateType, keptState(flight));
 }
 
 void writeLogSeed(const fs::path& folder, const std::vector<Event>& flight) {
