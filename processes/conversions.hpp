@@ -4,9 +4,12 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "inertial/imu_buffer.hpp"
+#include "inertial/inertial_knowledge.hpp"
+#include "redbee/inertial_state_t.hpp"
 #include "visual/point_tracker.hpp"
 
 namespace redbee {
@@ -37,6 +40,43 @@ inline void fill(double (&entries)[3], const Eigen::Vector3d& v) {
 inline void fill(double (&entries)[8], const Eigen::Matrix<double, 8, 1>& v) {
   Eigen::Map<Eigen::Matrix<double, 8, 1>> rows(entries);
   rows = v;
+}
+
+inline inertial_state_t messageOf(const InertialKnowledge& known, const std::string& configuration) {
+  inertial_state_t message{};
+  message.utime = known.utime;
+  message.configuration = configuration;
+  message.height = known.height_m;
+  message.height_sigma = known.height_sigma_m;
+  fill(message.up, known.up);
+  fill(message.up_sigma, known.up_sigma);
+  fill(message.velocity, known.velocity);
+  fill(message.velocity_sigma, known.velocity_sigma);
+  fill(message.gyro_bias, known.gyro_bias);
+  fill(message.gyro_bias_sigma, known.gyro_bias_sigma);
+  fill(message.accel_bias, known.accel_bias);
+  fill(message.accel_bias_sigma, known.accel_bias_sigma);
+  fill(message.R_CI, known.R_CI);
+  fill(message.R_CI_sigma, known.R_CI_sigma);
+  return message;
+}
+
+inline InertialKnowledge knowledgeOf(const inertial_state_t& message) {
+  InertialKnowledge known;
+  known.utime = message.utime;
+  known.height_m = message.height;
+  known.height_sigma_m = message.height_sigma;
+  known.up = vector3(message.up);
+  known.up_sigma = vector3(message.up_sigma);
+  known.velocity = vector3(message.velocity);
+  known.velocity_sigma = vector3(message.velocity_sigma);
+  known.gyro_bias = vector3(message.gyro_bias);
+  known.gyro_bias_sigma = vector3(message.gyro_bias_sigma);
+  known.accel_bias = vector3(message.accel_bias);
+  known.accel_bias_sigma = vector3(message.accel_bias_sigma);
+  known.R_CI = matrix3(message.R_CI);
+  known.R_CI_sigma = vector3(message.R_CI_sigma);
+  return known;
 }
 
 /// For messages that carry the four coordinate arrays of sample points.

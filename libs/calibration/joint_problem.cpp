@@ -175,7 +175,8 @@ void JointProblem::addPriors() {
   FrameState& first = state_.frames.front();
   add(automatic<VectorPriorCost<2>, 2>({Eigen::Vector2d::Zero(), priors.tilt_sigma_rad}), state_.tilt.data());
   add(automatic<YawGaugeCost, 4>({first.q_GI, kGaugeYaw_rad}), data(first.q_GI));
-  add(automatic<PlaceGaugeCost, 3>({kGaugePlace_m}), first.p_GI.data());
+  // The place over the ground is as free.
+  add(automatic<VectorPriorCost<2>, 3>({Eigen::Vector2d::Zero(), kGaugePlace_m}), first.p_GI.data());
   const AltitudeCost height{priors.height_m, priors.height_sigma_m, 0.0};
   others_.push_back(problem_.AddResidualBlock(automatic<AltitudeCost, 4, 3, 3, 3, 2>(height), nullptr,
                                               data(first.q_GI), first.p_GI.data(), first.v_GI.data(),

@@ -8,7 +8,7 @@
 
 namespace redbee::calibration {
 
-/// r = (x - x_0) / sigma, for a parameter of N entries.
+/// r = (x - x_0) / sigma, for a parameter of N entries, or for the first N of more.
 template <int N>
 struct VectorPriorCost {
   Eigen::Matrix<double, N, 1> expected;
@@ -51,20 +51,6 @@ struct YawGaugeCost {
     residual[0] =
         smallRotationVector<T>(Eigen::Map<const Eigen::Quaternion<T>>(q) * start.conjugate().cast<T>()).z() /
         T(sigma_rad);
-    return true;
-  }
-};
-
-/// So is the place over the ground: r = (p_x, p_y) / sigma.
-struct PlaceGaugeCost {
-  double sigma_m;
-
-  static constexpr int kResiduals = 2;
-
-  template <typename T>
-  bool operator()(const T* p, T* residual) const {
-    residual[0] = p[0] / T(sigma_m);
-    residual[1] = p[1] / T(sigma_m);
     return true;
   }
 };

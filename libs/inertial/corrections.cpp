@@ -151,6 +151,11 @@ void correctByGravity(NavigationState& state, const ImuSpan& span, const Inertia
   if (duration <= 0) return;
   const double variance = parameters.gravity_sigma * parameters.gravity_sigma *
                           std::max(1.0, parameters.gravity_correlation_s / duration);
+  correctVertical(state, force, variance, parameters);
+}
+
+void correctVertical(NavigationState& state, const Eigen::Vector3d& force, double variance,
+                     const InertialParameters& parameters) {
   const Eigen::Matrix3d R = variance * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d expected = state.R_GI.transpose() * Eigen::Vector3d(0, 0, parameters.gravity);
   MeasurementJacobian<3> H = MeasurementJacobian<3>::Zero();

@@ -65,4 +65,9 @@ class VisionCorrection {
 void correctByGravity(NavigationState& state, const ImuSpan& span, const InertialParameters& parameters,
                       double seconds_since_vision);
 
+/// Specific force in I at the state's time, free of bias [m/s^2], as a measurement of the vertical.
+/// `variance` of the drone's own acceleration in it [m^2/s^4]. Gated.
+void correctVertical(NavigationState& state, const Eigen::Vector3d& force, double variance,
+                     const InertialParameters& parameters);
+
 }  // namespace redbee

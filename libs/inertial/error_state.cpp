@@ -7,10 +7,8 @@
 namespace redbee {
 namespace {
 
-constexpr double kUnknownRate = 0.3;  // rad/s: what a drone may turn inside a hole, beyond the interpolation
-constexpr double kUnknownAcceleration = 2.0;  // m/s^2
-constexpr int kMovingSize = kCloneAttitude;   // the clone and the mounting stand still
-constexpr double kMaxSpeed = 1e3;             // m/s: a faster state is a broken one
+constexpr int kMovingSize = kCloneAttitude;  // the clone and the mounting stand still
+constexpr double kMaxSpeed = 1e3;            // m/s: a faster state is a broken one
 
 using MovingMatrix = Eigen::Matrix<double, kMovingSize, kMovingSize>;
 

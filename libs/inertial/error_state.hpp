@@ -11,6 +11,11 @@
 
 namespace redbee {
 
+/// What a drone may do while nobody measures.
+constexpr double kUnknownRate = 0.3;          ///< rad/s
+constexpr double kUnknownAcceleration = 2.0;  ///< m/s^2
+constexpr double kMinCameraHeight = 0.05;     ///< m: a camera cannot be lower
+
 /// Where each part of the error lies in its vector.
 enum ErrorIndex {
   kAttitude = 0,        ///< rad, in I

@@ -9,6 +9,9 @@
 namespace redbee {
 namespace {
 
+/// Scaled units: keeps the homography's covariance invertible at rest.
+constexpr double kVarianceFloor = 1e-12;
+
 /// Covariance of (translation error) (normal error)' / h in the homography's entries, the two taken as
 /// independent: the sum over their principal axes.
 Matrix8d productCovariance(const Eigen::Matrix3d& K, const PlaneMotion& motion,
@@ -84,6 +87,30 @@ MeasurementJacobian<1> cameraHeightJacobian(const NavigationState& state, const 
   J.middleCols<3>(kAttitude) = -state.R_GI.row(2) * skew(p_IC);
   J(kPosition + 2) = 1;
   return J;
+}
+
+double cameraHeightSigma(const NavigationState& state, const Eigen::Vector3d& p_IC) {
+  const MeasurementJacobian<1> J = cameraHeightJacobian(state, p_IC);
+  return std::sqrt((J * state.P * J.transpose()).value());
+}
+
+Eigen::Matrix3d scaledMatrix(const Camera& camera) {
+  return ImageScaling(camera.intrinsics().width, camera.intrinsics().height).T * camera.K();
+}
+
+void describe(const NavigationState& state, const Camera& camera, const Eigen::Vector3d& p_IC,
+              InertialHomography& result) {
+  result.motion = cameraMotion(state, p_IC);
+  result.H = planeHomography(camera.K(), result.motion);
+  const MotionJacobians J = motionJacobians(state, result.motion, p_IC);
+  const HomographyMeasurement z = homographyMeasurement(state, result.motion, J, scaledMatrix(camera));
+  const Matrix8d covariance =
+      z.linear_covariance + z.second_order_covariance + kVarianceFloor * Matrix8d::Identity();
+  result.covariance = 0.5 * (covariance + covariance.transpose());
+  result.rotation_covariance = J.rotation * state.P * J.rotation.transpose();
+  result.direction_of_gravity = -(state.R_CI * state.R_GI.transpose()).col(2);
+  result.height_m = cameraHeight(state, p_IC);
+  result.height_sigma_m = cameraHeightSigma(state, p_IC);
 }
 
 }  // namespace redbee

@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 
+#include "geometry/camera.hpp"
 #include "geometry/homography.hpp"
 #include "inertial/error_state.hpp"
+#include "inertial/inertial_homography.hpp"
 
 namespace redbee {
 
@@ -36,8 +38,16 @@ HomographyMeasurement homographyMeasurement(const NavigationState& state, const 
                                             const MotionJacobians& jacobians,
                                             const Eigen::Matrix3d& K_scaled);
 
-/// Height of the camera above the ground [m], and its derivative by the error state.
+/// Height of the camera above the ground [m], its derivative by the error state, one standard deviation [m].
 double cameraHeight(const NavigationState& state, const Eigen::Vector3d& p_IC);
 MeasurementJacobian<1> cameraHeightJacobian(const NavigationState& state, const Eigen::Vector3d& p_IC);
+double cameraHeightSigma(const NavigationState& state, const Eigen::Vector3d& p_IC);
+
+/// K with the image scaling in front: T K.
+Eigen::Matrix3d scaledMatrix(const Camera& camera);
+
+/// All that `result` says when it is valid, but its times and its status.
+void describe(const NavigationState& state, const Camera& camera, const Eigen::Vector3d& p_IC,
+              InertialHomography& result);
 
 }  // namespace redbee

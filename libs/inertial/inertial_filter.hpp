@@ -19,6 +19,8 @@
 #include "geometry/homography.hpp"
 #include "inertial/imu.hpp"
 #include "inertial/imu_sample_check.hpp"
+#include "inertial/inertial_homography.hpp"
+#include "inertial/inertial_knowledge.hpp"
 
 namespace redbee {
 
@@ -44,33 +46,6 @@ struct InertialParameters {
   /// counts for one of them.
   double feedback_correlation_frames = 8.0;
   double innovation_gate_probability = 0.999;  ///< chi-square gate of every correction
-};
-
-enum class InertialStatus {
-  kGood,          ///< the whole interval is covered by IMU samples
-  kInitialising,  ///< first frame, or the first after a gap: there is no homography yet
-  kImuGap,        ///< samples are missing inside the interval: bridged, with the covariance grown to say so
-  kNoImu,         ///< no samples at all in the interval: there is no homography
-  kClockJump,     ///< time ran backwards or jumped: started anew, no homography
-  kBadSamples,    ///< samples in the interval were refused (ImuSampleCheck); a homography, if valid, does
-                  ///< without
-};
-const char* toString(InertialStatus status);
-
-/// Motion of the camera from frame a (the previous) to frame b, and the homography of the ground that
-/// follows.
-struct InertialHomography {
-  int64_t utime_previous = 0;  ///< camera clock, us
-  int64_t utime = 0;           ///< camera clock, us
-  InertialStatus status = InertialStatus::kInitialising;
-  bool valid = false;                               ///< H, covariance and motion hold
-  Eigen::Matrix3d H = Eigen::Matrix3d::Identity();  ///< ideal pixels of a to ideal pixels of b, h33 = 1
-  Matrix8d covariance = Matrix8d::Zero();  ///< of the scaled homography's eight entries (homography.hpp)
-  PlaneMotion motion;                      ///< R_ba, t_ba, m_a, h_a in camera frames [m]
-  Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();   ///< of R_ba, left perturbation [rad^2]
-  Eigen::Vector3d direction_of_gravity = Eigen::Vector3d::Zero();  ///< unit, down, in camera frame b
-  double height_m = 0;                                             ///< of camera b above the ground plane
-  double height_sigma_m = 0;
 };
 
 /// A homography of the ground between two consecutive frames, measured without the IMU's help: what the
@@ -123,6 +98,13 @@ class InertialFilter {
   CorrectionReport correct(const HomographyObservation& observation);
 
   std::optional<InertialState> state() const;
+
+  /// What has been learned up to the last frame that a motion was found for; nothing before.
+  const std::optional<InertialKnowledge>& knowledge() const;
+  /// True at the first frame that it was ever at.
+  bool begins() const;
+  /// While it begins: takes what another filter had learned before. What it does not believe changes nothing.
+  KnowledgeVerdict goOnFrom(const InertialKnowledge& known);
 
  private:
   class Implementation;

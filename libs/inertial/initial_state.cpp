@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "geometry/so3.hpp"
+#include "inertial/corrections.hpp"
+#include "inertial/homography_measurement.hpp"
 
 namespace redbee {
 namespace {
@@ -27,14 +29,19 @@ Eigen::Vector3d meanForce(const std::vector<ImuSample>& samples, const Eigen::Ve
 
 double square(double x) { return x * x; }
 
-void setVariance(ErrorCovariance& P, int index, double sigma) {
-  P.block<3, 3>(index, index) = square(sigma) * Eigen::Matrix3d::Identity();
+void setVariance(ErrorCovariance& P, int index, const Eigen::Vector3d& sigma) {
+  P.block<3, 3>(index, index) = sigma.cwiseAbs2().asDiagonal();
+}
+
+/// The least rotation that turns `up` into z.
+Eigen::Matrix3d righting(const Eigen::Vector3d& up) {
+  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 /// Tilt error = skew(up) (bias error + the drone's acceleration) / g, to first order.
 void setTilt(NavigationState& state, const Eigen::Vector3d& force, const InertialParameters& parameters) {
   const Eigen::Vector3d up = force.norm() > 1e-3 ? force.normalized() : Eigen::Vector3d::UnitZ();
-  state.R_GI = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  state.R_GI = righting(up);
   const Eigen::Matrix3d by_force = skew(up) / parameters.gravity;
   const Eigen::Matrix3d bias = state.P.block<3, 3>(kAccelBias, kAccelBias);
   const Eigen::Matrix3d own = square(parameters.gravity_sigma) * Eigen::Matrix3d::Identity();
@@ -43,41 +50,99 @@ void setTilt(NavigationState& state, const Eigen::Vector3d& force, const Inertia
   state.P.block<3, 3>(kAccelBias, kAttitude) = bias * by_force.transpose();
 }
 
-void setPose(NavigationState& state, const std::vector<ImuSample>& before,
-             const InertialParameters& parameters) {
-  setTilt(state, meanForce(before, state.gyro_bias, state.accel_bias), parameters);
+/// What the configuration says of a flight's first frame.
+InertialKnowledge configured(const InertialParameters& parameters) {
   const InertialExtrinsics& extrinsics = parameters.extrinsics;
-  state.p_GI = {0, 0, extrinsics.start_height_m - state.R_GI.row(2) * extrinsics.p_IC};
-  state.v_GI.setZero();
-  setVariance(state.P, kVelocity, parameters.start_velocity_sigma);
-  state.P(kPosition + 2, kPosition + 2) = square(extrinsics.start_height_sigma_m);
-  clonePose(state);
+  InertialKnowledge known;
+  known.height_m = extrinsics.start_height_m;
+  known.height_sigma_m = extrinsics.start_height_sigma_m;
+  known.velocity_sigma.setConstant(parameters.start_velocity_sigma);
+  known.gyro_bias = parameters.gyro_bias;
+  known.gyro_bias_sigma.setConstant(parameters.gyro_bias_sigma);
+  known.accel_bias = parameters.accel_bias;
+  known.accel_bias_sigma.setConstant(parameters.accel_bias_sigma);
+  known.R_CI = extrinsics.R_CI;
+  known.R_CI_sigma.setConstant(parameters.extrinsic_rotation_sigma_deg * kRadiansPerDegree);
+  return known;
+}
+
+/// The sensors of `learned`, all else of the configured start.
+InertialKnowledge sensorsOf(const InertialKnowledge& learned, const InertialParameters& parameters) {
+  InertialKnowledge known = configured(parameters);
+  known.gyro_bias = learned.gyro_bias;
+  known.gyro_bias_sigma = learned.gyro_bias_sigma;
+  known.accel_bias = learned.accel_bias;
+  known.accel_bias_sigma = learned.accel_bias_sigma;
+  known.R_CI = learned.R_CI;
+  known.R_CI_sigma = learned.R_CI_sigma;
+  return known;
+}
+
+/// Both the vertical that was known and the one that specific force shows.
+void mergeTilt(NavigationState& state, const Eigen::Vector3d& force, const InertialKnowledge& known,
+               const InertialParameters& parameters) {
+  state.R_GI = righting(known.up);
+  const Eigen::Matrix3d across =
+      Eigen::Matrix3d::Identity() - known.up * known.up.transpose();  // yaw is free
+  setVariance(state.P, kAttitude, known.up_sigma);
+  state.P.block<3, 3>(kAttitude, kAttitude) =
+      across * state.P.block<3, 3>(kAttitude, kAttitude).eval() * across;
+  correctVertical(state, force, square(parameters.gravity_sigma), parameters);
+}
+
+Eigen::Vector3d sigmaOf(const Eigen::Matrix3d& covariance) {
+  return covariance.diagonal().cwiseMax(0).cwiseSqrt();
 }
 
 }  // namespace
 
-NavigationState initialState(const std::vector<ImuSample>& before, const InertialParameters& parameters) {
+NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before,
+                             const InertialParameters& parameters,
+                             const std::optional<InertialKnowledge>& learned) {
+  const bool is_recent = learned && isRecent(*learned, utime);
+  const InertialKnowledge known = is_recent ? aged(*learned, utime)
+                                  : learned ? sensorsOf(*learned, parameters)
+                                            : configured(parameters);
   NavigationState state;
   state.P.setZero();
-  state.gyro_bias = parameters.gyro_bias;
-  state.accel_bias = parameters.accel_bias;
-  state.R_CI = parameters.extrinsics.R_CI;
-  setVariance(state.P, kGyroBias, parameters.gyro_bias_sigma);
-  setVariance(state.P, kAccelBias, parameters.accel_bias_sigma);
-  setVariance(state.P, kMounting, parameters.extrinsic_rotation_sigma_deg * kRadiansPerDegree);
-  setPose(state, before, parameters);
+  state.gyro_bias = known.gyro_bias;
+  state.accel_bias = known.accel_bias;
+  state.R_CI = known.R_CI;
+  state.v_GI = known.velocity;
+  setVariance(state.P, kGyroBias, known.gyro_bias_sigma);
+  setVariance(state.P, kAccelBias, known.accel_bias_sigma);
+  setVariance(state.P, kMounting, known.R_CI_sigma);
+  setVariance(state.P, kVelocity, known.velocity_sigma);
+  state.P(kPosition + 2, kPosition + 2) = square(known.height_sigma_m);
+  const Eigen::Vector3d force = meanForce(before, state.gyro_bias, state.accel_bias);
+  if (is_recent) {
+    mergeTilt(state, force, known, parameters);
+  } else {
+    setTilt(state, force, parameters);
+  }
+  state.p_GI = {0, 0, known.height_m - state.R_GI.row(2) * parameters.extrinsics.p_IC};
+  clonePose(state);
   return state;
 }
 
-NavigationState restartedState(const NavigationState& old, const std::vector<ImuSample>& before,
-                               const InertialParameters& parameters) {
-  NavigationState state = old;
-  state.P.setZero();
-  for (const int i : {kGyroBias, kAccelBias, kMounting}) {
-    state.P.block<3, 3>(i, i) = old.P.block<3, 3>(i, i);
-  }
-  setPose(state, before, parameters);
-  return state;
+InertialKnowledge knowledgeOf(const NavigationState& state, int64_t utime, const Eigen::Vector3d& p_IC) {
+  const Eigen::Matrix3d from_G = righting(state.R_GI.row(2)) * state.R_GI.transpose();
+  const auto block = [&](int index) -> Eigen::Matrix3d { return state.P.block<3, 3>(index, index); };
+  InertialKnowledge known;
+  known.utime = utime;
+  known.height_m = cameraHeight(state, p_IC);
+  known.height_sigma_m = cameraHeightSigma(state, p_IC);
+  known.up = state.R_GI.row(2).normalized();
+  known.up_sigma = sigmaOf(block(kAttitude));
+  known.velocity = from_G * state.v_GI;
+  known.velocity_sigma = sigmaOf(from_G * block(kVelocity) * from_G.transpose());
+  known.gyro_bias = state.gyro_bias;
+  known.gyro_bias_sigma = sigmaOf(block(kGyroBias));
+  known.accel_bias = state.accel_bias;
+  known.accel_bias_sigma = sigmaOf(block(kAccelBias));
+  known.R_CI = state.R_CI;
+  known.R_CI_sigma = sigmaOf(block(kMounting));
+  return known;
 }
 
 }  // namespace redbee

@@ -1,22 +1,27 @@
-// Where the filter starts: upright by the accelerometer, its yaw free, its velocity unknown.
+// Where the filter starts: upright by the accelerometer, its yaw free.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "inertial/error_state.hpp"
 #include "inertial/inertial_filter.hpp"
+#include "inertial/inertial_knowledge.hpp"
 
 namespace redbee {
 
-/// `before`: the samples of the last moments before the first frame, oldest first; not empty. Their specific
-/// force is turned into the last one's orientation by the gyro and averaged. The covariance counts the
-/// drone's own acceleration (gravity_sigma) as constant over them, and holds the correlation of tilt and
-/// accelerometer bias.
-NavigationState initialState(const std::vector<ImuSample>& before, const InertialParameters& parameters);
+/// The state at the frame at `utime` (camera clock). `before`: the samples of the last moments before it,
+/// oldest first; not empty. Their specific force is turned into the last one's orientation by the gyro and
+/// averaged. The covariance counts the drone's own acceleration (gravity_sigma) as constant over them, and
+/// holds the correlation of tilt and accelerometer bias.
+/// `known`: what was learned before. The sensors are the same, so biases and mounting stay with what is known
+/// of them. While it is recent, so do height, vertical and velocity, and specific force only corrects the
+/// vertical; later they are those of the configured start.
+NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before,
+                             const InertialParameters& parameters,
+                             const std::optional<InertialKnowledge>& known);
 
-/// Restart of a filter that ran before: the sensors are the same, so biases and mounting stay with what is
-/// known of them.
-NavigationState restartedState(const NavigationState& old, const std::vector<ImuSample>& before,
-                               const InertialParameters& parameters);
+/// What `state`, at the frame at `utime`, holds for a filter that starts later.
+InertialKnowledge knowledgeOf(const NavigationState& state, int64_t utime, const Eigen::Vector3d& p_IC);
 
 }  // namespace redbee

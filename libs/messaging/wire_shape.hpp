@@ -10,6 +10,7 @@
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_metadata_t.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/inertial_state_t.hpp"
 #include "redbee/process_health_t.hpp"
 #include "redbee/visual_homography_t.hpp"
 
@@ -84,6 +85,12 @@ struct WireShape<fused_homography_t> {
   static bool countsAgree(const fused_homography_t& m) {
     return countFits(m.n, m.x_previous, m.y_previous, m.x, m.y);
   }
+};
+
+template <>
+struct WireShape<inertial_state_t> {
+  static constexpr std::string_view kLayout = "8 s 304";
+  static bool countsAgree(const inertial_state_t&) { return true; }
 };
 
 template <>

@@ -1,6 +1,8 @@
 #include "processes/homography_fusion/node.hpp"
 
+#include "inertial/inertial_homography.hpp"
 #include "processes/conversions.hpp"
+#include "processes/note_calibration.hpp"
 #include "processes/work_timer.hpp"
 #include "redbee/ins_t.hpp"
 #include "visual/homography_estimation.hpp"
@@ -12,6 +14,12 @@ constexpr int kQueue = 64;
 constexpr int kImuQueue = 4000;
 constexpr size_t kMaxPending = 64;
 constexpr int8_t kVisualGood = 0;
+constexpr auto kInertialInitialising = static_cast<int8_t>(InertialStatus::kInitialising);
+
+VisualInput inputOf(const visual_homography_t& visual) {
+  return {visual.utime_previous, matrix3(visual.H), matrix8(visual.covariance), visual.inliers,
+          visual.outliers};
+}
 
 }  // namespace
 
@@ -27,6 +35,8 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
   bus_.subscribe<inertial_homography_t>(
       channels.inertial_homography, kQueue, [this](const inertial_homography_t& m) { takeInertial(m); },
       damaged);
+  bus_.subscribe<inertial_state_t>(
+      channels.inertial_state, kQueue, [this](const inertial_state_t& m) { takeState(m); }, damaged);
   bus_.subscribe<visual_homography_t>(
       channels.visual_homography, kQueue, [this](const visual_homography_t& m) { takeVisual(m); }, damaged);
   if (configuration_.has_imu) {
@@ -41,6 +51,7 @@ void HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
     health_.noteDamaged();
     return;
   }
+  if (message.valid == 0 && message.status == kInertialInitialising) inertial_begins_ = true;
   expect(message.utime);
   inertial_.put(message.utime, message);
 }
@@ -74,7 +85,13 @@ void HomographyFusionNode::restart() {
   pending_.clear();
   inertial_.clear();
   visual_.clear();
+  kept_.reset();
   clock_.restart();
+}
+
+void HomographyFusionNode::offerKeptState() {
+  if (inertial_begins_ && kept_) bus_.publish(configuration_.channels.kept_state, *kept_);
+  inertial_begins_ = false;
 }
 
 bool HomographyFusionNode::ready(int64_t utime) {
@@ -88,6 +105,7 @@ bool HomographyFusionNode::ready(int64_t utime) {
 }
 
 void HomographyFusionNode::process() {
+  offerKeptState();  // before its first frame is answered, which it waits for
   while (!pending_.empty() && ready(pending_.begin()->first)) {
     const auto [utime, since_arrival] = *pending_.begin();
     pending_.erase(pending_.begin());
@@ -120,17 +138,12 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
         InertialInput{inertial->utime_previous, matrix3(inertial->H), matrix8(inertial->covariance)};
   }
   std::optional<VisualInput> visual_input;
-  if (visual != nullptr && visual->status == kVisualGood) {
-    visual_input = VisualInput{visual->utime_previous, matrix3(visual->H), matrix8(visual->covariance),
-                               visual->inliers, visual->outliers};
-  }
+  if (visual != nullptr && visual->status == kVisualGood) visual_input = inputOf(*visual);
   const FusedHomography fused = fusion_.step(utime, inertial_input, visual_input);
   if (fused.has_innovation && inertial_input && visual_input &&
       inertial_input->utime_previous == visual_input->utime_previous) {
-    calibration_.note(fused.test_ratio,
-                      meanTransferError(inertial_input->H, visual_input->H, configuration_.camera.width,
-                                        configuration_.camera.height));
-    health_.setCalibration(calibration_.verdict());
+    noteCalibration(calibration_, health_, fused.test_ratio, inertial_input->H, visual_input->H,
+                    configuration_.camera);
   }
   fused_homography_t message = messageOf(fused);
   addSources(message, fused, inertial, visual);
@@ -185,9 +198,7 @@ void HomographyFusionNode::addSources(fused_homography_t& message, const FusedHo
       // Refused or not: the inertial filter judges for itself, or a filter gone wrong would never be told.
       message.has_observation = 1;
       fill(message.H_observed, matrix3(visual->H));
-      fill(message.covariance_observed, configuration_.fusion.visual_inflation *
-                                            visualNoiseRatio(visual->inliers, visual->outliers) *
-                                            matrix8(visual->covariance));
+      fill(message.covariance_observed, believedCovariance(inputOf(*visual), configuration_.fusion));
     }
     if (fused.source != FusionSource::kNone) {
       const auto front =

@@ -1,9 +1,10 @@
 // INERTIAL_HOMOGRAPHY and VISUAL_HOMOGRAPHY in; FUSED_HOMOGRAPHY out. IMU is listened to for the passing of
-// time only.
+// time only. INERTIAL_STATE is kept, and goes back as KEPT_STATE.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 
 #include "fusion/homography_fusion.hpp"
 #include "inertial/calibration_monitor.hpp"
@@ -15,6 +16,7 @@
 #include "processes/work_timer.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
+#include "redbee/inertial_state_t.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {
@@ -29,6 +31,7 @@ class HomographyFusionNode : public Node {
 
  private:
   void takeInertial(const inertial_homography_t& message);
+  void takeState(const inertial_state_t& message) { kept_ = message; }
   void takeVisual(const visual_homography_t& message);
   void expect(int64_t utime);
   bool ready(int64_t utime);
@@ -37,6 +40,9 @@ class HomographyFusionNode : public Node {
   /// What the fusion had: the camera's motion, vision's points and homography, the second plane among them.
   void addSources(fused_homography_t& message, const FusedHomography& fused,
                   const inertial_homography_t* inertial, const visual_homography_t* visual) const;
+  /// To an inertial process that begins: it may have taken the place of one that died. Whether it believes
+  /// what it is told is its own affair.
+  void offerKeptState();
   void restart();
 
   Bus& bus_;
@@ -48,6 +54,8 @@ class HomographyFusionNode : public Node {
   std::map<int64_t, WorkTimer> pending_;  ///< frames by time, each with its first word's arrival
   CompanionBuffer<inertial_homography_t> inertial_;
   CompanionBuffer<visual_homography_t> visual_;
+  std::optional<inertial_state_t> kept_;  ///< the newest of the inertial process
+  bool inertial_begins_ = false;
   MessageClock clock_;
   bool finishing_ = false;
   int32_t sequence_ = 0;

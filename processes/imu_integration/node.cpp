@@ -1,7 +1,12 @@
 #include "processes/imu_integration/node.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
 #include "processes/conversions.hpp"
 #include "processes/frame_intake.hpp"
+#include "processes/note_calibration.hpp"
 #include "processes/work_timer.hpp"
 
 namespace redbee {
@@ -10,13 +15,17 @@ namespace {
 constexpr int kFrameQueue = 64;
 constexpr int kImuQueue = 4000;
 constexpr size_t kMaxPendingFrames = 256;
+/// Frames in a row that vision must have agreed at before what was learned is worth keeping: a new start
+/// would mend what it contradicts, and a process that dies again at once must not leave less than it found.
+constexpr int kAgreedFrames = 12;
 
 }  // namespace
 
 ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configuration)
     : bus_(bus),
       configuration_(configuration),
-      health_("redbee-imu-integration", configurationHash(configuration)),
+      configuration_hash_(configurationHash(configuration)),
+      health_("redbee-imu-integration", configuration_hash_),
       camera_(configuration.camera),
       filter_(camera_, configuration.inertial),
       feedback_(microseconds(configuration.waits.inertial_s), true) {
@@ -32,6 +41,8 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
   }
   bus_.subscribe<fused_homography_t>(
       channels.fused_homography, kFrameQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged);
+  bus_.subscribe<inertial_state_t>(
+      channels.kept_state, kFrameQueue, [this](const inertial_state_t& m) { takeKept(m); }, damaged);
 }
 
 void ImuIntegrationNode::takeFrame(const image_t& message) {
@@ -88,8 +99,24 @@ bool ImuIntegrationNode::readyFor(int64_t frame_utime) {
   return answer != CompanionBuffer<fused_homography_t>::Answer::kWait;
 }
 
+void ImuIntegrationNode::goOnFromKept() {
+  const std::optional<inertial_state_t> kept = std::exchange(kept_, std::nullopt);
+  if (!kept || !filter_.begins()) return;
+  if (kept->configuration != configuration_hash_) {
+    spdlog::warn("the kept state of {} us is of another configuration: ignored", kept->utime);
+    return;
+  }
+  const KnowledgeVerdict verdict = filter_.goOnFrom(knowledgeOf(*kept));
+  if (verdict == KnowledgeVerdict::kBelieved) {
+    spdlog::info("goes on from the kept state of {} us: {:.2f} m above the ground", kept->utime,
+                 kept->height);
+  } else {
+    spdlog::warn("the kept state of {} us is {}: ignored", kept->utime, toString(verdict));
+  }
+}
+
 void ImuIntegrationNode::applyFeedback() {
-  feedback_test_ratio_ = 0;
+  feedback_report_ = {};
   if (!last_frame_utime_) return;
   const fused_homography_t* fused = feedback_.find(*last_frame_utime_);
   if (fused == nullptr || fused->has_observation == 0) return;
@@ -99,12 +126,14 @@ void ImuIntegrationNode::applyFeedback() {
     health_.noteDamaged();
     return;
   }
-  feedback_test_ratio_ = filter_.correct(observation).test_ratio;
+  feedback_report_ = filter_.correct(observation);
   if (!last_H_) return;
-  calibration_.note(
-      feedback_test_ratio_,
-      meanTransferError(*last_H_, observation.H, configuration_.camera.width, configuration_.camera.height));
-  health_.setCalibration(calibration_.verdict());
+  noteCalibration(calibration_, health_, feedback_report_.test_ratio, *last_H_, observation.H,
+                  configuration_.camera);
+}
+
+void ImuIntegrationNode::sayState() {
+  bus_.publish(configuration_.channels.inertial_state, messageOf(*filter_.knowledge(), configuration_hash_));
 }
 
 void ImuIntegrationNode::process() {
@@ -123,7 +152,9 @@ void ImuIntegrationNode::finish() {
 
 void ImuIntegrationNode::integrate(const Frame& frame) {
   FrameTimers timers;
+  goOnFromKept();
   applyFeedback();
+  agreed_in_a_row_ = feedback_report_.applied ? agreed_in_a_row_ + 1 : 0;
   if (last_frame_utime_) feedback_.forgetUpTo(*last_frame_utime_);
   const InertialHomography result = filter_.advanceTo(frame.utime);
   last_frame_utime_ = frame.utime;
@@ -152,8 +183,9 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
     fill(message.gyro_bias, state->gyro_bias);
     fill(message.accel_bias, state->accel_bias);
   }
-  message.feedback_test_ratio = feedback_test_ratio_;
+  message.feedback_test_ratio = feedback_report_.test_ratio;
   bus_.publish(configuration_.channels.inertial_homography, message);
+  if (result.valid && agreed_in_a_row_ >= kAgreedFrames) sayState();
   noteDone(health_, frame.utime, frame.since_arrival, timers);
   if (result.valid && result.status == InertialStatus::kGood) {
     health_.setState(HealthState::kGood, "");

@@ -1,9 +1,11 @@
-// CAMERA (its times), IMU, ALTIMETER and FUSED_HOMOGRAPHY in; INERTIAL_HOMOGRAPHY out.
+// CAMERA (its times), IMU, ALTIMETER, FUSED_HOMOGRAPHY and KEPT_STATE in; INERTIAL_HOMOGRAPHY and
+// INERTIAL_STATE out.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 
 #include "inertial/calibration_monitor.hpp"
 #include "inertial/inertial_filter.hpp"
@@ -17,12 +19,14 @@
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
+#include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
 
 namespace redbee {
 
 /// One message per frame, as soon as the IMU's samples reach its exposure and the fusion has answered for the
-/// frame before.
+/// frame before. While vision agrees with it, it also says what it has learned; when it begins, it goes on
+/// from what a neighbour has kept of that (processes/homography_fusion).
 class ImuIntegrationNode : public Node {
  public:
   ImuIntegrationNode(Bus& bus, const Configuration& configuration);
@@ -40,13 +44,17 @@ class ImuIntegrationNode : public Node {
   void takeImu(const ins_t& message);
   void takeAltitude(const altimeter_t& message);
   void takeFused(const fused_homography_t& message);
+  void takeKept(const inertial_state_t& message) { kept_ = message; }
   bool readyFor(int64_t frame_utime);
+  void goOnFromKept();
   void applyFeedback();
+  void sayState();
   void integrate(const Frame& frame);
   void restart();
 
   Bus& bus_;
   Configuration configuration_;
+  std::string configuration_hash_;
   HealthMonitor health_;
   Camera camera_;
   InertialFilter filter_;
@@ -57,7 +65,9 @@ class ImuIntegrationNode : public Node {
   std::optional<int64_t> last_frame_utime_;
   std::optional<Eigen::Matrix3d> last_H_;  ///< what was said of the last frame
   CalibrationMonitor calibration_;
-  double feedback_test_ratio_ = 0;
+  std::optional<inertial_state_t> kept_;
+  CorrectionReport feedback_report_;  ///< of the last frame
+  int agreed_in_a_row_ = 0;           ///< frames that vision's correction was accepted at
   bool imu_alive_ = true;
   bool finishing_ = false;
   int32_t sequence_ = 0;

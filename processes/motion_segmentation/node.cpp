@@ -5,6 +5,7 @@
 
 #include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
+#include "processes/note_calibration.hpp"
 #include "processes/work_timer.hpp"
 
 namespace redbee {
@@ -64,11 +65,8 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
 void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
   if (fused.has_innovation == 0 || fused.has_motion == 0 || fused.has_observation == 0) return;
   const PlaneMotion motion{matrix3(fused.R), vector3(fused.t), vector3(fused.normal), fused.plane_distance};
-  calibration_.note(
-      fused.test_ratio,
-      meanTransferError(planeHomography(camera_.camera().K(), motion), matrix3(fused.H_observed),
-                        configuration_.camera.width, configuration_.camera.height));
-  health_.setCalibration(calibration_.verdict());
+  noteCalibration(calibration_, health_, fused.test_ratio, planeHomography(camera_.camera().K(), motion),
+                  matrix3(fused.H_observed), configuration_.camera);
 }
 
 void MotionSegmentationNode::restart() {

@@ -5,6 +5,7 @@
 #include "geometry/chi_square.hpp"
 #include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
+#include "processes/note_calibration.hpp"
 #include "processes/work_timer.hpp"
 
 namespace redbee {
@@ -119,10 +120,8 @@ void VisualHomographyNode::judgeCalibration(const HomographyPrediction& predicti
   const Matrix8d S =
       prediction.covariance + configuration_.fusion.visual_inflation * result.ground->covariance;
   const double gate = chiSquareQuantile(configuration_.fusion.gate_probability, 8);
-  calibration_.note(difference.dot(S.ldlt().solve(difference)) / gate,
-                    meanTransferError(prediction.H, result.ground->H, configuration_.camera.width,
-                                      configuration_.camera.height));
-  health_.setCalibration(calibration_.verdict());
+  noteCalibration(calibration_, health_, difference.dot(S.ldlt().solve(difference)) / gate, prediction.H,
+                  result.ground->H, configuration_.camera);
 }
 
 void VisualHomographyNode::publish(const VisualHomography& result) {

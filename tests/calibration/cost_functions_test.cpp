@@ -96,7 +96,7 @@ TEST(CostFunctions, priorDerivativesAgreeWithNumericOnes) {
   const Eigen::Quaterniond expected(expSO3({0.3, 0.2, -0.1}));
   expectDerivatives<RotationPriorCost, 4>({expected, 0.1}, {q_a});
   expectDerivatives<YawGaugeCost, 4>({expected, 0.1}, {q_a});
-  expectDerivatives<PlaceGaugeCost, 3>({0.1}, {p_a});
+  expectDerivatives<VectorPriorCost<2>, 3>({Eigen::Vector2d::Zero(), 0.1}, {p_a});
   expectDerivatives<BiasWalkCost, 3, 3>({0.1}, {gyro_bias, accel_bias});
 }
 

@@ -5,6 +5,7 @@
 #include "messaging/picture.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
+#include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
 
 namespace redbee {
@@ -38,7 +39,7 @@ void roundTrip(const uint8_t* data, size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace redbee;  // NOLINT: a target is one function
   if (size == 0) return 0;
-  const uint8_t type = data[0] % 9;
+  const uint8_t type = data[0] % 10;
   ++data;
   --size;
   if (type == 0) {
@@ -56,5 +57,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (type == 6) roundTrip<foreground_t>(data, size);
   if (type == 7) roundTrip<detections_t>(data, size);
   if (type == 8) roundTrip<process_health_t>(data, size);
+  if (type == 9) roundTrip<inertial_state_t>(data, size);
   return 0;
 }

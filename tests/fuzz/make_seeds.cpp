@@ -10,6 +10,7 @@
 #include "fuzz_input.hpp"
 #include "messaging/codec.hpp"
 #include "messaging/picture.hpp"
+#include "processes/conversions.hpp"
 #include "processes/redbee/detect.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/detections_t.hpp"
@@ -74,9 +75,9 @@ std::vector<Event> inputs() {
 std::vector<Event> outputs(const std::vector<Event>& events) {
   const auto bus = makeLcmBus("memq://");
   std::vector<Event> said;
-  const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY",
-                               "FOREGROUND",          "DETECTIONS",        "PROCESS_HEALTH"};
-  for (uint8_t i = 0; i < 6; ++i) {
+  const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY", "FOREGROUND",
+                               "DETECTIONS",          "PROCESS_HEALTH",    "INERTIAL_STATE"};
+  for (uint8_t i = 0; i < std::size(names); ++i) {
     bus->subscribe(names[i], 64, [&said, i, &names](const uint8_t* data, int size) {
       said.push_back({0, static_cast<uint8_t>(3 + i), names[i], Bytes(data, data + size)});
     });
@@ -89,6 +90,19 @@ std::vector<Event> outputs(const std::vector<Event>& events) {
   stack.finish();
   stack.publishHealth();
   return said;
+}
+
+/// What a neighbour says to an inertial process at the flight's first frame.
+Event keptState(const std::vector<Event>& flight) {
+  constexpr uint8_t kKeptState = 7;
+  InertialKnowledge known;
+  known.utime =
+      std::find_if(flight.begin(), flight.end(), [](const Event& e) { return e.name == "CAMERA"; })->utime;
+  known.height_m = 5;
+  known.height_sigma_m = 0.1;
+  known.R_CI = smallVehicle().inertial.extrinsics.R_CI;
+  return {known.utime, kKeptState, "KEPT_STATE",
+          encodeMessage(messageOf(known, configurationHash(smallVehicle())))};
 }
 
 void appendRecord(Bytes& seed, const Event& event) {
@@ -110,15 +124,25 @@ void writeMessageSeeds(const fs::path& folder, const std::vector<Event>& flight,
     if (strangers.size() > 6000) break;
   }
   write(folder / "messages" / "homographies", strangers);
+  Bytes begun;
+  for (const Event& event : flight) {
+    if (event.utime > keptState(flight).utime) break;
+    appendRecord(begun, event);
+  }
+  appendRecord(begun, keptState(flight));
+  write(folder / "messages" / "kept_state", begun);
   std::map<uint8_t, Event> one_of_each;
   for (const auto* events : {&flight, &said}) {
     for (const Event& event : *events) one_of_each.insert_or_assign(event.channel, event);
   }
-  for (const auto& [channel, event] : one_of_each) {
-    Bytes seed = {channel};
+  const auto writeCodecSeed = [&](uint8_t type, const Event& event) {
+    Bytes seed = {type};
     seed.insert(seed.end(), event.data.begin() + kHashBytes, event.data.end());
     write(folder / "codec" / event.name, seed);
-  }
+  };
+  for (const auto& [channel, event] : one_of_each) writeCodecSeed(channel, event);
+  constexpr uint8_t kStateType = 9;
+  writeCodecSeed(kStateType, keptState(flight));
 }
 
 void writeLogSeed(const fs::path& folder, const std::vector<Event>& flight) {

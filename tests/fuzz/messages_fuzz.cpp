@@ -11,6 +11,7 @@
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
+#include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/visual_homography_t.hpp"
 #include "tests/fuzz/small_vehicle.hpp"
@@ -29,7 +30,9 @@ Target targetOf(const Channels& channels, uint8_t pick) {
                             {channels.altimeter, altimeter_t::getHash()},
                             {channels.inertial_homography, inertial_homography_t::getHash()},
                             {channels.visual_homography, visual_homography_t::getHash()},
-                            {channels.fused_homography, fused_homography_t::getHash()}};
+                            {channels.fused_homography, fused_homography_t::getHash()},
+                            {channels.inertial_state, inertial_state_t::getHash()},
+                            {channels.kept_state, inertial_state_t::getHash()}};
   return targets[pick % std::size(targets)];
 }
 

@@ -292,6 +292,37 @@ TEST(InertialFilter, ALostImuIsSaidAndItsReturnTakenUp) {
   EXPECT_LT(error, 0.3);
 }
 
+TEST(InertialFilter, TheHeightOutlivesAnOutage) {
+  const Flight flight(1, 8, consumerImu(1));
+  InertialParameters parameters = flight.parameters();
+  parameters.extrinsics.start_height_m *= 0.6;
+  parameters.extrinsics.start_height_sigma_m = 3;
+  InertialFilter filter(testCamera(), parameters);
+  const auto altitudes =
+      simulation::simulateAltimeter(flight.trajectory, flight.extrinsics, 0, 4, kStart, 50, 0.05, 5);
+  std::size_t next = 0;
+  std::size_t next_altitude = 0;
+  int started_anew = 0;
+  InertialHomography result;
+  for (int k = 0; k <= 130; ++k) {
+    const bool lost = k >= 96 && k < 120;
+    while (next < flight.imu.size() && flight.imu[next].utime <= frameTime(k) + 10'000) {
+      if (!lost) filter.addImu(flight.imu[next]);
+      ++next;
+    }
+    while (next_altitude < altitudes.size() && altitudes[next_altitude].utime <= frameTime(k)) {
+      filter.addAltitude(altitudes[next_altitude++]);
+    }
+    result = filter.advanceTo(frameTime(k));
+    started_anew += k > 0 && result.status == InertialStatus::kInitialising ? 1 : 0;
+  }
+  EXPECT_EQ(started_anew, 1);
+  const double truth = flight.motion(frameTime(130), frameTime(131)).h_a;
+  EXPECT_NEAR(result.height_m, truth, 3 * result.height_sigma_m);
+  EXPECT_LT(result.height_m / truth, 1.3);
+  EXPECT_GT(result.height_m / truth, 0.7) << "it began again at the configured height";
+}
+
 TEST(InertialFilter, ClocksThatJumpStartItAnew) {
   const Flight flight(1, 8, consumerImu(1));
   InertialFilter filter = filterWith(flight, flight.parameters());

@@ -8,6 +8,7 @@
 #include "redbee/altimeter_t.hpp"
 #include "redbee/detection_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
+#include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
 
 namespace redbee::testing {
@@ -111,6 +112,16 @@ inline inertial_homography_t sample() {
   message.H[4] = 1.5;
   message.covariance[63] = 1e-6;
   message.feedback_test_ratio = 0.5;
+  return message;
+}
+
+template <>
+inline inertial_state_t sample() {
+  inertial_state_t message{};
+  message.utime = 99;
+  message.configuration = "0123456789abcdef";
+  message.height = 5.5;
+  message.R_CI_sigma[2] = 1e-3;
   return message;
 }
 

@@ -54,8 +54,8 @@ TEST(BusFault, RandomBytesOnEveryChannel) {
   for (const Arrival& arrival : flight.arrivals) {
     with_rubbish.push_back(arrival);
     if (!isDisturbed(flight, arrival.utime) || arrival.channel != "CAMERA") continue;
-    for (const std::string& channel :
-         {c.camera, c.imu, c.altimeter, c.inertial_homography, c.visual_homography, c.fused_homography}) {
+    for (const std::string& channel : {c.camera, c.imu, c.altimeter, c.inertial_homography, c.inertial_state,
+                                       c.kept_state, c.visual_homography, c.fused_homography}) {
       std::vector<uint8_t> rubbish(std::uniform_int_distribution<size_t>(0, 2000)(random));
       for (uint8_t& byte : rubbish) byte = static_cast<uint8_t>(random());
       with_rubbish.push_back({arrival.utime, channel, rubbish});

@@ -1,0 +1,53 @@
+// What the fusion takes in, and how far it believes each.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "geometry/homography.hpp"
+
+namespace redbee {
+
+enum class FusionNoise {
+  kPropagated,  ///< the covariances that the two homographies carry; vision's scaled by (1 + outliers /
+                ///< inliers)
+  kPaper,       ///< the paper's constant diag(Q), diag(P_0), in pixel units, P_0 scaled by the same ratio
+};
+
+struct FusionParameters {
+  FusionNoise noise = FusionNoise::kPropagated;
+  Vector8d paper_Q;                 ///< diagonal, pixel units (paper IV.B)
+  Vector8d paper_P0;                ///< diagonal, pixel units (paper IV.B)
+  double gate_probability = 0.999;  ///< of the innovation's chi-square test, 8 degrees of freedom
+  int max_gated_in_a_row = 5;  ///< after so many refusals the filter believes vision and starts a new epoch
+  double min_overlap =
+      0.3;  ///< share of the anchor frame still in view below which the filter is anchored anew
+  /// Scale of vision's covariance (kPropagated): the ground is only roughly a plane, and relief that passes
+  /// for ground is a bias that no residual shows. 8 makes a homography over ordinary relief (trees, kerbs) as
+  /// uncertain as it is found to be.
+  double visual_inflation = 8.0;
+  double process_inflation = 1.0;  ///< scale of the inertial covariance when it serves as Q (kPropagated)
+  FusionParameters();              ///< the paper's Q and P_0
+};
+
+struct InertialInput {
+  int64_t utime_previous = 0;  ///< the frame that H starts from
+  Eigen::Matrix3d H;           ///< from that frame to k, ideal pixels, h33 = 1
+  Matrix8d covariance;         ///< scaled
+};
+struct VisualInput {
+  int64_t utime_previous =
+      0;  ///< the frame that H starts from; may lie more than one frame back where vision skipped frames
+  Eigen::Matrix3d H;    ///< frame k-1 to k, ideal pixels, h33 = 1
+  Matrix8d covariance;  ///< scaled
+  int inliers = 0;
+  int outliers = 0;
+};
+
+/// 1 + outliers / inliers: what vision's noise grows by (equation 7).
+double visualNoiseRatio(const VisualInput& visual);
+/// Vision's covariance, scaled by that ratio and by visual_inflation: how far it is to be believed, here and
+/// by the inertial filter that it corrects.
+Matrix8d believedCovariance(const VisualInput& visual, const FusionParameters& parameters);
+
+}  // namespace redbee

@@ -1,0 +1,29 @@
+#include "fusion/step_chain.hpp"
+
+#include <algorithm>
+
+namespace redbee {
+namespace {
+
+constexpr std::size_t kMaxFrames = 32;
+
+}  // namespace
+
+void StepChain::append(int64_t utime, const Estimate& step) {
+  frames_.push_back({utime, step});
+  if (frames_.size() > kMaxFrames) frames_.pop_front();
+}
+
+/// H^{k-1:k} = H^{s:k} (H^{s:k-1})^-1.
+std::optional<Estimate> StepChain::stepOf(int64_t utime, const Estimate& since) const {
+  const auto start =
+      std::find_if(frames_.begin(), frames_.end(), [&](const Frame& frame) { return frame.utime == utime; });
+  if (start == frames_.end()) return std::nullopt;
+  if (start + 1 == frames_.end()) return Estimate{since.H, symmetric(since.P)};
+  Estimate known = identityEstimate();
+  for (auto frame = start + 1; frame != frames_.end(); ++frame) known = composed(frame->step, known);
+  if (!isUsable(known.H)) return std::nullopt;
+  return remainder(since, known);
+}
+
+}  // namespace redbee

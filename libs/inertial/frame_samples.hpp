@@ -1,0 +1,50 @@
+// The IMU's samples, asked for by the camera's clock.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "inertial/imu_buffer.hpp"
+#include "inertial/imu_sample_check.hpp"
+#include "inertial/inertial_filter.hpp"
+
+namespace redbee {
+
+/// Holds what may be believed of the samples. Frames are told by the camera's clock, other times by the
+/// IMU's.
+class FrameSamples {
+ public:
+  explicit FrameSamples(const InertialParameters& parameters);
+
+  /// False for a sample that no sensor could give: it is not taken.
+  bool add(const ImuSample& sample);
+  int64_t imuTime(int64_t frame) const { return frame + timeshift_us_; }
+
+  /// True when the samples reach a frame's exposure.
+  bool cover(int64_t frame) const;
+  /// s, from a frame to the nearest sample, which lies ahead where the IMU's clock has jumped.
+  double outageAt(int64_t frame) const;
+  /// True where samples were refused in the interval of two frames.
+  bool wereRefused(int64_t from_frame, int64_t to_frame) const;
+  /// Those that make the vertical at a frame, oldest first: of the last moments before it, or else the first
+  /// one after it.
+  std::vector<ImuSample> forVertical(int64_t frame) const;
+
+  bool empty() const { return imu_.empty(); }
+  /// On [begin, end] by the IMU's clock; precondition: not empty.
+  ImuSpan span(int64_t begin, int64_t end) const { return imu_.span(begin, end); }
+  /// True where the span has no sample, nor one right beside it.
+  static bool isMissing(const ImuSpan& span);
+  /// True where holes in the span are long enough to be said.
+  bool hasGap(const ImuSpan& span) const;
+  /// Keeps what a restart at the frame would need.
+  void forgetBefore(int64_t frame);
+
+ private:
+  int64_t timeshift_us_;
+  double max_gap_s_;
+  ImuSampleCheck check_;
+  ImuBuffer imu_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,23 @@
+#include "inertial/inertial_homography.hpp"
+
+namespace redbee {
+
+const char* toString(InertialStatus status) {
+  switch (status) {
+    case InertialStatus::kGood:
+      return "good";
+    case InertialStatus::kInitialising:
+      return "initialising";
+    case InertialStatus::kImuGap:
+      return "IMU gap";
+    case InertialStatus::kNoImu:
+      return "no IMU";
+    case InertialStatus::kClockJump:
+      return "clock jump";
+    case InertialStatus::kBadSamples:
+      return "implausible IMU samples refused";
+  }
+  return "unknown";
+}
+
+}  // namespace redbee

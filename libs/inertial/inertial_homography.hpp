@@ -1,0 +1,39 @@
+// What the inertial filter says of the motion between two frames.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "geometry/homography.hpp"
+
+namespace redbee {
+
+enum class InertialStatus {
+  kGood,          ///< the whole interval is covered by IMU samples
+  kInitialising,  ///< first frame, or the first after a gap: there is no homography yet
+  kImuGap,        ///< samples are missing inside the interval: bridged, with the covariance grown to say so
+  kNoImu,         ///< no samples at all in the interval: there is no homography
+  kClockJump,     ///< time ran backwards or jumped: started anew, no homography
+  kBadSamples,    ///< samples in the interval were refused (ImuSampleCheck); a homography, if valid, does
+                  ///< without
+};
+const char* toString(InertialStatus status);
+
+/// Motion of the camera from frame a (the previous) to frame b, and the homography of the ground that
+/// follows.
+struct InertialHomography {
+  int64_t utime_previous = 0;  ///< camera clock, us
+  int64_t utime = 0;           ///< camera clock, us
+  InertialStatus status = InertialStatus::kInitialising;
+  bool valid = false;                               ///< H, covariance and motion hold
+  Eigen::Matrix3d H = Eigen::Matrix3d::Identity();  ///< ideal pixels of a to ideal pixels of b, h33 = 1
+  Matrix8d covariance = Matrix8d::Zero();  ///< of the scaled homography's eight entries (homography.hpp)
+  /// R_ba, t_ba, m_a, h_a in camera frames [m].
+  PlaneMotion motion{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 1.0};
+  Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();   ///< of R_ba, left perturbation [rad^2]
+  Eigen::Vector3d direction_of_gravity = Eigen::Vector3d::Zero();  ///< unit, down, in camera frame b
+  double height_m = 0;                                             ///< of camera b above the ground plane
+  double height_sigma_m = 0;
+};
+
+}  // namespace redbee

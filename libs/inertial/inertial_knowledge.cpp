@@ -1,0 +1,111 @@
+#include "inertial/inertial_knowledge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/so3.hpp"
+#include "inertial/error_state.hpp"
+#include "inertial/imu_buffer.hpp"
+#include "inertial/inertial_filter.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr double kMaxAge = 2.0;       // s: the unknown acceleration alone is worth 4 m by then
+constexpr double kMaxHeight = 1e4;    // m
+constexpr double kMaxVelocity = 200;  // m/s
+/// How many sigmas a sensor's error may be from what the configuration says of it: a configured sigma is
+/// seldom more than a guess. Where it is small, what a sensor may drift by in a flight.
+constexpr double kMaxSigmas = 10;
+constexpr double kGyroDrift = 0.02;       // rad/s
+constexpr double kAccelDrift = 0.3;       // m/s^2
+constexpr double kMountingDrift = 0.035;  // rad
+constexpr double kMaxTilt = 3.2;          // rad, of its sigma
+constexpr double kUnitTolerance = 1e-6;
+constexpr double kDoubt = 2;
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
+
+double ageAt(const InertialKnowledge& known, int64_t utime) {
+  return static_cast<double>(utime - known.utime) * 1e-6;
+}
+
+/// False for what is not a number.
+bool isSigma(const Eigen::Vector3d& sigma, double limit) {
+  return (sigma.array() >= 0).all() && (sigma.array() <= limit).all();
+}
+
+bool isSensorError(const Eigen::Vector3d& error, const Eigen::Vector3d& sigma, double limit) {
+  return error.norm() <= limit && isSigma(sigma, limit);
+}
+
+bool isHeight(const InertialKnowledge& known) {
+  return known.height_m >= kMinCameraHeight && known.height_m <= kMaxHeight && known.height_sigma_m > 0 &&
+         known.height_sigma_m <= known.height_m;
+}
+
+bool couldBeLearned(const InertialKnowledge& known, const InertialParameters& parameters) {
+  const double mounting_sigma = parameters.extrinsic_rotation_sigma_deg * kRadiansPerDegree;
+  const Eigen::Matrix3d turned = known.R_CI * parameters.extrinsics.R_CI.transpose();
+  return isHeight(known) && std::abs(known.up.norm() - 1) < kUnitTolerance &&
+         isSigma(known.up_sigma, kMaxTilt) && known.velocity.norm() <= kMaxVelocity &&
+         isSigma(known.velocity_sigma, kMaxVelocity) &&
+         isSensorError(known.gyro_bias - parameters.gyro_bias, known.gyro_bias_sigma,
+                       std::max(kGyroDrift, kMaxSigmas * parameters.gyro_bias_sigma)) &&
+         isSensorError(known.accel_bias - parameters.accel_bias, known.accel_bias_sigma,
+                       std::max(kAccelDrift, kMaxSigmas * parameters.accel_bias_sigma)) &&
+         known.R_CI.allFinite() && isRotation(known.R_CI) &&
+         isSensorError(logSO3(turned), known.R_CI_sigma,
+                       std::max(kMountingDrift, kMaxSigmas * mounting_sigma));
+}
+
+}  // namespace
+
+const char* toString(KnowledgeVerdict verdict) {
+  switch (verdict) {
+    case KnowledgeVerdict::kBelieved:
+      return "believed";
+    case KnowledgeVerdict::kNotWanted:
+      return "not wanted";
+    case KnowledgeVerdict::kImplausible:
+      return "implausible";
+    case KnowledgeVerdict::kFuture:
+      return "from the future";
+    case KnowledgeVerdict::kStale:
+      return "too old";
+  }
+  return "unknown";
+}
+
+bool isRecent(const InertialKnowledge& known, int64_t utime) {
+  const double age = ageAt(known, utime);
+  return age >= 0 && age <= kMaxAge;
+}
+
+KnowledgeVerdict judge(const InertialKnowledge& known, int64_t utime, const InertialParameters& parameters) {
+  if (!isPlausibleTime(known.utime) || !couldBeLearned(known, parameters)) {
+    return KnowledgeVerdict::kImplausible;
+  }
+  if (ageAt(known, utime) < 0) return KnowledgeVerdict::kFuture;
+  return isRecent(known, utime) ? KnowledgeVerdict::kBelieved : KnowledgeVerdict::kStale;
+}
+
+InertialKnowledge aged(InertialKnowledge known, int64_t utime) {
+  const double age = ageAt(known, utime);
+  for (Eigen::Vector3d* sigma : {&known.up_sigma, &known.velocity_sigma, &known.gyro_bias_sigma,
+                                 &known.accel_bias_sigma, &known.R_CI_sigma}) {
+    *sigma *= kDoubt;
+  }
+  known.height_m = std::max(kMinCameraHeight, known.height_m + age * known.velocity.z());
+  known.height_sigma_m = std::hypot(kDoubt * known.height_sigma_m, age * known.velocity_sigma.z(),
+                                    0.5 * age * age * kUnknownAcceleration);
+  for (double& sigma : known.up_sigma) sigma = std::hypot(sigma, age * kUnknownRate);
+  const double turned = age * kUnknownRate * known.velocity.head<2>().norm();
+  for (const int axis : {0, 1, 2}) {
+    double& sigma = known.velocity_sigma(axis);
+    sigma = std::hypot(sigma, age * kUnknownAcceleration, axis < 2 ? turned : 0.0);
+  }
+  known.utime = utime;
+  return known;
+}
+
+}  // namespace redbee

@@ -1,0 +1,20 @@
+// Whether the calibration fits the flight, as every node that sees both homographies says it in its health.
+#pragma once
+
+#include "geometry/camera.hpp"
+#include "geometry/homography.hpp"
+#include "inertial/calibration_monitor.hpp"
+#include "messaging/health.hpp"
+
+namespace redbee {
+
+/// One frame: the ground's homography as the IMU predicted it and as vision measured it [ideal px], and the
+/// test ratio of their difference.
+inline void noteCalibration(CalibrationMonitor& monitor, HealthMonitor& health, double test_ratio,
+                            const Eigen::Matrix3d& predicted, const Eigen::Matrix3d& measured,
+                            const CameraIntrinsics& camera) {
+  monitor.note(test_ratio, meanTransferError(predicted, measured, camera.width, camera.height));
+  health.setCalibration(monitor.verdict());
+}
+
+}  // namespace redbee
