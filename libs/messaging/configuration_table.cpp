@@ -138,6 +138,7 @@ Settings backgroundSettings() {
       setting("segmentation.nearest_depth_share", MEMBER(segmentation.nearest_depth_share), share),
       setting("segmentation.evidence_sigmas", MEMBER(segmentation.evidence_sigmas), positive),
       setting("segmentation.use_registration", MEMBER(segmentation.use_registration), anything),
+      setting("segmentation.border_stretch", MEMBER(segmentation.border_stretch), share),
       setting("segmentation.motion_half", MEMBER(segmentation.motion_half), positive),
       setting("segmentation.use_appearance", MEMBER(segmentation.use_appearance), anything),
       setting("segmentation.background_downscale", MEMBER(segmentation.background_downscale), halving),

@@ -33,28 +33,45 @@ double misfit(const Eigen::Vector2d& centre, const cv::Rect& box, int missed, co
 
 cv::Mat disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
 
+/// What exceeds the lower threshold, opened and closed. Most pictures are empty but for a corner, so only the
+/// part around the foreground is worked on; `part` says which.
+cv::Mat foregroundPart(const cv::Mat& probability, const cv::Mat& unknown,
+                       const SegmentationParameters& parameters, cv::Rect& part) {
+  cv::Mat mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
+  mask.setTo(0, unknown);
+  const int reach = std::max(parameters.opening_px, parameters.closing_px);
+  part = cv::boundingRect(mask);
+  if (part.empty()) return {};
+  part = cv::Rect(part.x - reach, part.y - reach, part.width + 2 * reach, part.height + 2 * reach) &
+         cv::Rect({}, mask.size());
+  mask = mask(part).clone();
+  if (mask.empty()) return mask;
+  if (parameters.opening_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(parameters.opening_px));
+  if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
+  mask.setTo(0, unknown(part));
+  return mask;
+}
+
 }  // namespace
 
 ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& unknown,
                                     const SegmentationParameters& parameters) {
-  cv::Mat mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
-  mask.setTo(0, unknown);
-  if (parameters.opening_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(parameters.opening_px));
-  if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
-  mask.setTo(0, unknown);
-
+  ForegroundComponents found;
+  found.mask = cv::Mat::zeros(probability.size(), CV_8U);
+  cv::Rect part;
+  const cv::Mat mask = foregroundPart(probability, unknown, parameters, part);
+  if (mask.empty()) return found;
   cv::Mat labels, statistics, centroids;
   const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8, CV_32S);
-  ForegroundComponents found;
-  found.mask = cv::Mat::zeros(mask.size(), CV_8U);
   for (int label = 1; label < count; ++label) {
     const int* row = statistics.ptr<int>(label);
     if (row[cv::CC_STAT_AREA] < parameters.min_area_px) continue;
     Detection component;
-    component.box = {row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
-                     row[cv::CC_STAT_HEIGHT]};
+    const cv::Rect in_part(row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
+                           row[cv::CC_STAT_HEIGHT]);
+    component.box = in_part + part.tl();
     component.area_px = row[cv::CC_STAT_AREA];
-    const cv::Mat own = labels(component.box) == label;
+    const cv::Mat own = labels(in_part) == label;
     double surest = 0;
     cv::minMaxLoc(probability(component.box), nullptr, &surest, nullptr, nullptr, own);
     if (surest <= kFull * parameters.threshold) continue;

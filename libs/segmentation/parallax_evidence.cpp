@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "segmentation/border_structure.hpp"
 #include "segmentation/guided_filter.hpp"
 #include "segmentation/registration_error.hpp"
 #include "segmentation/warping.hpp"
@@ -81,8 +82,17 @@ cv::Mat ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat& gre
   now.off.setTo(cv::Scalar::all(0), unseen_);
   travelling_.update(now, last_step_, unseen_);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
-  const cv::Mat motion = guidedFilter(grey, travelling_.motion(), radius, parameters_.fill_contrast);
-  return cv::min(cv::max(motion, 0), 1);
+  cv::Mat motion = guidedFilter(grey, travelling_.motion(), radius, parameters_.fill_contrast);
+  motion = cv::min(cv::max(motion, 0), 1);
+  if (!frame.motion && parameters_.border_stretch > 0) muteBorderStructure(motion);
+  return motion;
+}
+
+void ParallaxEvidence::muteBorderStructure(cv::Mat& motion) const {
+  // Squared, because what enters the picture has not gathered all of its evidence at the border yet.
+  const cv::Mat inside =
+      1 - shareOfBorderStructure(motion, unseen_, parameters_.border_stretch * motion.cols);
+  motion = motion.mul(inside).mul(inside);
 }
 
 cv::Mat ParallaxEvidence::flowVariance(const cv::Mat& grey) const {
@@ -104,7 +114,7 @@ cv::Mat ParallaxEvidence::flowVariance(const cv::Mat& grey) const {
 FrameEvidence ParallaxEvidence::judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey,
                                           const cv::Mat& flow, double frames) {
   const cv::Mat variance = flowVariance(grey);
-  AffineFlow error;
+  HomographyFlow error(flow.size());
   if (parameters_.use_registration) {
     const double expected = kExpectedErrorPx / scale_;
     error = registrationError(flow, variance, unseen_, segment, static_cast<float>(expected));

@@ -3,7 +3,7 @@
 // An earlier picture is laid onto the current one by the ground homography (above the horizon, where there is
 // no ground, by the rotation). Does the dense flow that remains lie off the segment of possible parallax
 // (parallax_segment.hpp)? The answer is averaged along what moves (travelling_evidence.hpp). It knows trees
-// and facades, but its outlines are coarse.
+// and facades (without an IMU by where they stand, border_structure.hpp), but its outlines are coarse.
 #pragma once
 
 #include <cstdint>
@@ -45,6 +45,7 @@ class ParallaxEvidence {
   cv::Mat evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K, double frames);
   FrameEvidence judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey, const cv::Mat& flow,
                           double frames);
+  void muteBorderStructure(cv::Mat& motion) const;
   cv::Mat flowVariance(const cv::Mat& grey) const;
 
   SegmentationParameters parameters_;

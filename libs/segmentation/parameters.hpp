@@ -34,8 +34,11 @@ struct SegmentationParameters {
   double evidence_sigmas = 2.5;  ///< distance from the parallax segment, in sigmas, that is half the evidence
   double evidence_rate = 0.2;    ///< learning rate of the motion that travels along the flow; 1: none travels
   bool use_registration = true;  ///< false: what the homography leaves everywhere counts as motion
-  double motion_half = 0.15;     ///< evidence of motion that is half enough
-  bool use_appearance = true;    ///< false: motion alone, without the background's looks
+  /// Of the picture's width: without an IMU, evidence that hangs together with so long a stretch of the
+  /// picture's border is a static structure's; 0: it is not.
+  double border_stretch = 0.05;
+  double motion_half = 0.15;   ///< evidence of motion that is half enough
+  bool use_appearance = true;  ///< false: motion alone, without the background's looks
   int background_downscale =
       2;  ///< 1, 2 or 4: the background's looks are kept on a picture this much smaller
   double background_span_s = 0.5;  ///< s: over which they are averaged

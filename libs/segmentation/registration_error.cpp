@@ -6,41 +6,36 @@
 namespace redbee {
 namespace {
 
-using Vector6f = Eigen::Matrix<float, 6, 1>;
-using Matrix6f = Eigen::Matrix<float, 6, 6>;
+using Vector8f = Eigen::Matrix<float, 8, 1>;
+using Matrix8f = Eigen::Matrix<float, 8, 8>;
 
 constexpr int kStep_px = 8;       // between the samples
 constexpr int kIterations = 4;    // of the reweighting
-constexpr float kRobustness = 2;  // residuals of more variances than this lose their weight (Geman-McClure)
+constexpr float kRobustness = 4;  // residuals of more variances than this lose their weight (Geman-McClure)
 constexpr float kPriorWeight = 4;
 
-/// One component of the flow at one pixel, linear in the six entries of the affine flow.
+/// One component of the flow at one pixel, linear in the eight entries of the homography's.
 struct Constraint {
-  Vector6f jacobian;
+  Vector8f jacobian;
   float residual;  ///< px, of no error at all
   float variance;  ///< px^2
 };
 
-/// Pixels in units of half the picture's width about its middle, so that all six entries are in pixels.
-struct Centre {
-  explicit Centre(cv::Size size)
-      : x(0.5F * static_cast<float>(size.width)), y(0.5F * static_cast<float>(size.height)), scale(1 / x) {}
-  float x, y, scale;
-};
-
 std::vector<Constraint> constraintsOf(const cv::Mat& flow, const cv::Mat& variance, const cv::Mat& unseen,
-                                      const ParallaxSegment& segment, const Centre& centre) {
+                                      const ParallaxSegment& segment) {
+  const HomographyFlow units(flow.size());
   std::vector<Constraint> constraints;
   for (int y = kStep_px / 2; y < flow.rows; y += kStep_px) {
     for (int x = kStep_px / 2; x < flow.cols; x += kStep_px) {
       if (unseen.at<uint8_t>(y, x) != 0) continue;
       const cv::Vec2f back = flow.at<cv::Vec2f>(y, x);
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
-      const float u = (pixel[0] - centre.x) * centre.scale;
-      const float v = (pixel[1] - centre.y) * centre.scale;
+      const float u = (pixel[0] - units.middle[0]) / units.unit;
+      const float v = (pixel[1] - units.middle[1]) / units.unit;
       const auto add = [&](const cv::Vec2f& n) {
-        Vector6f J;
-        J << n[0] * u, n[0] * v, n[0], n[1] * u, n[1] * v, n[1];
+        Vector8f J;
+        const float outwards = n[0] * u + n[1] * v;
+        J << n[0] * u, n[0] * v, n[0], n[1] * u, n[1] * v, n[1], outwards * u, outwards * v;
         constraints.push_back({J, -n.dot(back), variance.at<float>(y, x)});
       };
       const cv::Vec2f along = segment.direction(pixel + back);
@@ -55,12 +50,12 @@ std::vector<Constraint> constraintsOf(const cv::Mat& flow, const cv::Mat& varian
   return constraints;
 }
 
-Vector6f solve(const std::vector<Constraint>& constraints, float expected_px) {
-  const Matrix6f prior = kPriorWeight / (expected_px * expected_px) * Matrix6f::Identity();
-  Vector6f solution = Vector6f::Zero();
+Vector8f solve(const std::vector<Constraint>& constraints, float expected_px) {
+  const Matrix8f prior = kPriorWeight / (expected_px * expected_px) * Matrix8f::Identity();
+  Vector8f solution = Vector8f::Zero();
   for (int i = 0; i < kIterations; ++i) {
-    Matrix6f normal = prior;
-    Vector6f right = Vector6f::Zero();
+    Matrix8f normal = prior;
+    Vector8f right = Vector8f::Zero();
     for (const Constraint& c : constraints) {
       const float left = c.residual - c.jacobian.dot(solution);
       const float doubt = 1 + left * left / (kRobustness * c.variance);
@@ -75,15 +70,12 @@ Vector6f solve(const std::vector<Constraint>& constraints, float expected_px) {
 
 }  // namespace
 
-AffineFlow registrationError(const cv::Mat& flow, const cv::Mat& variance, const cv::Mat& unseen,
-                             const ParallaxSegment& segment, float expected_px) {
-  const Centre centre(flow.size());
-  const Vector6f a = solve(constraintsOf(flow, variance, unseen, segment, centre), expected_px);
-  AffineFlow error;
-  for (int row = 0; row < 2; ++row) {
-    const float du = a[3 * row] * centre.scale, dv = a[3 * row + 1] * centre.scale;
-    error.A.row(row) << du, dv, a[3 * row + 2] - du * centre.x - dv * centre.y;
-  }
+HomographyFlow registrationError(const cv::Mat& flow, const cv::Mat& variance, const cv::Mat& unseen,
+                                 const ParallaxSegment& segment, float expected_px) {
+  const Vector8f h = solve(constraintsOf(flow, variance, unseen, segment), expected_px);
+  HomographyFlow error(flow.size());
+  error.affine << h[0], h[1], h[2], h[3], h[4], h[5];
+  error.perspective = {h[6], h[7]};
   return error;
 }
 

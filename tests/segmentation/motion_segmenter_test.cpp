@@ -22,7 +22,8 @@ constexpr int kFrames = 24;
 
 void report(const std::string& what, const PixelCounts& counts) {
   std::cout << what << ": recall " << counts.recall() << ", false share " << counts.falseShare()
-            << ", false share of the patch " << counts.falsePatchShare() << "\n";
+            << ", false share of the patch " << counts.falsePatchShare() << ", P_FG of movers "
+            << counts.moverProbability() << ", of the patch " << counts.patchProbability() << "\n";
   ::testing::Test::RecordProperty(what + "_recall", std::to_string(counts.recall()));
   ::testing::Test::RecordProperty(what + "_false_share", std::to_string(counts.falseShare()));
 }
@@ -95,6 +96,22 @@ TEST(MotionSegmenter, WorksOnVisionAlone) {
   report("vision_only", counts);
   EXPECT_GT(counts.recall(), 0.3);
   EXPECT_LT(counts.falseShare(), 0.05);
+}
+
+TEST(MotionSegmenter, WithoutImuAndSecondPlaneAFacadeThatRunsOutOfThePictureIsStatic) {
+  const auto ground_alone = [](SegmentationInput& input) {
+    input.motion.reset();
+    input.front.reset();
+  };
+  SegmentationParameters parameters;
+  const PixelCounts muted = fly(facadeAndCar(), parameters, kFacadePatch, ground_alone);
+  parameters.border_stretch = 0;
+  const PixelCounts heard = fly(facadeAndCar(), parameters, kFacadePatch, ground_alone);
+  report("muted", muted);
+  report("heard", heard);
+  EXPECT_GT(heard.patchProbability(), 0) << "the facade must look as if it moved";
+  EXPECT_LT(muted.patchProbability(), 0.5 * heard.patchProbability());
+  EXPECT_GT(muted.moverProbability(), 0.8 * heard.moverProbability());
 }
 
 TEST(MotionSegmenter, EntropySuppressesWavingTexture) {
