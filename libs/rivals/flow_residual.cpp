@@ -9,8 +9,6 @@ namespace redbee {
 namespace {
 
 constexpr float kThreshold = 3.25F;  // px
-constexpr int kAveragePx = 15;
-constexpr size_t kBackFrames = 2;
 
 }  // namespace
 
@@ -32,8 +30,10 @@ cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
   return remains;
 }
 
-FlowResidual::FlowResidual()
-    : flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)), history_(kBackFrames) {}
+FlowResidual::FlowResidual(const FlowResidualParameters& parameters)
+    : parameters_(parameters),
+      flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)),
+      history_(parameters.back_frames) {}
 
 void FlowResidual::reset() {
   registrar_.reset();
@@ -51,7 +51,7 @@ RivalOutput FlowResidual::judge(const RivalInput& input) {
     cv::Mat flow;
     flow_->calc(input.grey, history_.oldest(), flow);
     cv::Mat remains = flowAgainst(flow, history_.oldestToNewest());
-    cv::blur(remains, remains, {kAveragePx, kAveragePx});
+    cv::blur(remains, remains, {parameters_.average_px, parameters_.average_px});
     output.score = gradedScore(remains, kThreshold);
   } else if (!first) {
     output.status = RivalStatus::kLost;
