@@ -47,7 +47,8 @@ class RecursiveDensity {
 
 struct AuroraParameters {
   RecursiveDensity::Parameters density;
-  int average_px = 15;  ///< side of the box
+  int average_px = 15;      ///< side of the box
+  float deviations = 0.1F;  ///< where kDecisionScore lies
 };
 
 class Aurora : public Rival {

@@ -6,11 +6,6 @@
 #include "rivals/graded_score.hpp"
 
 namespace redbee {
-namespace {
-
-constexpr float kThreshold = 3.25F;  // px
-
-}  // namespace
 
 cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
   const cv::Matx33d back = H.inv();
@@ -52,7 +47,7 @@ RivalOutput FlowResidual::judge(const RivalInput& input) {
     flow_->calc(input.grey, history_.oldest(), flow);
     cv::Mat remains = flowAgainst(flow, history_.oldestToNewest());
     cv::blur(remains, remains, {parameters_.average_px, parameters_.average_px});
-    output.score = gradedScore(remains, kThreshold);
+    output.score = gradedScore(remains, parameters_.threshold_px);
   } else if (!first) {
     output.status = RivalStatus::kLost;
   }

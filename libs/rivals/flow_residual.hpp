@@ -17,7 +17,8 @@ namespace redbee {
 
 struct FlowResidualParameters {
   size_t back_frames = 2;
-  int average_px = 15;  ///< side of the box
+  int average_px = 15;         ///< side of the box
+  float threshold_px = 3.25F;  ///< where kDecisionScore lies
 };
 
 class FlowResidual : public Rival {

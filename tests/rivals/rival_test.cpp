@@ -20,14 +20,13 @@ struct Expected {
 };
 
 /// At least, at least and at most. What each cannot do: a difference is hollow where the patch has no
-/// texture, densities are wide, votes for epipolar lines mean little on a plane, where they are not fixed,
-/// and in some frames low rank joins the patch to a piece of the ground.
+/// texture, densities are wide, votes for epipolar lines mean little on a plane, where they are not fixed.
 Expected expectedOf(const std::string& rival) {
   if (rival == "aurora" || rival == "aurora-davis") return {0.9, 0.4, 0.05};
   if (rival == "difference" || rival == "difference-davis") return {0.95, 0.2, 0.02};
-  if (rival == "lrr") return {0.75, 0.5, 0.03};
+  if (rival == "lrr") return {0.95, 0.5, 0.03};
   if (rival == "mcd") return {0.95, 0.5, 0.05};
-  if (rival == "rv") return {0.6, 0.2, 0.05};
+  if (rival == "rv") return {0.8, 0.2, 0.05};
   return {0.85, 0.4, 0.05};
 }
 
@@ -175,9 +174,10 @@ TEST_P(Rivals, AChangeOfSizeStartsAnewAndIsSurvived) {
   EXPECT_EQ(last, RivalStatus::kGood);
 }
 
-/// A map that leaves half of a mover without a score caps the recall, whatever the clustering found.
+/// A map that leaves half of a mover without a score caps the recall, whatever the clustering found. Not rv,
+/// which in some frames takes the patch for ground.
 class TrajectoryRivals : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(TableOne, TrajectoryRivals, ::testing::Values("rv", "lrr", "ssc"), testName);
+INSTANTIATE_TEST_SUITE_P(TableOne, TrajectoryRivals, ::testing::Values("lrr", "ssc"), testName);
 
 TEST_P(TrajectoryRivals, ScoreNearlyAllOfThePatch) {
   const RankStatistic statistic = watch(*makeRival(GetParam()), patchScene());
