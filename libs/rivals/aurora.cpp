@@ -11,6 +11,7 @@ namespace redbee {
 namespace {
 
 constexpr int kSmoothPx = 3;
+constexpr float kDeviations = 0.1F;
 
 }  // namespace
 
@@ -82,7 +83,7 @@ RivalOutput Aurora::judge(const RivalInput& input) {
   cv::GaussianBlur(input.colour, smooth, {kSmoothPx, kSmoothPx}, 0);
   cv::Mat below = density_->update(smooth);
   cv::blur(below, below, {parameters_.average_px, parameters_.average_px});
-  output.score = gradedScore(below, parameters_.deviations);
+  output.score = gradedScore(below, kDeviations);
   return output;
 }
 

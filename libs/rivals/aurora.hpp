@@ -47,8 +47,7 @@ class RecursiveDensity {
 
 struct AuroraParameters {
   RecursiveDensity::Parameters density;
-  int average_px = 15;      ///< side of the box
-  float deviations = 0.1F;  ///< where kDecisionScore lies
+  int average_px = 15;  ///< side of the box
 };
 
 class Aurora : public Rival {

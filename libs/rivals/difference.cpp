@@ -9,6 +9,7 @@ namespace redbee {
 namespace {
 
 constexpr int kSmoothPx = 5;
+constexpr float kThreshold = 20;  // grey levels
 
 }  // namespace
 
@@ -35,7 +36,7 @@ RivalOutput Difference::judge(const RivalInput& input) {
     difference.setTo(0, unseenBy(history_.oldestToNewest(), smooth.size()));
     difference.convertTo(difference, CV_32F);
     cv::blur(difference, difference, {parameters_.average_px, parameters_.average_px});
-    output.score = gradedScore(difference, parameters_.threshold);
+    output.score = gradedScore(difference, kThreshold);
   } else if (!first) {
     output.status = RivalStatus::kLost;
   }

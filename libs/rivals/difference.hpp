@@ -16,8 +16,7 @@ namespace redbee {
 
 struct DifferenceParameters {
   size_t back_frames = 2;
-  int average_px = 15;   ///< side of the box
-  float threshold = 20;  ///< grey levels, where kDecisionScore lies
+  int average_px = 15;  ///< side of the box
 };
 
 class Difference : public Rival {

@@ -46,7 +46,7 @@ const std::map<std::string, Factory>& factories() {
       {"flow-residual", make<FlowResidual>},
       {"flow-residual-davis",
        [] {
-         return makeWith<FlowResidual>(FlowResidualParameters{1, 35});
+         return makeWith<FlowResidual>(FlowResidualParameters{1, 35, 11.5F});
        }},
       {"homography-mog2", make<HomographyMog2>},
       {"lrr", makeLrr},

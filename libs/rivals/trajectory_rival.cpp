@@ -24,7 +24,7 @@ constexpr TrajectoryRivalParameters kLrrParameters{24, 0.2};
 constexpr TrajectoryRivalParameters kSscParameters{24, 0.1};
 constexpr double kReachPx = 16;  // tracks are lost, and where they were must not go without a score
 constexpr int kAveragePx = 25;
-constexpr float kDecisionShare = 0.5F;
+constexpr float kDecisionShare = 0.38F;
 constexpr double kRegisteredPx = 1;  // tracks this close to the background's motions register the picture
 constexpr Eigen::Index kAffineRank = 3;
 
