@@ -1,5 +1,5 @@
-// What is allocated now. Resident memory would say the same of an ordinary build, but a sanitizer's shadow and
-// quarantine count there as well.
+// What is allocated now. Resident memory would say the same of an ordinary build, but a sanitizer's shadow
+// and quarantine count there as well.
 #pragma once
 
 #include <cstdint>
