@@ -69,6 +69,7 @@ void addPictures(const VideoImportOptions& options, FlightMerger& merger, Import
 }  // namespace
 
 std::vector<ImuSample> readImuCsv(const fs::path& file) {
+  constexpr double kLatest_s = 1e10;  // the year 2286; far beyond it microseconds overflow
   CsvReader csv(file);
   if (!csv.next(0)) throw InputError(file, "is empty");
   const auto columns = findColumns(csv);
@@ -77,7 +78,9 @@ std::vector<ImuSample> readImuCsv(const fs::path& file) {
   std::vector<ImuSample> samples;
   while (csv.next(width)) {
     ImuSample sample;
-    sample.utime = std::llround(1e6 * csv.number(columns[0]));
+    const double t_s = csv.number(columns[0]);
+    if (std::abs(t_s) > kLatest_s) csv.fail("'" + csv.fields().at(columns[0]) + "' s is no time");
+    sample.utime = std::llround(1e6 * t_s);
     times.check(csv, sample.utime);
     for (int axis = 0; axis < 3; ++axis) {
       sample.gyro[axis] = csv.number(columns[static_cast<size_t>(1 + axis)]);

@@ -12,7 +12,7 @@ namespace {
 
 bool isDirective(const std::string& key) { return key == "include" || key == "preset"; }
 
-/// yaml-cpp's messages run over several lines at times.
+/// yaml-cpp's messages run over several lines at times, and a key in the file may.
 std::string oneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -21,7 +21,7 @@ std::string oneLine(std::string text) {
 }  // namespace
 
 void Loader::fail(const Place& place, const std::string& key, const std::string& what) {
-  throw ConfigurationError(place.file + ":" + std::to_string(place.line) + ": " + key + ": " + oneLine(what));
+  throw ConfigurationError(place.file + ":" + std::to_string(place.line) + ": " + oneLine(key + ": " + what));
 }
 
 Loader::Place Loader::placeOf(const YAML::Node& node) const {

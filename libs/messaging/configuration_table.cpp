@@ -132,6 +132,7 @@ Settings backgroundSettings() {
       setting("segmentation.use_front_plane", MEMBER(segmentation.use_front_plane), anything),
       setting("segmentation.baseline_s", MEMBER(segmentation.baseline_s), positive),
       setting("segmentation.work_downscale", MEMBER(segmentation.work_downscale), halving),
+      setting("segmentation.use_short_baseline", MEMBER(segmentation.use_short_baseline), anything),
       setting("segmentation.use_epipolar", MEMBER(segmentation.use_epipolar), anything),
       setting("segmentation.parallax_noise_px", MEMBER(segmentation.parallax_noise_px), positive),
       setting("segmentation.direction_error", MEMBER(segmentation.direction_error), notNegative),

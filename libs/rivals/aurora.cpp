@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kSmoothPx = 3;
 constexpr float kDeviations = 0.1F;
-constexpr int kAveragePx = 15;
 
 }  // namespace
 
@@ -71,7 +70,7 @@ RivalOutput Aurora::judge(const RivalInput& input) {
   const bool first = !registrar_.hasPrevious();
   const auto registration = registrar_.advance(input.grey);
   if (first) {
-    density_.emplace(input.grey.size(), RecursiveDensity::Parameters{});
+    density_.emplace(input.grey.size(), parameters_.density);
   } else if (!registration) {
     output.status = RivalStatus::kLost;
     return output;
@@ -83,7 +82,7 @@ RivalOutput Aurora::judge(const RivalInput& input) {
   cv::Mat smooth;
   cv::GaussianBlur(input.colour, smooth, {kSmoothPx, kSmoothPx}, 0);
   cv::Mat below = density_->update(smooth);
-  cv::blur(below, below, {kAveragePx, kAveragePx});
+  cv::blur(below, below, {parameters_.average_px, parameters_.average_px});
   output.score = gradedScore(below, kDeviations);
   return output;
 }

@@ -10,7 +10,8 @@
 // deviation, since a deviation is held up from below (tuned), graded by (mean - D_k) / deviation. Their
 // grouping of the foreground pixels is an average over a box here (tuned, EXPERIMENTS.md). Mean and deviation
 // of D begin when a pixel is first judged: the first densities are all 1. Pictures are smoothed first, or
-// what the carrying blurs would be foreground wherever there is fine texture.
+// what the carrying blurs would be foreground wherever there is fine texture. `aurora-davis` has what was
+// best on DAVIS' clips alone: it forgets sooner.
 #pragma once
 
 #include "rivals/registration.hpp"
@@ -44,14 +45,21 @@ class RecursiveDensity {
   cv::Mat density_;
 };
 
+struct AuroraParameters {
+  RecursiveDensity::Parameters density;
+  int average_px = 15;  ///< side of the box
+};
+
 class Aurora : public Rival {
  public:
+  explicit Aurora(const AuroraParameters& parameters = {}) : parameters_(parameters) {}
   bool wantsColour() const override { return true; }
 
  private:
   void reset() override;
   RivalOutput judge(const RivalInput& input) override;
 
+  AuroraParameters parameters_;
   Registrar registrar_;
   std::optional<RecursiveDensity> density_;
 };

@@ -9,13 +9,12 @@ namespace redbee {
 namespace {
 
 constexpr int kSmoothPx = 5;
-constexpr int kAveragePx = 15;
-constexpr size_t kBackFrames = 2;
 constexpr float kThreshold = 20;  // grey levels
 
 }  // namespace
 
-Difference::Difference() : history_(kBackFrames) {}
+Difference::Difference(const DifferenceParameters& parameters)
+    : parameters_(parameters), history_(parameters.back_frames) {}
 
 void Difference::reset() {
   registrar_.reset();
@@ -36,7 +35,7 @@ RivalOutput Difference::judge(const RivalInput& input) {
     cv::absdiff(smooth, stabilise(history_.oldest(), history_.oldestToNewest()), difference);
     difference.setTo(0, unseenBy(history_.oldestToNewest(), smooth.size()));
     difference.convertTo(difference, CV_32F);
-    cv::blur(difference, difference, {kAveragePx, kAveragePx});
+    cv::blur(difference, difference, {parameters_.average_px, parameters_.average_px});
     output.score = gradedScore(difference, kThreshold);
   } else if (!first) {
     output.status = RivalStatus::kLost;

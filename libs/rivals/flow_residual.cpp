@@ -6,13 +6,6 @@
 #include "rivals/graded_score.hpp"
 
 namespace redbee {
-namespace {
-
-constexpr float kThreshold = 3.25F;  // px
-constexpr int kAveragePx = 15;
-constexpr size_t kBackFrames = 2;
-
-}  // namespace
 
 cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
   const cv::Matx33d back = H.inv();
@@ -32,8 +25,10 @@ cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
   return remains;
 }
 
-FlowResidual::FlowResidual()
-    : flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)), history_(kBackFrames) {}
+FlowResidual::FlowResidual(const FlowResidualParameters& parameters)
+    : parameters_(parameters),
+      flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)),
+      history_(parameters.back_frames) {}
 
 void FlowResidual::reset() {
   registrar_.reset();
@@ -51,8 +46,8 @@ RivalOutput FlowResidual::judge(const RivalInput& input) {
     cv::Mat flow;
     flow_->calc(input.grey, history_.oldest(), flow);
     cv::Mat remains = flowAgainst(flow, history_.oldestToNewest());
-    cv::blur(remains, remains, {kAveragePx, kAveragePx});
-    output.score = gradedScore(remains, kThreshold);
+    cv::blur(remains, remains, {parameters_.average_px, parameters_.average_px});
+    output.score = gradedScore(remains, parameters_.threshold_px);
   } else if (!first) {
     output.status = RivalStatus::kLost;
   }

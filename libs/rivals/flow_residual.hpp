@@ -4,7 +4,7 @@
 // picture's grid is not used: it is computed from the current picture back to the previous one, so that the
 // score lies on the current picture. What remains is
 // averaged over a box. Score: kDecisionScore at 3.25 px. Box, threshold and how many frames back the flow
-// reaches (two) are tuned (EXPERIMENTS.md).
+// reaches (two) are tuned (EXPERIMENTS.md). `flow-residual-davis` has what was best on DAVIS' clips alone.
 #pragma once
 
 #include <opencv2/video/tracking.hpp>
@@ -15,14 +15,21 @@
 
 namespace redbee {
 
+struct FlowResidualParameters {
+  size_t back_frames = 2;
+  int average_px = 15;         ///< side of the box
+  float threshold_px = 3.25F;  ///< where kDecisionScore lies
+};
+
 class FlowResidual : public Rival {
  public:
-  FlowResidual();
+  explicit FlowResidual(const FlowResidualParameters& parameters = {});
 
  private:
   void reset() override;
   RivalOutput judge(const RivalInput& input) override;
 
+  FlowResidualParameters parameters_;
   Registrar registrar_;
   cv::Ptr<cv::DISOpticalFlow> flow_;
   PictureHistory history_;

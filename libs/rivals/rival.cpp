@@ -21,12 +21,33 @@ std::unique_ptr<Rival> make() {
   return std::make_unique<Kind>();
 }
 
+template <typename Kind, typename Parameters>
+std::unique_ptr<Rival> makeWith(const Parameters& parameters) {
+  return std::make_unique<Kind>(parameters);
+}
+
+/// Forgets sooner.
+AuroraParameters auroraOnDavis() {
+  AuroraParameters parameters;
+  parameters.density.longest = 6;
+  return parameters;
+}
+
 const std::map<std::string, Factory>& factories() {
   static const std::map<std::string, Factory> all{
       {"aurora", make<Aurora>},
+      {"aurora-davis", [] { return makeWith<Aurora>(auroraOnDavis()); }},
       {"datmo", make<Datmo>},
       {"difference", make<Difference>},
+      {"difference-davis",
+       [] {
+         return makeWith<Difference>(DifferenceParameters{1, 35});
+       }},
       {"flow-residual", make<FlowResidual>},
+      {"flow-residual-davis",
+       [] {
+         return makeWith<FlowResidual>(FlowResidualParameters{1, 35, 11.5F});
+       }},
       {"homography-mog2", make<HomographyMog2>},
       {"lrr", makeLrr},
       {"mcd", make<Mcd>},

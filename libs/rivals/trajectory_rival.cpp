@@ -2,7 +2,10 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <limits>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <utility>
 
 #include "rivals/graded_score.hpp"
 #include "rivals/lrr.hpp"
@@ -14,49 +17,34 @@ namespace redbee {
 namespace {
 
 constexpr float kDistanceUnitPx = 1;
-constexpr int kRvMotions = 5;
-constexpr int kLrrMotions = 3;
-constexpr int kSscMotions = 5;
-constexpr double kSameMotionPx = 1;
-constexpr double kSpreadShare = 0.5;
-// Of the tracks' spacing: tracks are lost, and where they were must not go without a score.
-constexpr double kReach = 2;
+constexpr float kTrackingErrorPx = 0.6F;
+constexpr int kMotions = 5;
+constexpr TrajectoryRivalParameters kRvParameters{16, 0.15};
+constexpr TrajectoryRivalParameters kLrrParameters{24, 0.2};
+constexpr TrajectoryRivalParameters kSscParameters{24, 0.1};
+constexpr double kReachPx = 16;  // tracks are lost, and where they were must not go without a score
+constexpr int kAveragePx = 25;
+constexpr float kDecisionShare = 0.38F;
+constexpr double kRegisteredPx = 1;  // tracks this close to the background's motions register the picture
 constexpr Eigen::Index kAffineRank = 3;
 
-/// Standard deviations of x and of y over the points of the last frame that carry this label; any for -1.
-Eigen::Vector2d spread(const Eigen::MatrixXd& X, const std::vector<int>& labels, int label) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
-  int count = 0;
-  for (Eigen::Index i = 0; i < X.cols(); ++i) {
-    if (label >= 0 && labels[static_cast<size_t>(i)] != label) continue;
-    const Eigen::Vector2d point = X.col(i).tail<2>();
-    sum += point;
-    squares += point.cwiseAbs2();
-    ++count;
-  }
-  if (count == 0) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d mean = sum / count;
-  return (squares / count - mean.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
-}
-
-cv::Mat fillFromNearest(cv::Size picture, const std::vector<cv::Point2f>& points,
-                        const std::vector<uint8_t>& scores, double reach_px) {
+cv::Mat fillFromNearest(cv::Size picture, const Eigen::MatrixXd& X, const std::vector<uint8_t>& scores) {
   cv::Mat empty(picture, CV_8U, cv::Scalar(255));
-  const auto pixelOf = [&](const cv::Point2f& p) {
-    return cv::Point(std::clamp(cvRound(p.x), 0, picture.width - 1),
-                     std::clamp(cvRound(p.y), 0, picture.height - 1));
+  const auto pixelOf = [&](Eigen::Index i) {
+    const Eigen::Vector2d p = X.col(i).tail<2>();
+    return cv::Point(std::clamp(cvRound(p.x()), 0, picture.width - 1),
+                     std::clamp(cvRound(p.y()), 0, picture.height - 1));
   };
-  for (const cv::Point2f& point : points) empty.at<uint8_t>(pixelOf(point)) = 0;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) empty.at<uint8_t>(pixelOf(i)) = 0;
   cv::Mat distance, cell;
   cv::distanceTransform(empty, distance, cell, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
-  std::vector<uint8_t> score_of_cell(points.size() + 1, 0);
-  for (size_t i = 0; i < points.size(); ++i)
-    score_of_cell[static_cast<size_t>(cell.at<int>(pixelOf(points[i])))] = scores[i];
+  std::vector<uint8_t> score_of_cell(scores.size() + 1, 0);
+  for (Eigen::Index i = 0; i < X.cols(); ++i)
+    score_of_cell[static_cast<size_t>(cell.at<int>(pixelOf(i)))] = scores[static_cast<size_t>(i)];
   cv::Mat map = cv::Mat::zeros(picture, CV_8U);
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.cols; ++x) {
-      if (distance.at<float>(y, x) <= reach_px)
+      if (distance.at<float>(y, x) <= kReachPx)
         map.at<uint8_t>(y, x) = score_of_cell[static_cast<size_t>(cell.at<int>(y, x))];
     }
   }
@@ -74,10 +62,10 @@ Eigen::MatrixXd scaled(const Eigen::MatrixXd& X) {
   return Y / std::max(Y.cwiseAbs().maxCoeff(), 1.0);
 }
 
-GridTracks lastStep(const Eigen::MatrixXd& X, const std::vector<bool>& of) {
+GridTracks lastStepOfBackground(const Eigen::MatrixXd& X, const Eigen::VectorXd& distance) {
   GridTracks tracks;
   for (Eigen::Index i = 0; i < X.cols(); ++i) {
-    if (!of[static_cast<size_t>(i)]) continue;
+    if (distance(i) > kRegisteredPx) continue;
     const Eigen::Vector4f last = X.col(i).tail<4>().cast<float>();
     tracks.previous.emplace_back(last(0), last(1));
     tracks.current.emplace_back(last(2), last(3));
@@ -88,42 +76,25 @@ GridTracks lastStep(const Eigen::MatrixXd& X, const std::vector<bool>& of) {
 
 }  // namespace
 
-int backgroundLabel(const Eigen::MatrixXd& X, const std::vector<int>& labels, int count) {
-  const Eigen::Vector2d whole = spread(X, labels, -1);
-  int best = 0;
-  std::pair<bool, long> best_rank{false, -1};
+std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_share) {
+  std::vector<long> members;
+  for (int label = 0; label < count; ++label)
+    members.push_back(std::count(labels.begin(), labels.end(), label));
+  const long largest = *std::max_element(members.begin(), members.end());
+  const double enough =
+      std::min(least_share * static_cast<double>(labels.size()), static_cast<double>(largest));
+  std::vector<int> background;
   for (int label = 0; label < count; ++label) {
-    const bool wide = (spread(X, labels, label).array() >= kSpreadShare * whole.array()).all();
-    const std::pair<bool, long> rank{wide, std::count(labels.begin(), labels.end(), label)};
-    if (rank <= best_rank) continue;
-    best = label;
-    best_rank = rank;
+    if (static_cast<double>(members[static_cast<size_t>(label)]) >= enough) background.push_back(label);
   }
-  return best;
+  return background;
 }
 
-std::vector<bool> backgroundTracks(const Eigen::MatrixXd& X, const std::vector<int>& labels, int count) {
-  const int background = backgroundLabel(X, labels, count);
-  std::vector<bool> still;
-  for (const int label : labels) still.push_back(label == background);
-  const Eigen::VectorXd distance = distanceFromAffineMotion(X, still);
-  for (int label = 0; label < count; ++label) {
-    std::vector<double> own;
-    for (size_t i = 0; i < labels.size(); ++i) {
-      if (labels[i] == label) own.push_back(distance(static_cast<Eigen::Index>(i)));
-    }
-    if (own.empty() || label == background) continue;
-    const auto middle = own.begin() + static_cast<std::ptrdiff_t>(own.size() / 2);
-    std::nth_element(own.begin(), middle, own.end());
-    for (size_t i = 0; i < labels.size(); ++i)
-      still[i] = still[i] || (labels[i] == label && *middle < kSameMotionPx);
-  }
-  return still;
-}
-
-Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& X, const std::vector<bool>& of) {
+Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& tracks, const Eigen::MatrixXd& X,
+                                         const std::vector<bool>& of) {
   const auto members = std::count(of.begin(), of.end(), true);
-  if (members <= kAffineRank) return Eigen::VectorXd::Zero(X.cols());
+  if (members <= kAffineRank)
+    return Eigen::VectorXd::Constant(tracks.cols(), std::numeric_limits<double>::infinity());
   Eigen::MatrixXd own(X.rows(), members);
   Eigen::Index column = 0;
   for (Eigen::Index i = 0; i < X.cols(); ++i) {
@@ -133,14 +104,34 @@ Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& X, const std::ve
   own.colwise() -= mean;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(own * own.transpose(), Eigen::ComputeThinU);
   const Eigen::MatrixXd basis = svd.matrixU().leftCols(kAffineRank);
-  const Eigen::MatrixXd centred = X.colwise() - mean;
+  const Eigen::MatrixXd centred = tracks.colwise() - mean;
   const Eigen::MatrixXd off = centred - basis * (basis.transpose() * centred);
   return (off.colwise().squaredNorm().transpose() * 2.0 / static_cast<double>(X.rows())).cwiseSqrt();
 }
 
-TrajectoryRival::TrajectoryRival(TrajectoryClustering clustering, int motions,
-                                 const TrajectoryWindowParameters& parameters)
-    : clustering_(std::move(clustering)), motions_(motions), window_(parameters) {}
+Eigen::VectorXd distanceFromBackground(const Eigen::MatrixXd& tracks, const Eigen::MatrixXd& X,
+                                       const std::vector<int>& labels, const std::vector<int>& background) {
+  Eigen::VectorXd least = Eigen::VectorXd::Constant(tracks.cols(), std::numeric_limits<double>::infinity());
+  for (const int still : background) {
+    std::vector<bool> of;
+    for (const int label : labels) of.push_back(label == still);
+    least = least.cwiseMin(distanceFromAffineMotion(tracks, X, of));
+  }
+  return least;
+}
+
+Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, int cell_px) {
+  std::set<std::pair<int, int>> taken;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) {
+    const Eigen::Vector2d end = X.col(i).tail<2>() / cell_px;
+    if (taken.emplace(cvFloor(end.x()), cvFloor(end.y())).second) kept.push_back(i);
+  }
+  return X(Eigen::all, kept);
+}
+
+TrajectoryRival::TrajectoryRival(TrajectoryClustering clustering, const TrajectoryRivalParameters& parameters)
+    : clustering_(std::move(clustering)), parameters_(parameters), window_(TrajectoryWindowParameters{}) {}
 
 RivalOutput TrajectoryRival::judge(const RivalInput& input) {
   RivalOutput output;
@@ -148,21 +139,20 @@ RivalOutput TrajectoryRival::judge(const RivalInput& input) {
     output.status = RivalStatus::kLost;
     return output;
   }
-  const Eigen::MatrixXd X = window_.trajectories();
-  if (X.cols() < 4 * motions_) return output;
-  const std::vector<int> labels = clustering_(X, motions_);
-  const std::vector<bool> still = backgroundTracks(X, labels, motions_);
-  const Eigen::VectorXd distance = distanceFromAffineMotion(X, still);
-  std::vector<cv::Point2f> points;
+  const Eigen::MatrixXd tracks = window_.trajectories();
+  if (tracks.cols() == 0) return output;
+  const Eigen::MatrixXd X = thinned(tracks, parameters_.clustered_px);
+  if (X.cols() < 4 * kMotions) return output;
+  const std::vector<int> labels = clustering_(X, kMotions);
+  const Eigen::VectorXd distance = distanceFromBackground(
+      tracks, X, labels, backgroundLabels(labels, kMotions, parameters_.background_share));
   std::vector<uint8_t> scores;
-  for (Eigen::Index i = 0; i < X.cols(); ++i) {
-    const uint8_t half = gradedScore(static_cast<float>(distance(i)) / kDistanceUnitPx) / 2;
-    points.emplace_back(static_cast<float>(X(X.rows() - 2, i)), static_cast<float>(X(X.rows() - 1, i)));
-    scores.push_back(static_cast<uint8_t>(still[static_cast<size_t>(i)] ? half : kDecisionScore + half));
-  }
+  for (const double px : distance)
+    scores.push_back(gradedScore((static_cast<float>(px) - kTrackingErrorPx) / kDistanceUnitPx));
   output.status = RivalStatus::kGood;
-  output.score = fillFromNearest(input.grey.size(), points, scores, kReach * window_.parameters().grid_px);
-  output.background = registerTracks(lastStep(X, still)).value_or(cv::Matx33d::eye());
+  output.score =
+      averagedScore(fillFromNearest(input.grey.size(), tracks, scores), kAveragePx, kDecisionShare);
+  output.background = registerTracks(lastStepOfBackground(tracks, distance)).value_or(cv::Matx33d::eye());
   return output;
 }
 
@@ -170,20 +160,17 @@ std::unique_ptr<Rival> makeRandomizedVoting() {
   const auto clustering = [](const Eigen::MatrixXd& X, int count) {
     return randomizedVotingClusters(X, count);
   };
-  return std::make_unique<TrajectoryRival>(clustering, kRvMotions, TrajectoryWindowParameters{});
+  return std::make_unique<TrajectoryRival>(clustering, kRvParameters);
 }
 
 std::unique_ptr<Rival> makeLrr() {
   const auto clustering = [](const Eigen::MatrixXd& X, int count) { return lrrClusters(scaled(X), count); };
-  return std::make_unique<TrajectoryRival>(clustering, kLrrMotions, TrajectoryWindowParameters{});
+  return std::make_unique<TrajectoryRival>(clustering, kLrrParameters);
 }
 
 std::unique_ptr<Rival> makeSsc() {
   const auto clustering = [](const Eigen::MatrixXd& X, int count) { return sscClusters(scaled(X), count); };
-  // Its N x N iterations allow for fewer tracks than the others'.
-  TrajectoryWindowParameters parameters;
-  parameters.grid_px = 24;
-  return std::make_unique<TrajectoryRival>(clustering, kSscMotions, parameters);
+  return std::make_unique<TrajectoryRival>(clustering, kSscParameters);
 }
 
 }  // namespace redbee

@@ -1,19 +1,21 @@
 // Table I of the paper: motion segmentation by clustering point trajectories, made a detector.
 //
-// Tracks over a sliding window (trajectory_window.hpp) are clustered afresh in every frame by randomised
-// voting (randomized_voting.hpp), low-rank representation (lrr.hpp) or sparse subspace clustering (ssc.hpp).
-// The background is the largest cluster among those that are spread over the picture; every other track is
-// foreground. Each pixel takes the score of the nearest track within twice the tracks' spacing (a Voronoi
-// fill). Score: tracks of the background lie below kDecisionScore, all others above; within either side by
-// how badly the background's affine motion (a subspace of three dimensions and a mean; Tomasi and Kanade
-// 1992) explains the trajectory, half the range at 1 px.
+// Tracks over a sliding window (trajectory_window.hpp), thinned to a coarse grid, are clustered afresh in
+// every frame by randomised voting (randomized_voting.hpp), low-rank representation (lrr.hpp) or sparse
+// subspace clustering (ssc.hpp). The background is every cluster that has its share of the tracks, since
+// a ground seen from near to far, facades and trees come apart in several. Each has an affine motion (a
+// subspace of three dimensions and a mean; Tomasi and Kanade 1992). All tracks, those of the fine grid as
+// well, are judged by how badly the best of these motions explains them: half the range at 1 px, less what
+// tracking errs by. Each pixel takes the score of the nearest track within kReachPx (a Voronoi fill), then
+// the mean over a box, with kDecisionScore where the mean F1 of the development clips is best.
 //
-// The methods are told the number of motions, which nobody knows here: each gets a few more than one expects,
-// and clusters that the background's motion explains as well are joined to it (backgroundTracks()). They are
-// batch methods: none says how to run it on a stream, how to tell the background, or how to fill a mask.
+// The methods are told the number of motions, which nobody knows here. They are batch methods: none says how
+// to run it on a stream, how to tell the background, or how to fill a mask; all of that was tuned
+// (EXPERIMENTS.md).
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "rivals/rival.hpp"
 #include "rivals/trajectory_window.hpp"
@@ -23,29 +25,38 @@ namespace redbee {
 /// Labels 0 .. count - 1 of the columns of 2F x N trajectories.
 using TrajectoryClustering = std::function<std::vector<int>(const Eigen::MatrixXd& X, int count)>;
 
-/// Label of the largest cluster whose points spread over the picture like the points as a whole (half their
-/// standard deviation both ways); the largest of all where none does. `X`: 2F x N.
-int backgroundLabel(const Eigen::MatrixXd& X, const std::vector<int>& labels, int count);
+/// Labels of the clusters with at least this share of all tracks; the largest one's where none has. Labels
+/// lie from 0 to `count` - 1.
+std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_share);
 
-/// Which trajectories are the background's: those with its label, and those of every cluster whose median
-/// distance from its affine motion is below 1 px. Told a number of motions, the methods split the background
-/// where fewer move.
-std::vector<bool> backgroundTracks(const Eigen::MatrixXd& X, const std::vector<int>& labels, int count);
+/// Root mean square distance [px] of each of `tracks` from the affine motion of those columns of `X` that
+/// have `of[i]` true; infinite where they are too few to have one.
+Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& tracks, const Eigen::MatrixXd& X,
+                                         const std::vector<bool>& of);
 
-/// Root mean square distance [px] of each trajectory from the affine motion of those with `of[i]` true.
-Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& X, const std::vector<bool>& of);
+/// The least distance [px] of each of `tracks` from the affine motions of the columns of `X` that have one of
+/// the labels `background`.
+Eigen::VectorXd distanceFromBackground(const Eigen::MatrixXd& tracks, const Eigen::MatrixXd& X,
+                                       const std::vector<int>& labels, const std::vector<int>& background);
+
+/// The columns of which at most one ends in each cell of this side [px].
+Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, int cell_px);
+
+struct TrajectoryRivalParameters {
+  int clustered_px = 24;           ///< px between the tracks that are clustered
+  double background_share = 0.15;  ///< of these: what a cluster needs to be the background's
+};
 
 class TrajectoryRival : public Rival {
  public:
-  /// `motions`: what the clustering is told.
-  TrajectoryRival(TrajectoryClustering clustering, int motions, const TrajectoryWindowParameters& parameters);
+  TrajectoryRival(TrajectoryClustering clustering, const TrajectoryRivalParameters& parameters);
 
  private:
   void reset() override { window_.reset(); }
   RivalOutput judge(const RivalInput& input) override;
 
   TrajectoryClustering clustering_;
-  int motions_;
+  TrajectoryRivalParameters parameters_;
   TrajectoryWindow window_;
 };
 

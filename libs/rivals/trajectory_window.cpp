@@ -8,9 +8,9 @@ namespace {
 
 GridFlowParameters flowParameters() {
   GridFlowParameters parameters;
-  parameters.window_px = 13;
-  parameters.min_eigenvalue = 1e-3;
-  parameters.max_there_and_back_px = 0.5;
+  parameters.window_px = 11;
+  parameters.min_eigenvalue = 1e-4;
+  parameters.max_there_and_back_px = 1;
   return parameters;
 }
 
@@ -22,13 +22,18 @@ TrajectoryWindow::TrajectoryWindow(const TrajectoryWindowParameters& parameters)
 void TrajectoryWindow::reset() {
   flow_.reset();
   tracks_.clear();
+  filled_ = 0;
 }
 
 bool TrajectoryWindow::advance(const cv::Mat& grey) {
   const size_t before = tracks_.size();
   const size_t followed = follow(grey);
   const bool good = before == 0 || 10 * followed >= before;
-  if (!good) tracks_.clear();
+  if (!good) {
+    tracks_.clear();
+    filled_ = 0;
+  }
+  filled_ = std::min(filled_ + 1, static_cast<size_t>(parameters_.frames));
   thinAndSeed(grey.size());
   return good;
 }
@@ -72,10 +77,11 @@ void TrajectoryWindow::thinAndSeed(const cv::Size& picture) {
 }
 
 Eigen::MatrixXd TrajectoryWindow::trajectories() const {
-  const auto frames = static_cast<size_t>(parameters_.frames);
-  const auto whole = [&](const Track& track) { return track.size() == frames; };
+  const auto least = static_cast<size_t>(parameters_.least_frames);
+  const size_t frames = filled_;
+  const auto whole = [&](const Track& track) { return frames >= least && track.size() == frames; };
   const auto count = std::count_if(tracks_.begin(), tracks_.end(), whole);
-  Eigen::MatrixXd X(2 * parameters_.frames, count);
+  Eigen::MatrixXd X(static_cast<Eigen::Index>(2 * frames), count);
   Eigen::Index column = 0;
   for (const Track& track : tracks_) {
     if (!whole(track)) continue;

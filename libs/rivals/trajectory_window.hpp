@@ -11,8 +11,9 @@
 namespace redbee {
 
 struct TrajectoryWindowParameters {
-  int grid_px = 16;  ///< px: one track to a cell of this side, re-seeded where there is none
-  int frames = 6;    ///< of the window
+  int grid_px = 8;       ///< px: one track to a cell of this side, re-seeded where there is none
+  int frames = 6;        ///< of the window
+  int least_frames = 3;  ///< of the window while it fills
 };
 
 class TrajectoryWindow {
@@ -25,7 +26,7 @@ class TrajectoryWindow {
   bool advance(const cv::Mat& grey);
 
   /// 2F x N, px: x and y of frame f in rows 2f and 2f + 1, a column for every track that spans the whole
-  /// window. No columns while the window fills.
+  /// window. While the window fills it is as long as it can be; no columns before it has its least length.
   Eigen::MatrixXd trajectories() const;
   const TrajectoryWindowParameters& parameters() const { return parameters_; }
 
@@ -38,6 +39,7 @@ class TrajectoryWindow {
   TrajectoryWindowParameters parameters_;
   GridFlow flow_;
   std::vector<Track> tracks_;
+  size_t filled_ = 0;  ///< frames since it began, at most those of the window
 };
 
 }  // namespace redbee

@@ -39,6 +39,7 @@ ParallaxEvidence::ParallaxEvidence(const SegmentationParameters& parameters)
 void ParallaxEvidence::reset() {
   frames_.reset();
   travelling_.reset();
+  fast_ = false;
   unseen_.release();
   speed_.release();
 }
@@ -56,7 +57,7 @@ cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen:
   cv::Mat small;
   cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::Mat found;
-  const EarlierFrame* frame = frames_.aged(utime, parameters_.baseline_s);
+  const EarlierFrame* frame = frames_.aged(utime, fast_ ? 0 : parameters_.baseline_s);
   const EarlierFrame* newest = frames_.newest();
   if (frame != nullptr && newest != nullptr) {
     const double frames =
@@ -79,6 +80,7 @@ cv::Mat ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat& gre
   const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
                                              : ParallaxSegment(frame.motion, K, parameters_);
   FrameEvidence now = judgeFlow(segment, grey, flow, frames);
+  fast_ = parameters_.use_short_baseline && holdsFastMovers(flow, now.off, frames);
   now.off.setTo(cv::Scalar::all(0), unseen_);
   travelling_.update(now, last_step_, unseen_);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
@@ -86,6 +88,26 @@ cv::Mat ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat& gre
   motion = cv::min(cv::max(motion, 0), 1);
   if (!frame.motion && parameters_.border_stretch > 0) muteBorderStructure(motion);
   return motion;
+}
+
+bool ParallaxEvidence::holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, double frames) const {
+  // Within two frames half a patch of the flow a frame makes a whole one: as wide are the halos that the
+  // flow then has where ground is covered and uncovered.
+  constexpr double kFastPx = 8;  // full-size px a frame
+  constexpr float kSureSigmas = 3;
+  constexpr int kStep = 8;
+  constexpr double kShare = 0.02;  // of the picture
+  const auto fast = static_cast<float>(kFastPx / scale_ * frames);
+  int seen = 0, fast_movers = 0;
+  for (int y = kStep / 2; y < flow.rows; y += kStep) {
+    for (int x = kStep / 2; x < flow.cols; x += kStep) {
+      if (unseen_.at<uint8_t>(y, x) != 0) continue;
+      ++seen;
+      const bool moves = cv::norm(off.at<cv::Vec2f>(y, x)) > kSureSigmas;
+      if (moves && cv::norm(flow.at<cv::Vec2f>(y, x)) > fast) ++fast_movers;
+    }
+  }
+  return fast_movers > kShare * seen;
 }
 
 void ParallaxEvidence::muteBorderStructure(cv::Mat& motion) const {

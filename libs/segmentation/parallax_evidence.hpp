@@ -45,6 +45,9 @@ class ParallaxEvidence {
   cv::Mat evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K, double frames);
   FrameEvidence judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey, const cv::Mat& flow,
                           double frames);
+  /// Whether much of the picture moves, and by so much that the frame before shows it better than an earlier
+  /// one. `off`: CV_32FC2, sigmas.
+  bool holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, double frames) const;
   void muteBorderStructure(cv::Mat& motion) const;
   cv::Mat flowVariance(const cv::Mat& grey) const;
 
@@ -55,6 +58,7 @@ class ParallaxEvidence {
   EarlierFrames frames_;
   TravellingEvidence travelling_;
   Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< in the work's pixels
+  bool fast_ = false;                                        ///< the last frame held fast movers
   cv::Mat unseen_;
   cv::Mat speed_;
 };

@@ -25,7 +25,8 @@ struct SegmentationParameters {
   // rotation's) motion has been taken out, times how unlike the background a pixel looks.
   int work_downscale = 2;     ///< 1, 2 or 4: all of it on a picture this much smaller
   double baseline_s = 0.083;  ///< s: how much earlier; longer shows slower movers and asks more of the flow
-  bool use_epipolar = true;   ///< false: any flow against the ground homography is foreground
+  bool use_short_baseline = true;  ///< false: as long where large things move fast
+  bool use_epipolar = true;        ///< false: any flow against the ground homography is foreground
   double parallax_noise_px = 0.5;  ///< px, one sigma of the flow over good texture, at the full-size picture
   double min_gradient = 1.6;      ///< grey levels a px, of a picture four times smaller: texture at which the
                                   ///< flow's variance doubles

@@ -7,13 +7,9 @@
 #include "flight/input_error.hpp"
 #include "flight/log.hpp"
 #include "flight/progress.hpp"
-#include "processes/homography_fusion/node.hpp"
-#include "processes/imu_integration/node.hpp"
-#include "processes/motion_segmentation/node.hpp"
 #include "processes/redbee/collector.hpp"
 #include "processes/redbee/process_usage.hpp"
 #include "processes/redbee/rival_node.hpp"
-#include "processes/visual_homography/node.hpp"
 
 namespace redbee {
 namespace {
@@ -45,10 +41,6 @@ bool isRival(const std::string& method) {
   return std::find(rivals.begin(), rivals.end(), method) != rivals.end();
 }
 
-InProcessStack makeStack(Bus& bus, const Configuration& configuration, const std::string& method) {
-  return isRival(method) ? InProcessStack(bus, configuration, method) : InProcessStack(bus, configuration);
-}
-
 Configuration configurationFor(const DetectOptions& options) {
   Configuration configuration = loadConfiguration(options.configuration);
   const std::vector<std::string> known = methodNames();
@@ -70,47 +62,13 @@ bool isInput(const Channels& channels, const std::string& channel) {
 
 }  // namespace
 
-InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration)
-    : bus_(bus), health_channel_(configuration.channels.health) {
-  if (configuration.has_imu) nodes_.push_back(std::make_unique<ImuIntegrationNode>(bus, configuration));
-  nodes_.push_back(std::make_unique<VisualHomographyNode>(bus, configuration));
-  nodes_.push_back(std::make_unique<HomographyFusionNode>(bus, configuration));
-  nodes_.push_back(std::make_unique<MotionSegmentationNode>(bus, configuration));
-}
-
-InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration, const std::string& rival)
-    : bus_(bus), health_channel_(configuration.channels.health) {
-  if (configuration.has_imu && makeRival(rival)->wantsMotion()) {
-    nodes_.push_back(std::make_unique<ImuIntegrationNode>(bus, configuration));
-    nodes_.push_back(std::make_unique<VisualHomographyNode>(bus, configuration));
-    nodes_.push_back(std::make_unique<HomographyFusionNode>(bus, configuration));
-  }
-  nodes_.push_back(std::make_unique<RivalNode>(bus, configuration, rival));
-}
-
-void InProcessStack::settle() {
-  do {
-    for (const auto& node : nodes_) node->process();
-  } while (bus_.handle(std::chrono::milliseconds(0)) > 0);
-}
-
-void InProcessStack::finish() {
-  settle();
-  for (const auto& node : nodes_) {
-    node->finish();
-    settle();
-  }
-}
-
-void InProcessStack::publishHealth() {
-  for (const auto& node : nodes_) bus_.publish(health_channel_, node->health().nextMessage());
-  settle();
-}
-
-std::map<std::string, CpuShare> InProcessStack::cpu() const {
-  std::map<std::string, CpuShare> stages;
-  for (const auto& node : nodes_) stages[node->health().process()] = node->health().cpu();
-  return stages;
+InProcessStack makeStack(Bus& bus, const Configuration& configuration, const std::string& method) {
+  if (!isRival(method)) return {bus, configuration};
+  Nodes nodes;
+  // Vision and fusion come with it, since they keep the inertial filter right.
+  if (configuration.has_imu && makeRival(method)->wantsMotion()) nodes = motionNodes(bus, configuration);
+  nodes.push_back(std::make_unique<RivalNode>(bus, configuration, method));
+  return {bus, configuration.channels.health, std::move(nodes)};
 }
 
 std::vector<std::string> methodNames() {

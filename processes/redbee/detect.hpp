@@ -3,38 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "messaging/bus.hpp"
-#include "messaging/configuration.hpp"
-#include "messaging/node.hpp"
+#include "processes/in_process_stack.hpp"
 
 namespace redbee {
-
-/// All four nodes on one bus, worked until nothing moves any more; or a rival and what it needs.
-class InProcessStack {
- public:
-  InProcessStack(Bus& bus, const Configuration& configuration);
-  /// `rival`: one of rivalNames(). One that wants the camera's motion gets all nodes but the segmentation
-  /// where there is an IMU, since vision and fusion keep the inertial filter right.
-  InProcessStack(Bus& bus, const Configuration& configuration, const std::string& rival);
-  /// Hands out what waits on the bus and lets the nodes work, until there is nothing left to do.
-  void settle();
-  /// No message will come any more.
-  void finish();
-  /// Each node tells its health once.
-  void publishHealth();
-  /// Processor time of each node, by its name.
-  std::map<std::string, CpuShare> cpu() const;
-
- private:
-  Bus& bus_;
-  std::string health_channel_;
-  std::vector<std::unique_ptr<Node>> nodes_;
-};
 
 struct DetectOptions {
   std::filesystem::path log;
@@ -51,6 +25,9 @@ struct DetectOptions {
 std::vector<std::string> methodNames();
 /// The same in one line, to be read.
 std::string methodList();
+
+/// A rival and what it needs; the stack that flies for any other `method`.
+InProcessStack makeStack(Bus& bus, const Configuration& configuration, const std::string& method);
 
 /// Frames that got a mask. Throws InputError or ConfigurationError on bad input, one line each.
 int64_t runDetect(const DetectOptions& options);

@@ -43,8 +43,7 @@ void fly(benchmark::State& state, const Configuration& configuration, const std:
   int64_t frames = 0;
   for (auto _ : state) {
     const auto bus = makeLcmBus("memq://");
-    InProcessStack stack =
-        rival.empty() ? InProcessStack(*bus, configuration) : InProcessStack(*bus, configuration, rival);
+    InProcessStack stack = makeStack(*bus, configuration, rival);
     for (const LogEvent& event : flight()) {
       bus->publish(event.channel, event.data);
       stack.settle();

@@ -114,6 +114,8 @@ TEST_F(ImportVideoTest, BadImuFilesAreToldWithTheirLine) {
   EXPECT_NE(complaintFor(header + "0,1,2,3,4,5,inf\n").find("imu.csv:2: 'inf'"), std::string::npos);
   EXPECT_NE(complaintFor(header + "1,1,2,3,4,5,6\n0,1,2,3,4,5,6\n").find("imu.csv:3: time runs backwards"),
             std::string::npos);
+  EXPECT_NE(complaintFor(header + "1e30,1,2,3,4,5,6\n").find("imu.csv:2: '1e30' s is no time"),
+            std::string::npos);
 }
 
 TEST_F(ImportVideoTest, ATruncatedVideoNamesItsLastGoodFrame) {

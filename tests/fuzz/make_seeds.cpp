@@ -11,7 +11,7 @@
 #include "messaging/codec.hpp"
 #include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
-#include "processes/redbee/detect.hpp"
+#include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "fuzz_input.hpp"
-#include "processes/redbee/detect.hpp"
+#include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"

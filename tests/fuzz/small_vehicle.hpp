@@ -15,7 +15,7 @@ inline simulation::Scenario smallScenario() {
   scenario.intrinsics = {kWidth, kHeight, 25, 25, 15.5, 11.5, {}};
   scenario.imu.rate_hz = 100;
   scenario.altimeter.rate_hz = 20;
-  scenario.frames = 6;
+  scenario.frames = 4;
   return scenario;
 }
 
@@ -25,11 +25,15 @@ inline Configuration smallVehicle() {
   configuration.camera = scenario.intrinsics;
   configuration.inertial.extrinsics = scenario.extrinsics;
   configuration.inertial.noise = scenario.imu.noise;
-  configuration.visual.tracker.grid_px = 2;
+  // Few points and draws: every input flies a whole stack, and an instrumented tracker takes most of its
+  // time.
+  configuration.visual.tracker.grid_px = 8;
   configuration.visual.tracker.window_px = 5;
   configuration.visual.tracker.levels = 1;
   configuration.visual.ransac.min_inliers = 8;
+  configuration.visual.ransac.max_iterations = 20;
   configuration.front.ransac.min_inliers = 8;
+  configuration.front.ransac.max_iterations = 20;
   configuration.segmentation.learning_frames = 1;
   configuration.overlay_period_frames = 2;
   return configuration;

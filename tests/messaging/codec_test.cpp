@@ -60,7 +60,14 @@ class CodecTest : public ::testing::Test {
 using AllTypes = ::testing::Types<image_t, image_metadata_t, ins_t, altimeter_t, detection_t, detections_t,
                                   foreground_t, inertial_homography_t, inertial_state_t, visual_homography_t,
                                   fused_homography_t, process_health_t>;
-TYPED_TEST_SUITE(CodecTest, AllTypes);
+
+struct MessageName {
+  template <typename Message>
+  static std::string GetName(int) {
+    return Message::getTypeName();
+  }
+};
+TYPED_TEST_SUITE(CodecTest, AllTypes, MessageName);
 
 void overwrite(std::vector<uint8_t>& data, size_t at, int32_t value) {
   for (size_t i = 0; i < 4; ++i)

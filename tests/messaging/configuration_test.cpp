@@ -113,6 +113,7 @@ TEST_F(ConfigurationTest, faultsAreNamedWithFileLineAndKey) {
       {"include: nowhere.yaml\n", "2: include: ", "no file"},
       {"include: {a: b}\n", "2: include: ", "file name"},
       {"vehicle: [\n", "3: syntax: ", ""},
+      {"\"two\\nlines\": 1\n", "2: two lines: ", "unknown key"},
   };
   for (const auto& fault : faults) {
     const std::string said = complaint(kCamera + fault.text);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "messaging/picture.hpp"
-#include "processes/redbee/detect.hpp"
+#include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"

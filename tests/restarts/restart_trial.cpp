@@ -43,11 +43,12 @@ struct Kill {
 
 class Trial {
  public:
-  Trial(const std::string& url, int kills, unsigned seed)
+  Trial(const std::string& url, int kills, unsigned seed, double speed)
       : bus_(makeLcmBus(url)),
         witness_(*bus_, flight_),
-        player_(*bus_, flight_, 20 + kills * 6.0),
+        player_(*bus_, flight_, 20 + kills * 6.0, speed),
         kills_wanted_(kills),
+        speed_(speed),
         random_(seed) {}
 
   bool fly() {
@@ -76,13 +77,14 @@ class Trial {
     player_.publishDue();
     bus_->handle(std::chrono::milliseconds(2));
   }
+  /// Of flight time.
   void runFor(double seconds) {
-    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds / speed_);
     while (Clock::now() < end) step();
   }
   template <typename Done>
   bool runUntil(const Done& done) {
-    const auto end = Clock::now() + std::chrono::duration<double>(kLongestPause_s);
+    const auto end = Clock::now() + std::chrono::duration<double>(kLongestPause_s / speed_);
     while (!done() && Clock::now() < end && !player_.isOver()) step();
     return done();
   }
@@ -235,6 +237,7 @@ class Trial {
   Witness witness_;
   LivePlayer player_;
   int kills_wanted_;
+  double speed_;
   std::mt19937 random_;
   std::vector<std::string> turn_;
   std::vector<Kill> kills_;
@@ -249,14 +252,16 @@ int main(int argc, char** argv) {
   std::string configuration;
   int kills = 8;
   unsigned seed = 1;
+  double speed = 1;
   app.add_option("--lcm-url", url);
   app.add_option("--kills", kills);
   app.add_option("--seed", seed);
+  app.add_option("--speed", speed, "times the flight's own speed");
   app.add_option("--write-configuration", configuration, "write the vehicle's YAML file and end");
   CLI11_PARSE(app, argc, argv);
   if (!configuration.empty()) {
     redbee::writeAtomically(configuration, redbee::test::vehicleYaml());
     return 0;
   }
-  return redbee::test::Trial(url, kills, seed).fly() ? 0 : 1;
+  return redbee::test::Trial(url, kills, seed, speed).fly() ? 0 : 1;
 }

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <random>
 
 #include "geometry/so3.hpp"
@@ -124,36 +126,80 @@ TEST(SpectralClusters, TooFewPointsAreOneCluster) {
   EXPECT_EQ(spectralClusters(Eigen::MatrixXd::Ones(3, 3), 2), std::vector<int>(3, 0));
 }
 
-TEST(Background, IsTheLargestClusterAmongThoseSpreadOut) {
-  Eigen::MatrixXd X(4, 12);
-  std::vector<int> labels;
-  for (Eigen::Index i = 0; i < 12; ++i) {
-    const bool crowd = i >= 5;
-    X.col(i).tail<2>() =
-        crowd ? Eigen::Vector2d(200 + i, 100 + i % 3) : Eigen::Vector2d(150 * (i % 3), 200 * (i % 2));
-    labels.push_back(crowd ? 0 : 1);
-  }
-  EXPECT_EQ(backgroundLabel(X, labels, 2), 1) << "though the crowd in one place is larger";
+TEST(Background, IsWhatHasItsShareOfTheTracks) {
+  const std::vector<int> labels{0, 0, 0, 0, 0, 0, 1, 1, 1, 3};
+  EXPECT_EQ(backgroundLabels(labels, 4, 0.5), std::vector<int>{0});
+  EXPECT_EQ(backgroundLabels(labels, 4, 0.3), (std::vector<int>{0, 1}));
+  EXPECT_EQ(backgroundLabels(labels, 4, 0.05), (std::vector<int>{0, 1, 3})) << "2 has no tracks";
+  EXPECT_EQ(backgroundLabels(labels, 4, 0.9), std::vector<int>{0}) << "the largest at least";
 }
 
-TEST(Background, TakesBackWhatWasSplitOff) {
+/// A ground that comes apart: each half explains its own tracks alone.
+TEST(Background, MayMoveInSeveralWays) {
   const Eigen::MatrixXd X = twoMotions(false);
   std::vector<int> labels(2 * kEach, 0);
-  std::fill(labels.begin() + 2 * kEach / 3, labels.begin() + kEach, 1);
-  std::fill(labels.begin() + kEach, labels.end(), 2);
-  Eigen::MatrixXd wide = X;
-  wide.leftCols(kEach) *= 2;  // so that the first motion is the one spread out
-  const std::vector<bool> still = backgroundTracks(wide, labels, 3);
-  for (size_t i = 0; i < still.size(); ++i) EXPECT_EQ(still[i], i < kEach) << i;
+  std::fill(labels.begin() + kEach, labels.end(), 1);
+  std::vector<bool> first(2 * kEach, false);
+  std::fill_n(first.begin(), kEach, true);
+  const Eigen::VectorXd by_first = distanceFromAffineMotion(X, X, first);
+  const Eigen::VectorXd by_both = distanceFromBackground(X, X, labels, {0, 1});
+  EXPECT_GT(by_first.tail(kEach).minCoeff(), 0.5);
+  EXPECT_LT(by_both.maxCoeff(), 1e-6);
 }
 
 TEST(AffineMotion, ExplainsItsOwnTrajectoriesAlone) {
   const Eigen::MatrixXd X = twoMotions(false);
   std::vector<bool> first(2 * kEach, false);
   std::fill_n(first.begin(), kEach, true);
-  const Eigen::VectorXd distance = distanceFromAffineMotion(X, first);
+  const Eigen::VectorXd distance = distanceFromAffineMotion(X, X, first);
   EXPECT_LT(distance.head(kEach).maxCoeff(), 1e-6);
   EXPECT_GT(distance.tail(kEach).minCoeff(), 0.5);
+}
+
+TEST(AffineMotion, JudgesTracksThatItWasNotFittedTo) {
+  const Eigen::MatrixXd X = twoMotions(false);
+  std::vector<bool> first(kEach, true);
+  const Eigen::VectorXd distance =
+      distanceFromAffineMotion(X.rightCols(kEach + 10), X.leftCols(kEach), first);
+  EXPECT_LT(distance.head(10).maxCoeff(), 1e-6);
+  EXPECT_GT(distance.tail(kEach).minCoeff(), 0.5);
+}
+
+TEST(AffineMotion, OfTooFewIsNone) {
+  const Eigen::MatrixXd X = twoMotions(false);
+  std::vector<bool> few(2 * kEach, false);
+  std::fill_n(few.begin(), 3, true);
+  EXPECT_TRUE((distanceFromAffineMotion(X, X, few).array() > 1e9).all());
+}
+
+TEST(Thinned, KeepsTheFirstInEachCell) {
+  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(4, 5);
+  X.bottomRows(2) << 1, 7, 9, 1, 9.5,  //
+      1, 7, 1, 8, 1.5;
+  const Eigen::MatrixXd thin = thinned(X, 8);
+  ASSERT_EQ(thin.cols(), 3);
+  EXPECT_EQ(thin.row(2), Eigen::RowVector3d(1, 9, 1));
+  EXPECT_EQ(thinned(X, 100).cols(), 1);
+}
+
+TEST(TrajectoryWindow, IsAsLongAsItCanBeWhileItFills) {
+  cv::Mat picture(120, 160, CV_8U);
+  cv::RNG random(1);
+  random.fill(picture, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(picture, picture, {5, 5}, 0);
+  TrajectoryWindowParameters parameters;
+  parameters.frames = 5;
+  parameters.least_frames = 3;
+  TrajectoryWindow window(parameters);
+  for (int round = 0; round < 2; ++round) {
+    for (int k = 1; k <= 7; ++k) {
+      EXPECT_TRUE(window.advance(picture));
+      const Eigen::MatrixXd X = window.trajectories();
+      EXPECT_EQ(X.cols() > 0, k >= 3) << k;
+      EXPECT_EQ(X.rows(), 2 * std::min(k, 5)) << k;
+    }
+    window.reset();
+  }
 }
 
 }  // namespace

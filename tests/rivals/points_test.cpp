@@ -86,6 +86,7 @@ TEST(PictureHistory, TheOldestAnswersToTheNewest) {
 TEST(TrajectoryWindow, TracksFollowTheGround) {
   TrajectoryWindowParameters parameters;
   parameters.frames = 5;
+  parameters.least_frames = 5;
   TrajectoryWindow window(parameters);
   for (size_t k = 0; k < 4; ++k) {
     EXPECT_TRUE(window.advance(scene()[k].input.grey));

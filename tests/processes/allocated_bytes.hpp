@@ -1,0 +1,33 @@
+// What is allocated now. Resident memory would say the same of an ordinary build, but a sanitizer's shadow
+// and quarantine count there as well.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define REDBEE_SANITIZER_ALLOCATES
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define REDBEE_SANITIZER_ALLOCATES
+#endif
+
+#ifdef REDBEE_SANITIZER_ALLOCATES
+#include <sanitizer/allocator_interface.h>
+#else
+#include <malloc.h>
+#endif
+
+namespace redbee::test {
+
+inline int64_t allocatedBytes() {
+#ifdef REDBEE_SANITIZER_ALLOCATES
+  return static_cast<int64_t>(__sanitizer_get_current_allocated_bytes());
+#else
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<int64_t>(info.uordblks + info.hblkhd);
+#endif
+}
+
+}  // namespace redbee::test
