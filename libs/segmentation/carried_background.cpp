@@ -91,7 +91,8 @@ cv::Mat CarriedBackground::unlike(const cv::Mat& picture, const SurfaceSpeed& sp
   cv::Mat evidence = cv::Mat::zeros(picture.size(), CV_32F);
   if (model_.empty()) return evidence;
   const auto noise2 = static_cast<float>(parameters_.background_noise * parameters_.background_noise);
-  const auto edge2 = static_cast<float>(parameters_.edge_doubt_px * parameters_.edge_doubt_px);
+  const double edge_px = parameters_.edge_doubt_px / std::max(parameters_.background_downscale, 1);
+  const auto edge2 = static_cast<float>(edge_px * edge_px);
   std::optional<ShadowTest> shadows;
   if (parameters_.use_shadow_test) shadows.emplace(picture, model_, parameters_.shadow_noise);
   const std::vector<float> none(static_cast<size_t>(picture.cols), 0.0F);

@@ -44,7 +44,7 @@ struct SegmentationParameters {
       2;  ///< 1, 2 or 4: the background's looks are kept on a picture this much smaller
   double background_span_s = 0.5;  ///< s: over which they are averaged
   double background_noise = 20.0;  ///< grey levels: differences of this size are noise
-  double edge_doubt_px = 1.5;      ///< px of that picture: the background's edges may be off by so much
+  double edge_doubt_px = 3;        ///< px: the background's edges may be off by so much
   bool use_surfaces = true;        ///< false: the background remembers surfaces that have moved away
   bool use_shadow_test = true;     ///< false: cast shadows are foreground as their casters are
   double shadow_noise = 8;         ///< grey levels: what may be left of a shadow once it is brightened
