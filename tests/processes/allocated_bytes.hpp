@@ -2,6 +2,7 @@
 // and quarantine count there as well.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #if defined(__has_feature)
@@ -14,7 +15,8 @@
 #endif
 
 #ifdef REDBEE_SANITIZER_ALLOCATES
-#include <sanitizer/allocator_interface.h>
+// GCC brings the function without clang's <sanitizer/allocator_interface.h>.
+extern "C" size_t __sanitizer_get_current_allocated_bytes();
 #else
 #include <malloc.h>
 #endif
