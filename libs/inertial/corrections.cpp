@@ -8,6 +8,7 @@
 #include "geometry/chi_square.hpp"
 #include "geometry/so3.hpp"
 #include "inertial/homography_measurement.hpp"
+#include "inertial/seconds.hpp"
 
 namespace redbee {
 namespace {
@@ -18,8 +19,6 @@ constexpr int kAltitudeRefusals = 10;
 constexpr int kVisionRefusals = 5;
 constexpr double kMaxWidening = 32;
 constexpr double kVisionHolds = 1.0;  // s after a correction by vision during which velocity is well known
-
-double seconds(int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 /// Gives three neighbouring errors a fresh variance, independent of all others.
 void reopen(ErrorCovariance& P, int index, const Eigen::Matrix3d& covariance) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "inertial/seconds.hpp"
+
 namespace redbee {
 namespace {
 
@@ -13,7 +15,6 @@ constexpr double kCoverageTolerance = 0.01;  // s: the newest sample may lie thi
 constexpr double kMemory = 1.0;              // s of samples kept behind the filter, for a restart
 
 int64_t microseconds(double s) { return static_cast<int64_t>(std::llround(s * 1e6)); }
-double seconds(int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inertial/seconds.hpp"
+
 namespace redbee {
 namespace {
 
@@ -10,7 +12,6 @@ constexpr std::size_t kMaxSamples = 8192;
 
 bool isEarlier(const ImuSample& sample, int64_t utime) { return sample.utime < utime; }
 bool isLater(int64_t utime, const ImuSample& sample) { return utime < sample.utime; }
-double seconds(int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inertial/seconds.hpp"
+
 namespace redbee {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr double kNeighbour_s = 0.05;   // samples further apart say nothing abo
 constexpr double kLate_s = 1.0;         // a sample that is older than that by more: time was set back
 constexpr double kFullRange = 0.999;
 constexpr std::size_t kMaxRefused = 8192;
-
-double seconds(int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 }  // namespace
 

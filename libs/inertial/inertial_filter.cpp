@@ -7,13 +7,12 @@
 #include "inertial/frame_samples.hpp"
 #include "inertial/homography_measurement.hpp"
 #include "inertial/initial_state.hpp"
+#include "inertial/seconds.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr double kMaxOutage = 0.5;  // s without IMU after which attitude is not worth keeping
-
-double seconds(int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 InertialHomography nothing(int64_t frame_before, int64_t frame, InertialStatus status) {
   InertialHomography result;

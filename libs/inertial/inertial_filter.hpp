@@ -46,6 +46,12 @@ struct InertialParameters {
   /// counts for one of them.
   double feedback_correlation_frames = 8.0;
   double innovation_gate_probability = 0.999;  ///< chi-square gate of every correction
+
+  /// rad
+  double extrinsicRotationSigma() const {
+    constexpr double kDegree = 3.14159265358979323846 / 180;
+    return extrinsic_rotation_sigma_deg * kDegree;
+  }
 };
 
 /// A homography of the ground between two consecutive frames, measured without the IMU's help: what the

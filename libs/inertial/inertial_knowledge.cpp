@@ -7,6 +7,7 @@
 #include "inertial/error_state.hpp"
 #include "inertial/imu_buffer.hpp"
 #include "inertial/inertial_filter.hpp"
+#include "inertial/seconds.hpp"
 
 namespace redbee {
 namespace {
@@ -23,11 +24,8 @@ constexpr double kMountingDrift = 0.035;  // rad
 constexpr double kMaxTilt = 3.2;          // rad, of its sigma
 constexpr double kUnitTolerance = 1e-6;
 constexpr double kDoubt = 2;
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
-double ageAt(const InertialKnowledge& known, int64_t utime) {
-  return static_cast<double>(utime - known.utime) * 1e-6;
-}
+double ageAt(const InertialKnowledge& known, int64_t utime) { return seconds(utime - known.utime); }
 
 /// False for what is not a number.
 bool isSigma(const Eigen::Vector3d& sigma, double limit) {
@@ -44,7 +42,6 @@ bool isHeight(const InertialKnowledge& known) {
 }
 
 bool couldBeLearned(const InertialKnowledge& known, const InertialParameters& parameters) {
-  const double mounting_sigma = parameters.extrinsic_rotation_sigma_deg * kRadiansPerDegree;
   const Eigen::Matrix3d turned = known.R_CI * parameters.extrinsics.R_CI.transpose();
   return isHeight(known) && std::abs(known.up.norm() - 1) < kUnitTolerance &&
          isSigma(known.up_sigma, kMaxTilt) && known.velocity.norm() <= kMaxVelocity &&
@@ -55,7 +52,7 @@ bool couldBeLearned(const InertialKnowledge& known, const InertialParameters& pa
                        std::max(kAccelDrift, kMaxSigmas * parameters.accel_bias_sigma)) &&
          known.R_CI.allFinite() && isRotation(known.R_CI) &&
          isSensorError(logSO3(turned), known.R_CI_sigma,
-                       std::max(kMountingDrift, kMaxSigmas * mounting_sigma));
+                       std::max(kMountingDrift, kMaxSigmas * parameters.extrinsicRotationSigma()));
 }
 
 }  // namespace

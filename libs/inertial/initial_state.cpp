@@ -10,8 +10,6 @@
 namespace redbee {
 namespace {
 
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
-
 /// Mean specific force in the orientation of the last sample.
 Eigen::Vector3d meanForce(const std::vector<ImuSample>& samples, const Eigen::Vector3d& gyro_bias,
                           const Eigen::Vector3d& accel_bias) {
@@ -62,7 +60,7 @@ InertialKnowledge configured(const InertialParameters& parameters) {
   known.accel_bias = parameters.accel_bias;
   known.accel_bias_sigma.setConstant(parameters.accel_bias_sigma);
   known.R_CI = extrinsics.R_CI;
-  known.R_CI_sigma.setConstant(parameters.extrinsic_rotation_sigma_deg * kRadiansPerDegree);
+  known.R_CI_sigma.setConstant(parameters.extrinsicRotationSigma());
   return known;
 }
 
