@@ -53,8 +53,8 @@ void emitImu(YAML::Emitter& out, const VehicleDescription& vehicle) {
 /// muted. Thresholds found on DAVIS and UAVDT; Gull2, where nothing moves, stays clean with them.
 void emitSegmentationWithoutImu(YAML::Emitter& out) {
   out << YAML::Key << "segmentation" << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "threshold" << YAML::Value << 0.2;
-  out << YAML::Key << "extent_threshold" << YAML::Value << 0.1;
+  out << YAML::Key << "threshold" << YAML::Value << 0.25;
+  out << YAML::Key << "extent_threshold" << YAML::Value << 0.12;
   out << YAML::EndMap;
 }
 

@@ -148,6 +148,8 @@ Settings backgroundSettings() {
       setting("segmentation.min_gradient", MEMBER(segmentation.min_gradient), positive),
       setting("segmentation.fill_radius_px", MEMBER(segmentation.fill_radius_px), positive),
       setting("segmentation.fill_contrast", MEMBER(segmentation.fill_contrast), positive),
+      setting("segmentation.use_hole_filling", MEMBER(segmentation.use_hole_filling), anything),
+      setting("segmentation.outline_gap_px", MEMBER(segmentation.outline_gap_px), notNegative),
       setting("segmentation.region_radius_px", MEMBER(segmentation.region_radius_px), notNegative),
       setting("segmentation.edge_doubt_px", MEMBER(segmentation.edge_doubt_px), notNegative),
       setting("segmentation.use_surfaces", MEMBER(segmentation.use_surfaces), anything),

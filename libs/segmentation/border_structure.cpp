@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <opencv2/imgproc.hpp>
+
+#include "segmentation/grey_reconstruction.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr double kShrink = 2;  // evidence is smooth: half its size will do
 constexpr int kLeastSide_px = 8;
-constexpr int kSweeps = 3;  // forth and back; what winds more often than that is no structure
 
 /// Levels that the line reaches over at least `stretch` pixels (its opening).
 cv::Mat wideLevels(const cv::Mat& line, int stretch) {
@@ -34,22 +34,6 @@ cv::Mat seeds(const cv::Mat& motion, int stretch) {
   return seeds;
 }
 
-/// Lets `level` spread from each pixel to the next of a row and from the row before, but nowhere above
-/// `limit`.
-void sweep(const cv::Mat& limit, cv::Mat& level, bool forth) {
-  const int step = forth ? 1 : -1;
-  const int first_x = forth ? 1 : level.cols - 2, end_x = forth ? level.cols : -1;
-  const int first_y = forth ? 1 : level.rows - 2, end_y = forth ? level.rows : -1;
-  for (int y = first_y; y != end_y; y += step) {
-    const float* top = limit.ptr<float>(y);
-    const float* before = level.ptr<float>(y - step);
-    float* now = level.ptr<float>(y);
-    for (int x = first_x; x != end_x; x += step) {
-      now[x] = std::min(top[x], std::max({now[x], before[x], now[x - step]}));
-    }
-  }
-}
-
 }  // namespace
 
 cv::Mat shareOfBorderStructure(const cv::Mat& motion, const cv::Mat& unseen, double stretch_px) {
@@ -61,9 +45,7 @@ cv::Mat shareOfBorderStructure(const cv::Mat& motion, const cv::Mat& unseen, dou
   const cv::Mat limit = small(seen);
   const int stretch = std::max(1, static_cast<int>(std::lround(stretch_px / kShrink)));
   cv::Mat level = seeds(limit, stretch);
-  for (int i = 0; i < kSweeps; ++i) {
-    for (const bool forth : {true, false}) sweep(limit, level, forth);
-  }
+  reconstruct(limit, level);
   cv::Mat whole = cv::Mat::zeros(small.size(), CV_32F);
   level.copyTo(whole(seen));
   cv::resize(whole, whole, motion.size(), 0, 0, cv::INTER_LINEAR);

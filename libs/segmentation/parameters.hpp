@@ -48,9 +48,11 @@ struct SegmentationParameters {
   bool use_surfaces = true;        ///< false: the background remembers surfaces that have moved away
   bool use_shadow_test = true;     ///< false: cast shadows are foreground as their casters are
   double shadow_noise = 8;         ///< grey levels: what may be left of a shadow once it is brightened
-  double fill_radius_px = 8;       ///< px: reach of the edge-aware filter on the motion
+  double fill_radius_px = 6;       ///< px: reach of the edge-aware filter on the motion
   double fill_contrast = 12;       ///< grey levels: contrast below this is no edge to it
-  double region_radius_px = 16;    ///< px: reach of the same filter on P_FG, for half of it; 0: none
+  bool use_hole_filling = true;    ///< false: what looks like the background within an object is left hollow
+  double outline_gap_px = 4;       ///< px: gaps in an outline up to this are closed before its hole is filled
+  double region_radius_px = 8;     ///< px: reach of the same filter on P_FG, for half of it; 0: none
 
   // Foreground refinement (paper III.B).
   bool use_refinement = false;  ///< (13) to (16); false: P_FG is the raw foreground
@@ -67,8 +69,8 @@ struct SegmentationParameters {
   double flow_noise_px = 0.4;  ///< px: flow below this has no direction and does not vote
 
   // Masks and objects.
-  double threshold = 0.5;         ///< on P_FG: somewhere an object exceeds it
-  double extent_threshold = 0.3;  ///< on P_FG: an object reaches as far as it exceeds this
+  double threshold = 0.6;         ///< on P_FG: somewhere an object exceeds it
+  double extent_threshold = 0.4;  ///< on P_FG: an object reaches as far as it exceeds this
   int opening_px = 3;             ///< px: 0 for none
   int closing_px = 7;             ///< px: 0 for none
   double min_area_px = 30;        ///< px^2: smaller components are no objects

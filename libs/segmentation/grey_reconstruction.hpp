@@ -1,0 +1,19 @@
+// Grey-scale reconstruction (Vincent, "Morphological grayscale reconstruction in image analysis", 1993).
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace redbee {
+
+/// Raises `level` to what its pixels reach: at each pixel the highest level at which a path of neighbours (of
+/// four) leads to a pixel of `level` without ever falling below it in `limit`. Both CV_32F, of one size;
+/// level <= limit. Paths that wind more often than a structure or an object does are not followed to their
+/// end.
+void reconstruct(const cv::Mat& limit, cv::Mat& level);
+
+/// `map` (CV_32F, 0..1) with its holes filled: what an outline of higher values goes round is raised to the
+/// lowest value that must be crossed on the way to the border. Gaps in the outline up to `gap_px` are
+/// closed first; outlines weaker than 0.05 are none.
+cv::Mat fillHoles(const cv::Mat& map, int gap_px);
+
+}  // namespace redbee
