@@ -53,7 +53,7 @@ class MotionSegmenter::Implementation {
     SegmentationOutput output = emptyOutput(input);
     if (!picture_check_.accepts(input.grey)) {
       output.status = SegmentationStatus::kBadPicture;
-      output.detections = tracker_.update({}, size_);
+      output.detections = tracker_.skip(size_);
       return output;
     }
     const BackgroundVerdict verdict = learn(input, output);
@@ -67,7 +67,7 @@ class MotionSegmenter::Implementation {
     }
     if (output.status != SegmentationStatus::kGood) {
       output.probability.setTo(0);
-      output.detections = tracker_.update({}, size_);
+      output.detections = tracker_.skip(size_);
     }
     return output;
   }

@@ -122,37 +122,25 @@ void ObjectTracker::observe(Object& object, const Detection& component) const {
   object.last.id = id;
   ++object.hits;
   object.missed = 0;
+  object.blind = 0;
 }
 
-std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& components, cv::Size picture) {
-  std::vector<int> component_of_object;
-  associate(components, component_of_object);
-  std::vector<bool> known(components.size(), false);
-  const cv::Rect view({}, picture);
-  std::vector<Object> kept;
-  for (size_t o = 0; o < objects_.size(); ++o) {
-    Object& object = objects_[o];
-    if (component_of_object[o] != kUnmatched) {
-      const auto c = static_cast<size_t>(component_of_object[o]);
-      known[c] = true;
-      observe(object, components[c]);
-    } else {
-      object.velocity *= kUnseenVelocity;
-      ++object.missed;
-    }
+void ObjectTracker::miss(Object& object) {
+  object.velocity *= kUnseenVelocity;
+  ++object.missed;
+}
+
+void ObjectTracker::forgetLost(const cv::Rect& view) {
+  const auto lost = [&](const Object& object) {
     // What was never told is a flicker, and is not waited for.
     const int patience = object.told ? parameters_.max_missed_frames : 0;
     const bool in_view = (boxAt(object.last.box, object.centre) & view).area() > 0;
-    if (object.missed <= patience && in_view) kept.push_back(object);
-  }
-  objects_ = std::move(kept);
-  for (size_t c = 0; c < components.size(); ++c) {
-    if (known[c]) continue;
-    Object object{components[c], centreOf(components[c].box), Eigen::Vector2d::Zero()};
-    object.last.id = 0;
-    objects_.push_back(object);
-  }
+    return object.missed - object.blind > patience || !in_view;
+  };
+  objects_.erase(std::remove_if(objects_.begin(), objects_.end(), lost), objects_.end());
+}
 
+std::vector<Detection> ObjectTracker::tell(const cv::Rect& view) {
   std::vector<Detection> told;
   for (Object& object : objects_) {
     if (object.hits < parameters_.confirm_frames) continue;
@@ -164,6 +152,39 @@ std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& compo
     told.push_back(detection);
   }
   return told;
+}
+
+std::vector<Detection> ObjectTracker::skip(cv::Size picture) {
+  for (Object& object : objects_) {
+    miss(object);
+    if (object.told && object.blind < parameters_.max_missed_frames) ++object.blind;
+  }
+  forgetLost({{}, picture});
+  return tell({{}, picture});
+}
+
+std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& components, cv::Size picture) {
+  std::vector<int> component_of_object;
+  associate(components, component_of_object);
+  std::vector<bool> known(components.size(), false);
+  for (size_t o = 0; o < objects_.size(); ++o) {
+    Object& object = objects_[o];
+    if (component_of_object[o] != kUnmatched) {
+      const auto c = static_cast<size_t>(component_of_object[o]);
+      known[c] = true;
+      observe(object, components[c]);
+    } else {
+      miss(object);
+    }
+  }
+  forgetLost({{}, picture});
+  for (size_t c = 0; c < components.size(); ++c) {
+    if (known[c]) continue;
+    Object object{components[c], centreOf(components[c].box), Eigen::Vector2d::Zero()};
+    object.last.id = 0;
+    objects_.push_back(object);
+  }
+  return tell({{}, picture});
 }
 
 }  // namespace redbee

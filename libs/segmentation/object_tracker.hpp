@@ -38,6 +38,9 @@ class ObjectTracker {
   /// Gives components their identities. Objects that were told before and are not among the components follow
   /// with seen = false, until max_missed_frames or until they have left the picture.
   std::vector<Detection> update(const std::vector<Detection>& components, cv::Size picture);
+  /// A frame in which nothing could be judged, as while a process of the stack begins anew: nothing was
+  /// looked for, and so nothing was missed. Up to max_missed_frames of these in a row cost no identity.
+  std::vector<Detection> skip(cv::Size picture);
 
  private:
   struct Object {
@@ -45,12 +48,16 @@ class ObjectTracker {
     Eigen::Vector2d centre;    ///< px
     Eigen::Vector2d velocity;  ///< px a frame, against the ground
     int hits = 1;
-    int missed = 0;
+    int missed = 0;  ///< frames in a row without a component
+    int blind = 0;   ///< of these, in how many nothing could be judged
     bool told = false;
   };
 
   void associate(const std::vector<Detection>& components, std::vector<int>& component_of_object) const;
   void observe(Object& object, const Detection& component) const;
+  static void miss(Object& object);
+  void forgetLost(const cv::Rect& view);
+  std::vector<Detection> tell(const cv::Rect& view);
 
   SegmentationParameters parameters_;
   std::vector<Object> objects_;

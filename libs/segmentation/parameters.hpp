@@ -74,7 +74,7 @@ struct SegmentationParameters {
   int opening_px = 3;             ///< px: 0 for none
   int closing_px = 7;             ///< px: 0 for none
   double min_area_px = 30;        ///< px^2: smaller components are no objects
-  int max_missed_frames = 24;     ///< frames an identity survives unseen
+  int max_missed_frames = 24;     ///< frames an identity survives unseen; as many again that are blind
   int confirm_frames = 2;         ///< frames an object must stand out in before it is told
 
   // Pictures that nothing can be learned from.

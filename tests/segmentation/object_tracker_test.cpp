@@ -53,6 +53,38 @@ TEST(ObjectTracker, IdentityEndsAfterTheStatedPatience) {
   EXPECT_TRUE(tracker.update({}, kPicture).empty());
 }
 
+TEST(ObjectTracker, WhileNothingCouldBeJudgedNothingWasMissed) {
+  const SegmentationParameters parameters = atOnce();
+  ObjectTracker tracker(parameters);
+  const int id = tracker.update({component(100, 200)}, kPicture).at(0).id;
+  for (int k = 0; k < parameters.max_missed_frames; ++k) {
+    const auto told = tracker.skip(kPicture);
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_FALSE(told[0].seen);
+  }
+  for (int k = 0; k < parameters.max_missed_frames; ++k) tracker.update({}, kPicture);
+  const auto told = tracker.update({component(104, 200)}, kPicture);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].id, id);
+}
+
+TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItForgets) {
+  const SegmentationParameters parameters = atOnce();
+  ObjectTracker tracker(parameters);
+  tracker.update({component(100, 200)}, kPicture);
+  for (int k = 0; k < 2 * parameters.max_missed_frames; ++k) ASSERT_EQ(tracker.skip(kPicture).size(), 1U);
+  EXPECT_TRUE(tracker.skip(kPicture).empty());
+}
+
+TEST(ObjectTracker, AFlickerIsNotWaitedForWhileNothingCanBeJudged) {
+  SegmentationParameters parameters;
+  parameters.confirm_frames = 2;
+  ObjectTracker tracker(parameters);
+  tracker.update({component(100, 200)}, kPicture);
+  tracker.skip(kPicture);
+  EXPECT_TRUE(tracker.update({component(100, 200)}, kPicture).empty());
+}
+
 TEST(ObjectTracker, FollowsTheGroundWhileTheCameraMoves) {
   ObjectTracker tracker(atOnce());
   const int id = tracker.update({component(100, 200)}, kPicture).at(0).id;
