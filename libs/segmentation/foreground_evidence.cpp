@@ -78,12 +78,12 @@ ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::M
     if (!motion.empty()) {
       cv::resize(motion_.speed(), speed, picture.size(), 0, 0, cv::INTER_LINEAR);
       cv::resize(foreground, foreground, picture.size(), 0, 0, cv::INTER_LINEAR);
-      const cv::Mat moves = foreground.clone();
-      foreground = foreground.mul(background_.unlike(picture, speed));
+      cv::Mat foreign = foreground.mul(background_.unlike(picture, speed));
       if (parameters_.use_hole_filling) {
         const double gap_px = parameters_.outline_gap_px / std::max(parameters_.background_downscale, 1);
-        foreground = cv::min(fillHoles(foreground, static_cast<int>(std::lround(gap_px))), moves);
+        foreign = cv::min(fillHoles(foreign, static_cast<int>(std::lround(gap_px))), foreground);
       }
+      foreground = foreign;
       if (parameters_.region_radius_px > 0) fillRegions(picture, foreground);
       // Half is sure enough: what is learned by mistake is lost for as long as the background remembers.
       moving = cv::min(2 * foreground, 1);
