@@ -11,12 +11,12 @@
 #include "calibration/recording.hpp"
 #include "calibration/split_half.hpp"
 #include "calibration/verdict_table.hpp"
+#include "geometry/angle.hpp"
 #include "geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 /// Closed forms that are less certain than this are no starting point.
 constexpr double kAcceptedHandEyeSigma_rad = 3.0 * kDegree;
 constexpr double kAcceptedCorrelation = 0.5;

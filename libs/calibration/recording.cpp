@@ -105,6 +105,7 @@ Recording prepareRecording(const CalibrationInput& input) {
   if (recording.imu->size() < 2) throw CalibrationError("there are no IMU samples");
 
   std::vector<double> t;
+  t.reserve(frames.size());
   for (const int64_t utime : frames) t.push_back(static_cast<double>(utime - origin) * 1e-6);
   const auto [begin, end] = coveredRun(t, *recording.imu, input.nominal.timeshift_s);
   if (end - begin < kMinFrames) {

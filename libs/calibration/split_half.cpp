@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/angle.hpp"
 #include "geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr size_t kMinFrames = 48;
 
 /// The entry that differs most for what is known of it.

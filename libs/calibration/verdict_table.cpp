@@ -3,12 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "geometry/angle.hpp"
 #include "geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 

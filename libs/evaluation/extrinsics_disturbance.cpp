@@ -3,12 +3,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/angle.hpp"
 #include "geometry/so3.hpp"
 
 namespace redbee {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 class SplitMix64 {
  public:

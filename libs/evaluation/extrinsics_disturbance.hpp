@@ -3,13 +3,14 @@
 
 #include <string_view>
 
+#include "geometry/angle.hpp"
 #include "inertial/imu.hpp"
 
 namespace redbee {
 
 /// What a good calibration leaves. Every amount is exact; the seed draws the rotation's axis and the signs.
 struct ExtrinsicsDisturbance {
-  double rotation_rad = 0.1 * 3.14159265358979323846 / 180;
+  double rotation_rad = 0.1 * kDegree;
   double timeshift_s = 0.5e-3;
   double height_share = 0.02;  ///< of the start height
 };

@@ -87,7 +87,7 @@ class SensorFile {
 };
 
 std::vector<double> finiteNumbers(const SensorFile& file, const char* key, size_t least, size_t most) {
-  const auto numbers = file.get<std::vector<double>>(key);
+  auto numbers = file.get<std::vector<double>>(key);
   if (numbers.size() < least || numbers.size() > most) {
     file.fail(key, "has " + std::to_string(numbers.size()) + " numbers");
   }

@@ -98,7 +98,7 @@ class InertialFilter::Implementation {
   const Eigen::Vector3d& p_IC() const { return parameters_.extrinsics.p_IC; }
 
   InertialHomography start(int64_t frame, InertialStatus status) {
-    const InertialHomography result = nothing(frame_.value_or(frame), frame, status);
+    InertialHomography result = nothing(frame_.value_or(frame), frame, status);
     const std::vector<ImuSample> before = samples_.forVertical(frame);
     forgetFrames();
     if (before.empty()) {
@@ -120,7 +120,7 @@ class InertialFilter::Implementation {
 
   /// No sample in the interval: the state is carried over on the last one for a while, and given up after.
   InertialHomography coast(int64_t frame) {
-    const InertialHomography result = nothing(*frame_, frame, statusOf(frame, InertialStatus::kNoImu));
+    InertialHomography result = nothing(*frame_, frame, statusOf(frame, InertialStatus::kNoImu));
     if (samples_.outageAt(frame) > kMaxOutage) {
       forgetFrames();
       state_.reset();

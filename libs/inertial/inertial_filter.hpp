@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 
+#include "geometry/angle.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/homography.hpp"
 #include "inertial/imu.hpp"
@@ -48,10 +49,7 @@ struct InertialParameters {
   double innovation_gate_probability = 0.999;  ///< chi-square gate of every correction
 
   /// rad
-  double extrinsicRotationSigma() const {
-    constexpr double kDegree = 3.14159265358979323846 / 180;
-    return extrinsic_rotation_sigma_deg * kDegree;
-  }
+  double extrinsicRotationSigma() const { return extrinsic_rotation_sigma_deg * kDegree; }
 };
 
 /// A homography of the ground between two consecutive frames, measured without the IMU's help: what the

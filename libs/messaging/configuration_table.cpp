@@ -14,6 +14,7 @@ void append(Settings& settings, Settings more) {
   std::move(more.begin(), more.end(), std::back_inserter(settings));
 }
 
+// A member's name cannot stand in parentheses. NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define MEMBER(path) \
   [](auto& configuration) -> auto& { return configuration.path; }
 
@@ -132,6 +133,7 @@ Settings backgroundSettings() {
       setting("segmentation.use_front_plane", MEMBER(segmentation.use_front_plane), anything),
       setting("segmentation.baseline_s", MEMBER(segmentation.baseline_s), positive),
       setting("segmentation.work_downscale", MEMBER(segmentation.work_downscale), halving),
+      setting("segmentation.flow_downscale", MEMBER(segmentation.flow_downscale), halving),
       setting("segmentation.use_short_baseline", MEMBER(segmentation.use_short_baseline), anything),
       setting("segmentation.use_epipolar", MEMBER(segmentation.use_epipolar), anything),
       setting("segmentation.parallax_noise_px", MEMBER(segmentation.parallax_noise_px), positive),

@@ -40,7 +40,7 @@ std::vector<cv::Point2f> GridFlow::follow(const cv::Mat& grey, const std::vector
   lost.assign(points.size(), 1);
   if (before.empty() || points.empty()) return points;
   std::vector<uint8_t> found;
-  const std::vector<cv::Point2f> moved = flow(before, pyramid_, points, found);
+  std::vector<cv::Point2f> moved = flow(before, pyramid_, points, found);
   std::vector<cv::Point2f> returned = points;
   std::vector<uint8_t> found_back(points.size(), 1);
   if (parameters_.max_there_and_back_px > 0) returned = flow(pyramid_, before, moved, found_back);

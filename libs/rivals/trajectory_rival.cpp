@@ -78,6 +78,7 @@ GridTracks lastStepOfBackground(const Eigen::MatrixXd& X, const Eigen::VectorXd&
 
 std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_share) {
   std::vector<long> members;
+  members.reserve(static_cast<size_t>(count));
   for (int label = 0; label < count; ++label)
     members.push_back(std::count(labels.begin(), labels.end(), label));
   const long largest = *std::max_element(members.begin(), members.end());
@@ -114,6 +115,7 @@ Eigen::VectorXd distanceFromBackground(const Eigen::MatrixXd& tracks, const Eige
   Eigen::VectorXd least = Eigen::VectorXd::Constant(tracks.cols(), std::numeric_limits<double>::infinity());
   for (const int still : background) {
     std::vector<bool> of;
+    of.reserve(labels.size());
     for (const int label : labels) of.push_back(label == still);
     least = least.cwiseMin(distanceFromAffineMotion(tracks, X, of));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/angle.hpp"
 #include "geometry/homography.hpp"
 
 namespace redbee {
@@ -22,7 +23,7 @@ double order(const Cell& cell, const SegmentationParameters& parameters) {
 }
 
 int directionBin(const Eigen::Vector2d& flow, int bins) {
-  const double turn = std::atan2(flow.y(), flow.x()) / (2 * M_PI) + 0.5;
+  const double turn = std::atan2(flow.y(), flow.x()) / (2 * kPi) + 0.5;
   return std::min(static_cast<int>(turn * bins), bins - 1);
 }
 

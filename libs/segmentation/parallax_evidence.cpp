@@ -16,14 +16,19 @@ namespace {
 constexpr double kExpectedErrorPx = 0.5;  // full-size px, of the registration of two frames
 constexpr double kMarginPx = 16;          // full-size px: flow so near to what is not there is made up
 
+int halvings(int from_downscale, int to_downscale) {
+  int times = 0;
+  for (int downscale = std::max(from_downscale, 1); downscale < to_downscale; downscale *= 2) ++times;
+  return times;
+}
+
 }  // namespace
 
-cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(int work_downscale) {
-  // Patches of 8 px at half the full size: a finer flow costs four times as much, a coarser one loses people.
+cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const SegmentationParameters& parameters) {
   constexpr int kIterations = 4;
   constexpr int kStride = 5;
   auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
-  dis->setFinestScale(work_downscale == 1 ? 1 : 0);
+  dis->setFinestScale(halvings(parameters.work_downscale, parameters.flow_downscale));
   dis->setGradientDescentIterations(kIterations);
   dis->setPatchStride(kStride);
   return dis;
@@ -33,7 +38,7 @@ ParallaxEvidence::ParallaxEvidence(const SegmentationParameters& parameters)
     : parameters_(parameters),
       scale_(std::max(parameters.work_downscale, 1)),
       work_(downscaling(scale_)),
-      dis_(makeMotionFlow(parameters.work_downscale)),
+      dis_(makeMotionFlow(parameters)),
       travelling_(parameters) {}
 
 void ParallaxEvidence::reset() {

@@ -20,8 +20,8 @@
 
 namespace redbee {
 
-/// Dense inverse-search flow for pictures this much smaller than the camera's.
-cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(int work_downscale);
+/// Dense inverse-search flow for pictures of work_downscale, found at flow_downscale.
+cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const SegmentationParameters& parameters);
 
 class ParallaxEvidence {
  public:

@@ -23,7 +23,10 @@ struct SegmentationParameters {
 
   // Parallax: flow between a frame and an earlier one, after the ground's (and above the horizon the
   // rotation's) motion has been taken out, times how unlike the background a pixel looks.
-  int work_downscale = 2;     ///< 1, 2 or 4: all of it on a picture this much smaller
+  int work_downscale = 2;  ///< 1, 2 or 4: all of it on a picture this much smaller
+  /// 1, 2 or 4: the flow on a picture this much smaller than the camera's, never larger than work_downscale
+  /// makes it: its patches of 8 px are to be no larger than the smallest mover.
+  int flow_downscale = 2;
   double baseline_s = 0.083;  ///< s: how much earlier; longer shows slower movers and asks more of the flow
   bool use_short_baseline = true;  ///< false: as long where large things move fast
   bool use_epipolar = true;        ///< false: any flow against the ground homography is foreground

@@ -28,7 +28,7 @@ std::vector<Constraint> constraintsOf(const cv::Mat& flow, const cv::Mat& varian
   for (int y = kStep_px / 2; y < flow.rows; y += kStep_px) {
     for (int x = kStep_px / 2; x < flow.cols; x += kStep_px) {
       if (unseen.at<uint8_t>(y, x) != 0) continue;
-      const cv::Vec2f back = flow.at<cv::Vec2f>(y, x);
+      const cv::Vec2f& back = flow.at<cv::Vec2f>(y, x);
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const float u = (pixel[0] - units.middle[0]) / units.unit;
       const float v = (pixel[1] - units.middle[1]) / units.unit;

@@ -20,7 +20,7 @@ void TwoPlaneBackground::carry(const Eigen::Matrix3d& ground, const std::optiona
 
 BackgroundVerdict TwoPlaneBackground::learn(const cv::Mat& grey) {
   if (!ground_) ground_.emplace(grey.size(), parameters_);
-  const BackgroundVerdict ground = ground_->learn(grey);
+  BackgroundVerdict ground = ground_->learn(grey);
   if (!front_) return ground;
   const BackgroundVerdict front = front_->learn(grey);
   BackgroundVerdict both;

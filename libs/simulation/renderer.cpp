@@ -6,13 +6,14 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "geometry/angle.hpp"
 #include "simulation/wave_field.hpp"
 
 namespace redbee::simulation {
 namespace {
 
 constexpr float kHorizonInverseDepth = 1e-3F;  // 1/m: ground farther away than this is sky
-constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kTurn = 2 * kPi;
 
 /// A plane as one camera sees it. For a ray d: inverse depth q = Q d, surface coordinates u = (U d) / q, v =
 /// (V d) / q.

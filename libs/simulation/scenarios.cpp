@@ -3,12 +3,11 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/angle.hpp"
 #include "geometry/so3.hpp"
 
 namespace redbee::simulation {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 class Draw {
  public:

@@ -5,12 +5,13 @@
 #include <numeric>
 #include <random>
 
+#include "geometry/angle.hpp"
 #include "geometry/homography.hpp"
 
 namespace redbee::simulation {
 namespace {
 
-constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kTurn = 2 * kPi;
 constexpr double kOutlierLow = 5, kOutlierHigh = 30;  // px off the true place
 
 /// Column by column from the left, so that a share of the last ones is a region and not a sprinkle.

@@ -5,10 +5,10 @@
 #include <initializer_list>
 #include <random>
 
+#include "geometry/angle.hpp"
+
 namespace redbee::simulation {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Derivatives {
   double value;

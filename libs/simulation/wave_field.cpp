@@ -3,10 +3,12 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/angle.hpp"
+
 namespace redbee::simulation {
 namespace {
 
-constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kTurn = 2 * kPi;
 
 /// Sine of an angle in turns; the table's step shifts a wave by less than a hundredth of its amplitude.
 float sineOfTurns(float turns) {

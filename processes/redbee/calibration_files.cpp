@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "geometry/angle.hpp"
+
 namespace redbee {
 namespace {
 
@@ -12,8 +14,6 @@ using calibration::CalibrationInput;
 using calibration::CalibrationResult;
 using calibration::ParameterReport;
 using calibration::Verdict;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 /// Enough digits to read back the same number.
 std::string exact(double value) {

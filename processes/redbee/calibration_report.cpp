@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "geometry/angle.hpp"
 #include "processes/redbee/svg_plot.hpp"
 
 namespace redbee {
@@ -17,7 +18,6 @@ using calibration::HandEye;
 using calibration::ParameterReport;
 using calibration::RatePair;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr const char* kAxisColours[] = {"#c0392b", "#1e8449", "#2471a3"};
 constexpr const char* kBefore = "#d68910";
 constexpr const char* kAfter = "#1f618d";
@@ -153,9 +153,10 @@ std::string transferPlot(const Diagnostics& diagnostics, bool target) {
   return plot.svg();
 }
 
-double quantile(std::vector<Eigen::Vector2d> points, double share) {
+double quantile(const std::vector<Eigen::Vector2d>& points, double share) {
   if (points.empty()) return 1;
   std::vector<double> norms;
+  norms.reserve(points.size());
   for (const Eigen::Vector2d& point : points) norms.push_back(point.norm());
   const auto place = norms.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(norms.size() - 1));
   std::nth_element(norms.begin(), place, norms.end());
@@ -183,6 +184,7 @@ std::string biasPlot(const char* title, const char* unit, const std::vector<doub
   const char* axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
+    values.reserve(bias.size());
     for (const Eigen::Vector3d& b : bias) values.push_back(b[axis] * scale);
     plot.addLine(axes[axis], t, values, kAxisColours[axis]);
   }

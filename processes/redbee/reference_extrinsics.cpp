@@ -11,13 +11,12 @@
 #include "flight/csv.hpp"
 #include "flight/input_error.hpp"
 #include "flight/sensor_yaml.hpp"
+#include "geometry/angle.hpp"
 #include "messaging/configuration.hpp"
 #include "processes/redbee/commands.hpp"
 
 namespace redbee {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 double firstHeight(const std::filesystem::path& file) {
   constexpr size_t kHeightColumn = 13;  // timestamp, frame, p_WC, q_WC, q_WS, height

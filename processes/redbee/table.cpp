@@ -35,7 +35,14 @@ std::string line(const Row& row, const std::vector<size_t>& widths, const std::s
 
 std::string htmlRow(const Row& row, const std::string& element) {
   std::string text = "<tr>";
-  for (const std::string& cell : row) text += "<" + element + ">" + escapeHtml(cell) + "</" + element + ">";
+  for (const std::string& cell : row)
+    text.append("<")
+        .append(element)
+        .append(">")
+        .append(escapeHtml(cell))
+        .append("</")
+        .append(element)
+        .append(">");
   return text + "</tr>\n";
 }
 

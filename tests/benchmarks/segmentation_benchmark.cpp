@@ -39,6 +39,7 @@ void defaultFullSize(benchmark::State& state) {
   SegmentationParameters parameters;
   parameters.work_downscale = 1;
   parameters.background_downscale = 1;
+  parameters.flow_downscale = 1;
   wholeStep(state, parameters);
 }
 void sharpBackground(benchmark::State& state) {
@@ -98,7 +99,7 @@ BENCHMARK(guidedFilterHalfSize)->Unit(benchmark::kMillisecond);
 
 void denseFlowHalfSize(benchmark::State& state) {
   const cv::Mat then = halfSize(inputs()[0].grey), now = halfSize(inputs()[3].grey);
-  const cv::Ptr<cv::DISOpticalFlow> dis = makeMotionFlow(SegmentationParameters{}.work_downscale);
+  const cv::Ptr<cv::DISOpticalFlow> dis = makeMotionFlow(SegmentationParameters{});
   cv::Mat flow;
   for (auto _ : state) dis->calc(now, then, flow);
 }

@@ -186,7 +186,8 @@ TEST(Calibration, aTargetInsteadOfGround) {
     TargetView view;
     view.utime = utime;
     for (int i = 0; i < 64; ++i) {
-      const Eigen::Vector3d corner(0.6 + 0.15 * (i % 8), 0.5 - 0.15 * (i / 8), 0);
+      const int column = i % 8, row = i / 8;
+      const Eigen::Vector3d corner(0.6 + 0.15 * column, 0.5 - 0.15 * row, 0);
       const Eigen::Vector3d X = R_CG * (corner - p_GC);
       if (X.z() <= 0.1) continue;
       const Eigen::Vector2d pixel = (camera.K() * X).hnormalized();

@@ -4,12 +4,11 @@
 
 #include <cmath>
 
+#include "geometry/angle.hpp"
 #include "geometry/so3.hpp"
 
 namespace redbee {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 InertialExtrinsics someTruth() {
   InertialExtrinsics truth;
@@ -52,8 +51,8 @@ TEST(ExtrinsicsDisturbance, SignsAndAxesAreSpreadOverTheClips) {
     higher += result.start_height_m > truth.start_height_m ? 1 : 0;
     sum += logSO3(result.R_CI * truth.R_CI.transpose()) / (0.1 * kDegree);
   }
-  EXPECT_NEAR(later, kClips / 2, 50);  // five standard deviations
-  EXPECT_NEAR(higher, kClips / 2, 50);
+  EXPECT_NEAR(later, kClips / 2.0, 50);  // five standard deviations
+  EXPECT_NEAR(higher, kClips / 2.0, 50);
   EXPECT_LT(sum.norm() / kClips, 0.15);
 }
 

@@ -59,7 +59,7 @@ class ImportAslTest : public ::testing::Test {
   }
   /// The complaint; fails where it holds more than one line or leaves a log behind.
   std::string complaint() const {
-    const std::string line = complaintOf([&] { import(); });
+    std::string line = complaintOf([&] { import(); });
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_FALSE(fs::exists(log()));
     EXPECT_FALSE(fs::exists(log().string() + ".partial"));

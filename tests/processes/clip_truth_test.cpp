@@ -188,7 +188,7 @@ TEST(HitsAndMisses, EveryKindHasItsColour) {
   const cv::Mat drawn =
       drawHitsAndMisses(cv::Mat(kSize, CV_8U, cv::Scalar(100)), maskWith({4, 0, 8, 8}), labels);
   const auto strongest = [&](int x, int y) {
-    const auto pixel = drawn.at<cv::Vec3b>(y, x);
+    const auto& pixel = drawn.at<cv::Vec3b>(y, x);
     return std::max_element(pixel.val, pixel.val + 3) - pixel.val;  // 0 blue, 1 green, 2 red
   };
   EXPECT_EQ(strongest(5, 2), 1);

@@ -14,14 +14,14 @@ namespace {
 Said runLossy(const Flight& flight, const PacketFaults& faults, unsigned seed) {
   const auto bus = makeLcmBus("memq://");
   LossyBus lossy(*bus, faults, seed);
-  const Said said = run(
-      flight, lossy, [&](const Arrival& arrival) { lossy.disturbed = isDisturbed(flight, arrival.utime); });
+  Said said = run(flight, lossy,
+                  [&](const Arrival& arrival) { lossy.disturbed = isDisturbed(flight, arrival.utime); });
   EXPECT_EQ(lossy.handlerFailures(), 0);
   return said;
 }
 
 void expectAllKindsSurvived(double share, int within_frames) {
-  const int percent = static_cast<int>(100 * share + 0.5);
+  const int percent = static_cast<int>(std::lround(100 * share));
   const struct {
     const char* name;
     PacketFaults faults;
@@ -164,7 +164,7 @@ TEST(BusFault, TwoPublishersOnOneChannel) {
 
 /// The whole stack started twice by mistake: two of everyone speak on every channel.
 TEST(BusFault, TwoStacksAtOnce) {
-  const Flight flight = calmFlight();
+  const Flight& flight = calmFlight();
   const auto bus = makeLcmBus("memq://");
   std::unique_ptr<MortalStack> second;
   bool over = false;
@@ -192,7 +192,7 @@ Arrival laterBy(const Arrival& arrival, int64_t us) {
 
 /// Thousands of messages, each a microsecond newer than the last, before any node gets to work on one.
 TEST(BusFault, AFloodIsSkippedNotKept) {
-  const Flight flight = calmFlight();
+  const Flight& flight = calmFlight();
   for (const std::string& channel : {std::string("CAMERA"), std::string("IMU"), std::string("ALTIMETER")}) {
     const auto bus = makeLcmBus("memq://");
     const Arrival sample =
@@ -219,7 +219,7 @@ TEST(BusFault, AFloodIsSkippedNotKept) {
 
 /// A segmentation that is stopped for a third of a second at a time while everyone else goes on.
 TEST(BusFault, ASlowSubscriberSkipsAndHoldsNobodyUp) {
-  const Flight flight = calmFlight();
+  const Flight& flight = calmFlight();
   const auto bus = makeLcmBus("memq://");
   Said said;
   const auto keep = [](auto& into) { return [&into](const auto& m) { into[m.utime] = m; }; };

@@ -177,7 +177,7 @@ TEST(RestartedTracker, WhatCannotBeReadOrWrittenEndsNoFlight) {
 
 TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
   const auto bus = makeLcmBus("memq://");
-  std::map<int64_t, int> status;
+  std::map<int64_t, int8_t> status;
   bus->subscribe<foreground_t>(
       "FOREGROUND", 64, [&](const foreground_t& m) { status[m.utime] = m.status; }, nullptr);
   MotionSegmentationNode node(*bus, walk().configuration);

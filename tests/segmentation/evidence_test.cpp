@@ -2,11 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "geometry/so3.hpp"
 #include "segmentation/flow_entropy.hpp"
 #include "segmentation/foreground_probability.hpp"
 #include "segmentation/guided_filter.hpp"
+#include "segmentation/parallax_evidence.hpp"
 #include "segmentation/parallax_segment.hpp"
 #include "segmentation/travelling_evidence.hpp"
 
@@ -166,6 +168,35 @@ TEST(RunsOutOfPicture, StructuresDoAndIslandsDoNot) {
   EXPECT_TRUE(runsOutOfPicture(tracksWithFront({0, 300, 640, 180}), kStill, shift, picture));
   EXPECT_FALSE(runsOutOfPicture(tracksWithFront({200, 150, 200, 150}), kStill, shift, picture));
   EXPECT_FALSE(runsOutOfPicture(tracksWithFront({}), kStill, shift, picture)) << "nothing follows it";
+}
+
+/// The flow [px] in the middle of a square of 10 px that has moved 3 px to the right over still ground.
+cv::Vec2f flowOfSmallMover(int work_downscale, int flow_downscale) {
+  cv::Mat ground(160, 160, CV_8U), paint(10, 10, CV_8U);
+  cv::RNG random(7);
+  random.fill(ground, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(ground, ground, {0, 0}, 2);
+  random.fill(paint, cv::RNG::UNIFORM, 128, 255);
+  cv::GaussianBlur(paint, paint, {0, 0}, 1);
+  cv::Mat then = ground.clone(), now = ground.clone(), flow;
+  paint.copyTo(then(cv::Rect(70, 75, 10, 10)));
+  paint.copyTo(now(cv::Rect(73, 75, 10, 10)));
+  SegmentationParameters parameters;
+  parameters.work_downscale = work_downscale;
+  parameters.flow_downscale = flow_downscale;
+  makeMotionFlow(parameters)->calc(now, then, flow);
+  EXPECT_EQ(flow.size(), now.size());
+  return flow.at<cv::Vec2f>(80, 78);
+}
+
+TEST(MotionFlow, AFinerOneSeesAMoverThatAPatchOfACoarserOneHides) {
+  EXPECT_LT(cv::norm(flowOfSmallMover(1, 1) - cv::Vec2f(-3, 0)), 0.5);
+  EXPECT_GT(cv::norm(flowOfSmallMover(1, 4) - cv::Vec2f(-3, 0)), 1.5);
+}
+
+TEST(MotionFlow, NoFinerThanThePictureThatItIsFor) {
+  EXPECT_EQ(flowOfSmallMover(2, 1), flowOfSmallMover(2, 2));
+  EXPECT_EQ(flowOfSmallMover(4, 1), flowOfSmallMover(4, 2));
 }
 
 TEST(GuidedFilter, KeepsToTheEdgesOfThePicture) {

@@ -104,6 +104,7 @@ TEST(ImuSimulator, TheAltimeterReadsTheCamerasHeight) {
   const auto samples = simulateAltimeter(hover(), extrinsics, 0, 100, 0, 50, 0.05, 3);
   ASSERT_EQ(samples.size(), 5001U);
   std::vector<double> heights;
+  heights.reserve(samples.size());
   for (const AltitudeSample& sample : samples) heights.push_back(sample.height_m);
   EXPECT_NEAR(statisticsOf(heights).mean, 4.5, 0.004);
   EXPECT_NEAR(statisticsOf(heights).deviation, 0.05, 0.003);

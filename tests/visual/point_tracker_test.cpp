@@ -115,7 +115,7 @@ TEST(PointTracker, FollowsLittleTextureMoreDensely) {
   const PointTracks dense = tracker.advance(bare, {});
   const auto inside = std::count_if(usual.previous.begin(), usual.previous.end(),
                                     [&](const cv::Point2f& p) { return patch.contains(cv::Point(p)); });
-  EXPECT_NEAR(static_cast<double>(inside), patch.area() / (grid * grid), 30);
+  EXPECT_NEAR(static_cast<double>(inside), static_cast<double>(patch.area()) / (grid * grid), 30);
   // Half the grid is four times the points; the patch's edge can be followed, too, which makes them more.
   EXPECT_GT(dense.previous.size(), 3 * inside);
   EXPECT_NEAR(static_cast<double>(dense.sampled) / usual.sampled, 4, 0.4);

@@ -1,0 +1,9 @@
+// Degrees, in which people read and write angles; everything computed is in radians.
+#pragma once
+
+namespace redbee {
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kDegree = kPi / 180;  ///< rad
+
+}  // namespace redbee
