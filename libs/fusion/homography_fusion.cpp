@@ -150,7 +150,7 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
   gated_in_a_row_ = 0;
   if (!agrees) {
     out.source = FusionSource::kVisual;
-    const Estimate step = follow(visual);
+    Estimate step = follow(visual);
     anchorAt(out.utime);
     return step;
   }

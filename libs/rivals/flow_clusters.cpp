@@ -50,6 +50,7 @@ void paintHull(cv::Mat& map, const std::vector<cv::Point2f>& points, float margi
   std::vector<cv::Point2f> hull;
   cv::convexHull(corners, hull);
   std::vector<cv::Point> outline;
+  outline.reserve(hull.size());
   for (const cv::Point2f& corner : hull) outline.emplace_back(cvRound(corner.x), cvRound(corner.y));
   cv::fillConvexPoly(map, outline, cv::Scalar(value));
 }

@@ -21,6 +21,7 @@ struct Channel {
   std::vector<Sinusoid> sinusoids;
 };
 
+// The name is clang's own, in the copy of the arrays. NOLINTNEXTLINE(bugprone-reserved-identifier)
 struct TrajectoryParameters {
   Channel position[3];        ///< of the IMU in G [m]: x, y, z (up)
   Channel yaw_pitch_roll[3];  ///< rad; R_GI = Rz(yaw) Ry(pitch) Rx(roll), IMU: x forward, y left, z up

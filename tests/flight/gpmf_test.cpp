@@ -74,6 +74,7 @@ Bytes payload(int index, int gyro_count, const std::string& gyro_unit = "rad/s",
 
 std::vector<DataPacket> packets(int count, const std::string& unit = "rad/s", const Bytes& extra = {}) {
   std::vector<DataPacket> out;
+  out.reserve(static_cast<size_t>(count));
   for (int k = 0; k < count; ++k) out.push_back({1.0 * k, 1.0, payload(k, 400, unit, extra)});
   return out;
 }

@@ -33,7 +33,7 @@ class ImportVideoTest : public ::testing::Test {
     return importVideo(options_, progress);
   }
   std::string complaint() const {
-    const std::string line = complaintOf([&] { import(); });
+    std::string line = complaintOf([&] { import(); });
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_FALSE(fs::exists(options_.log));
     return line;

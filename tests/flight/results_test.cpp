@@ -89,7 +89,7 @@ TEST(OverlayTest, ShowsMaskAndBoxesAndLeavesTheRest) {
   const cv::Mat overlay = drawOverlay(picture, mask, {detection}, {1'500'000, 24, "fused", 2, ""});
   ASSERT_EQ(overlay.type(), CV_8UC3);
   EXPECT_EQ(overlay.at<cv::Vec3b>(100, 150), cv::Vec3b(100, 100, 100));
-  const auto inside = overlay.at<cv::Vec3b>(70, 70);
+  const auto& inside = overlay.at<cv::Vec3b>(70, 70);
   EXPECT_GT(inside[2], inside[0] + 20) << "the mask is tinted red";
   EXPECT_NE(overlay.at<cv::Vec3b>(55, 70), cv::Vec3b(100, 100, 100)) << "the box";
   EXPECT_GT(cv::norm(overlay.rowRange(0, 25), cv::Mat(25, 200, CV_8UC3, cv::Scalar::all(100)), cv::NORM_INF),

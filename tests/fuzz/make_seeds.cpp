@@ -77,7 +77,7 @@ std::vector<Event> outputs(const std::vector<Event>& events) {
   std::vector<Event> said;
   const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY", "FOREGROUND",
                                "DETECTIONS",          "PROCESS_HEALTH",    "INERTIAL_STATE"};
-  for (uint8_t i = 0; i < std::size(names); ++i) {
+  for (size_t i = 0; i < std::size(names); ++i) {
     bus->subscribe(names[i], 64, [&said, i, &names](const uint8_t* data, int size) {
       said.push_back({0, static_cast<uint8_t>(3 + i), names[i], Bytes(data, data + size)});
     });
@@ -215,6 +215,7 @@ void writeVideoSeed(const fs::path& folder) {
 }  // namespace
 }  // namespace redbee::fuzz
 
+// A tool for us: an exception ends it with its message. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   using namespace redbee::fuzz;  // NOLINT: a program of one page
   if (argc != 2) {

@@ -50,7 +50,8 @@ inline simulation::Scenario loopedScenario() {
   for (const Lane& lane : lanes()) {
     // Equal cars in a row: after one period each is where the one ahead of it was.
     for (int i = 0; i < kCarsInLane; ++i) {
-      const double y_m = (i - kCarsInLane / 2) * std::abs(lane.speed) * kPeriod_s;
+      const int from_middle = i - kCarsInLane / 2;
+      const double y_m = from_middle * std::abs(lane.speed) * kPeriod_s;
       auto car =
           simulation::lyingPatch(simulation::PatchKind::kMover, lane.x_m, y_m, M_PI / 2, 2.6, 1.3, 0.02,
                                  {simulation::TextureKind::kBody, 11, 0.02, lane.grey, 45, {0.75, 0.7, 1.5}});

@@ -24,7 +24,7 @@ using Identities = std::map<int, std::set<int>>;
 /// One frame as the stack told it.
 struct Told {
   std::chrono::steady_clock::time_point when;
-  int status = -1;
+  int8_t status = -1;
   double false_share = 0;  ///< of the picture: called moving, background in truth
   double found_share = 0;  ///< of the movers' pixels
   Identities ids_of_car;

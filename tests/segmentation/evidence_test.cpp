@@ -27,7 +27,8 @@ PointTracks cellOf(double flow_px, bool coherent) {
   PointTracks tracks;
   for (int i = 0; i < 16; ++i) {
     const double angle = coherent ? 0.1 : 2 * M_PI * (i + 0.5) / 16;
-    const cv::Point2f before(static_cast<float>(8 + 16 * (i % 4)), static_cast<float>(8 + 16 * (i / 4)));
+    const int column = i % 4, row = i / 4;
+    const cv::Point2f before(static_cast<float>(8 + 16 * column), static_cast<float>(8 + 16 * row));
     tracks.previous.push_back(before);
     tracks.current.emplace_back(before.x + static_cast<float>(flow_px * std::cos(angle)),
                                 before.y + static_cast<float>(flow_px * std::sin(angle)));

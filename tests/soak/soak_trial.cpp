@@ -92,6 +92,7 @@ bool soak(const Options& options) {
 }  // namespace
 }  // namespace redbee::test
 
+// A tool for us: an exception ends it with its message. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   CLI::App app("flies into a running stack for long and watches it");
   redbee::test::Options options;
