@@ -19,7 +19,7 @@ using simulation::Trajectory;
 using simulation::TrajectoryParameters;
 
 double rotationError_deg(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return logSO3(a * b.transpose()).norm() / kTestDegree;
+  return logSO3(a * b.transpose()).norm() / kDegree;
 }
 
 SimulationChoices briefly() {
@@ -61,11 +61,11 @@ TEST(Calibration, simulatedFlightsWithinTheLimitsAndTheirDeviations) {
     worst_rotation = std::max(worst_rotation, rotationError_deg(estimated.R_CI, r.truth.R_CI));
     worst_shift = std::max(worst_shift, std::abs(estimated.timeshift_s - r.truth.timeshift_s));
     worst_height = std::max(worst_height, std::abs(estimated.start_height_m / r.truth.start_height_m - 1));
-    const Eigen::Vector3d turn = logSO3(estimated.R_CI * r.truth.R_CI.transpose()) / kTestDegree;
+    const Eigen::Vector3d turn = logSO3(estimated.R_CI * r.truth.R_CI.transpose()) / kDegree;
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<size_t>(i);
       rotation.add(turn(i), result.parameter("camera.R_CI").sigma[axis]);
-      gyro.add((result.values.gyro_bias(i) - r.gyro_bias(i)) / kTestDegree,
+      gyro.add((result.values.gyro_bias(i) - r.gyro_bias(i)) / kDegree,
                result.parameter("gyro_bias").sigma[axis]);
       accel.add(result.values.accel_bias(i) - r.accel_bias(i), result.parameter("accel_bias").sigma[axis]);
     }
@@ -98,8 +98,7 @@ TEST(Calibration, deviationsGrowWithErrorsThatNeighbouringPointsShare) {
     choices.common_noise_px = 0.1;
     const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed, choices);
     const CalibrationResult result = calibrate(r.input);
-    const Eigen::Vector3d turn =
-        logSO3(result.values.estimated.R_CI * r.truth.R_CI.transpose()) / kTestDegree;
+    const Eigen::Vector3d turn = logSO3(result.values.estimated.R_CI * r.truth.R_CI.transpose()) / kDegree;
     for (int i = 0; i < 3; ++i)
       rotation.add(turn(i), result.parameter("camera.R_CI").sigma[static_cast<size_t>(i)]);
   }

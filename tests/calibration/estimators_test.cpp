@@ -126,7 +126,7 @@ TEST(RotationAlignment, findsTimeShiftAndRotationWithoutAStartingValue) {
   }
   const RotationAlignment alignment = alignRotations(observations, imu);
   ASSERT_TRUE(alignment.possible);
-  const double error_deg = logSO3(alignment.hand_eye.R_CI * r.truth.R_CI.transpose()).norm() / kTestDegree;
+  const double error_deg = logSO3(alignment.hand_eye.R_CI * r.truth.R_CI.transpose()).norm() / kDegree;
   std::cout << "closed form: rotation off by " << error_deg << " deg, time shift by "
             << 1e3 * (alignment.timeshift_s - r.truth.timeshift_s) << " ms\n";
   EXPECT_LT(error_deg, 0.2);

@@ -7,14 +7,13 @@
 #include <random>
 
 #include "calibration/calibration.hpp"
+#include "geometry/angle.hpp"
 #include "geometry/so3.hpp"
 #include "simulation/imu_simulator.hpp"
 #include "simulation/scenarios.hpp"
 #include "simulation/trajectory.hpp"
 
 namespace redbee::calibration {
-
-inline constexpr double kTestDegree = 3.14159265358979323846 / 180.0;
 
 struct SimulatedRecording {
   CalibrationInput input;
@@ -96,12 +95,12 @@ inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajec
   input.camera.fx = input.camera.fy = 500;
   input.camera.cx = 319.5;
   input.camera.cy = 239.5;
-  input.nominal.R_CI = simulation::pitchedMounting(60 * kTestDegree);
+  input.nominal.R_CI = simulation::pitchedMounting(60 * kDegree);
   input.nominal.start_height_m = 2;
   input.noise = {8.7e-5, 2.0e-3, 2.0e-5, 4.0e-4};
 
   recording.truth = input.nominal;
-  const double off = (1.5 + 2 * uniform(random)) * kTestDegree;
+  const double off = (1.5 + 2 * uniform(random)) * kDegree;
   recording.truth.R_CI = expSO3(off * randomDirection(random)) * input.nominal.R_CI;
   recording.truth.p_IC = 0.05 * randomDirection(random);
   recording.truth.timeshift_s = 0.008 * (2 * uniform(random) - 1);
