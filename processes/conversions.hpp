@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "inertial/imu_buffer.hpp"
-#include "inertial/inertial_knowledge.hpp"
+#include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/inertial/inertial_knowledge.hpp"
 #include "redbee/inertial_state_t.hpp"
-#include "visual/point_tracker.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
 

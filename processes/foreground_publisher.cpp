@@ -1,9 +1,9 @@
 #include "processes/foreground_publisher.hpp"
 
-#include "flight/overlay.hpp"
-#include "messaging/picture.hpp"
+#include "redbee/bus/picture.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
+#include "redbee/results/overlay.hpp"
 
 namespace redbee {
 namespace {

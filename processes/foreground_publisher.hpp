@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
-#include "messaging/bus.hpp"
-#include "messaging/configuration.hpp"
 #include "processes/rectified_camera.hpp"
+#include "redbee/bus/bus.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/detection/motion_segmenter.hpp"
 #include "redbee/image_t.hpp"
-#include "segmentation/motion_segmenter.hpp"
 
 namespace redbee {
 

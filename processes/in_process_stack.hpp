@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "messaging/bus.hpp"
-#include "messaging/configuration.hpp"
-#include "messaging/node.hpp"
+#include "redbee/bus/bus.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/node/node.hpp"
 
 namespace redbee {
 

@@ -1,10 +1,10 @@
 // Whether the calibration fits the flight, as every node that sees both homographies says it in its health.
 #pragma once
 
-#include "geometry/camera.hpp"
-#include "geometry/homography.hpp"
-#include "inertial/calibration_monitor.hpp"
-#include "messaging/health.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/inertial/calibration_monitor.hpp"
+#include "redbee/node/health.hpp"
 
 namespace redbee {
 

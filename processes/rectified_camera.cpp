@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "messaging/picture.hpp"
+#include "redbee/bus/picture.hpp"
 
 namespace redbee {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <opencv2/core.hpp>
 
-#include "geometry/camera.hpp"
-#include "messaging/health.hpp"
+#include "redbee/geometry/camera.hpp"
 #include "redbee/image_t.hpp"
-#include "visual/rectifier.hpp"
+#include "redbee/imaging/rectifier.hpp"
+#include "redbee/node/health.hpp"
 
 namespace redbee {
 

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "messaging/build_version.hpp"
-#include "messaging/receive_buffer.hpp"
+#include "redbee/bus/build_version.hpp"
+#include "redbee/bus/receive_buffer.hpp"
 
 namespace redbee {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "messaging/configuration.hpp"
-#include "messaging/node.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/node/node.hpp"
 
 namespace redbee {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "calibration/camera_motion.hpp"
+#include "redbee/calibration/camera_motion.hpp"
 
 namespace redbee::calibration {
 

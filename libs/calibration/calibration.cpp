@@ -1,4 +1,4 @@
-#include "calibration/calibration.hpp"
+#include "redbee/calibration/calibration.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -6,13 +6,13 @@
 #include <cmath>
 #include <set>
 
-#include "calibration/diagnostics.hpp"
-#include "calibration/flight_solution.hpp"
-#include "calibration/recording.hpp"
-#include "calibration/split_half.hpp"
-#include "calibration/verdict_table.hpp"
-#include "geometry/angle.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/calibration/diagnostics.hpp"
+#include "redbee/calibration/flight_solution.hpp"
+#include "redbee/calibration/recording.hpp"
+#include "redbee/calibration/split_half.hpp"
+#include "redbee/calibration/verdict_table.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "calibration/rotation_alignment.hpp"
-#include "calibration/verdict.hpp"
-#include "geometry/camera.hpp"
-#include "inertial/imu.hpp"
-#include "visual/homography_estimation.hpp"
-#include "visual/point_tracker.hpp"
+#include "redbee/calibration/rotation_alignment.hpp"
+#include "redbee/calibration/verdict.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/inertial/imu.hpp"
+#include "redbee/visual/homography_estimation.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 namespace redbee::calibration {
 

@@ -1,4 +1,4 @@
-#include "calibration/diagnostics.hpp"
+#include "redbee/calibration/diagnostics.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Series for the report: what the solution explains, and what the nominal values would have.
 #pragma once
 
-#include "calibration/calibration.hpp"
-#include "calibration/flight_solution.hpp"
+#include "redbee/calibration/calibration.hpp"
+#include "redbee/calibration/flight_solution.hpp"
 
 namespace redbee::calibration {
 

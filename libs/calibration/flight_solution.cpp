@@ -1,9 +1,9 @@
-#include "calibration/flight_solution.hpp"
+#include "redbee/calibration/flight_solution.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "calibration/ground_fit.hpp"
+#include "redbee/calibration/ground_fit.hpp"
 
 namespace redbee::calibration {
 namespace {

@@ -1,9 +1,9 @@
 // One recording, or a half of it, solved from first values to covariances.
 #pragma once
 
-#include "calibration/initial_trajectory.hpp"
-#include "calibration/joint_problem.hpp"
-#include "calibration/recording.hpp"
+#include "redbee/calibration/initial_trajectory.hpp"
+#include "redbee/calibration/joint_problem.hpp"
+#include "redbee/calibration/recording.hpp"
 
 namespace redbee::calibration {
 

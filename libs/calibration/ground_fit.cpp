@@ -1,4 +1,4 @@
-#include "calibration/ground_fit.hpp"
+#include "redbee/calibration/ground_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "visual/homography_fit.hpp"
+#include "redbee/visual/homography_fit.hpp"
 
 namespace redbee::calibration {
 namespace {

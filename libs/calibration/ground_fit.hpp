@@ -13,8 +13,8 @@
 
 #include <optional>
 
-#include "calibration/joint_problem.hpp"
-#include "visual/point_tracker.hpp"
+#include "redbee/calibration/joint_problem.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 namespace redbee::calibration {
 

@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
-#include "calibration/camera_motion.hpp"
-#include "geometry/homography.hpp"
+#include "redbee/calibration/camera_motion.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee::calibration {
 

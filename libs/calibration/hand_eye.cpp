@@ -1,4 +1,4 @@
-#include "calibration/hand_eye.hpp"
+#include "redbee/calibration/hand_eye.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

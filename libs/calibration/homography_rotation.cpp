@@ -1,11 +1,11 @@
-#include "calibration/homography_rotation.hpp"
+#include "redbee/calibration/homography_rotation.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 

@@ -1,8 +1,8 @@
-#include "calibration/imu_history.hpp"
+#include "redbee/calibration/imu_history.hpp"
 
 #include <algorithm>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

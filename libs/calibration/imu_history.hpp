@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "inertial/imu.hpp"
+#include "redbee/inertial/imu.hpp"
 
 namespace redbee::calibration {
 

@@ -1,11 +1,11 @@
-#include "calibration/initial_trajectory.hpp"
+#include "redbee/calibration/initial_trajectory.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

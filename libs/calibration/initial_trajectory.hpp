@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "calibration/joint_problem.hpp"
-#include "calibration/joint_state.hpp"
+#include "redbee/calibration/joint_problem.hpp"
+#include "redbee/calibration/joint_state.hpp"
 
 namespace redbee::calibration {
 

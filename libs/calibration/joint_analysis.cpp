@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "calibration/joint_problem.hpp"
+#include "redbee/calibration/joint_problem.hpp"
 
 namespace redbee::calibration {
 namespace {

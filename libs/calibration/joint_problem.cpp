@@ -1,4 +1,4 @@
-#include "calibration/joint_problem.hpp"
+#include "redbee/calibration/joint_problem.hpp"
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/loss_function.h>
@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/altitude_cost.hpp"
-#include "calibration/ground_homography_cost.hpp"
-#include "calibration/preintegration_cost.hpp"
-#include "calibration/prior_costs.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/calibration/altitude_cost.hpp"
+#include "redbee/calibration/ground_homography_cost.hpp"
+#include "redbee/calibration/preintegration_cost.hpp"
+#include "redbee/calibration/prior_costs.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

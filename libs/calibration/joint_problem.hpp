@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "calibration/imu_history.hpp"
-#include "calibration/joint_state.hpp"
-#include "calibration/target_pose_cost.hpp"
-#include "geometry/camera.hpp"
-#include "geometry/homography.hpp"
+#include "redbee/calibration/imu_history.hpp"
+#include "redbee/calibration/joint_state.hpp"
+#include "redbee/calibration/target_pose_cost.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee::calibration {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "calibration/preintegration.hpp"
+#include "redbee/calibration/preintegration.hpp"
 
 namespace redbee::calibration {
 

@@ -1,6 +1,6 @@
-#include "calibration/preintegration.hpp"
+#include "redbee/calibration/preintegration.hpp"
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

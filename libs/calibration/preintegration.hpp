@@ -11,8 +11,8 @@
 
 #include <Eigen/Core>
 
-#include "calibration/imu_history.hpp"
-#include "inertial/imu.hpp"
+#include "redbee/calibration/imu_history.hpp"
+#include "redbee/inertial/imu.hpp"
 
 namespace redbee::calibration {
 

@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
-#include "calibration/camera_motion.hpp"
-#include "calibration/preintegration.hpp"
+#include "redbee/calibration/camera_motion.hpp"
+#include "redbee/calibration/preintegration.hpp"
 
 namespace redbee::calibration {
 

@@ -1,12 +1,12 @@
-#include "calibration/recording.hpp"
+#include "redbee/calibration/recording.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <map>
 
-#include "calibration/target_pose.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/calibration/target_pose.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

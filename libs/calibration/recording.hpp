@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration.hpp"
-#include "calibration/imu_history.hpp"
-#include "calibration/joint_problem.hpp"
-#include "calibration/rotation_alignment.hpp"
+#include "redbee/calibration/calibration.hpp"
+#include "redbee/calibration/imu_history.hpp"
+#include "redbee/calibration/joint_problem.hpp"
+#include "redbee/calibration/rotation_alignment.hpp"
 
 namespace redbee::calibration {
 

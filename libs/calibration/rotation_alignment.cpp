@@ -1,11 +1,11 @@
-#include "calibration/rotation_alignment.hpp"
+#include "redbee/calibration/rotation_alignment.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

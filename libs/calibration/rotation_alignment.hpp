@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "calibration/hand_eye.hpp"
-#include "calibration/homography_rotation.hpp"
-#include "calibration/imu_history.hpp"
+#include "redbee/calibration/hand_eye.hpp"
+#include "redbee/calibration/homography_rotation.hpp"
+#include "redbee/calibration/imu_history.hpp"
 
 namespace redbee::calibration {
 

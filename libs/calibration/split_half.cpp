@@ -1,10 +1,10 @@
-#include "calibration/split_half.hpp"
+#include "redbee/calibration/split_half.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "geometry/angle.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "calibration/calibration.hpp"
-#include "calibration/flight_solution.hpp"
+#include "redbee/calibration/calibration.hpp"
+#include "redbee/calibration/flight_solution.hpp"
 
 namespace redbee::calibration {
 

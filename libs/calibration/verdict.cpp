@@ -1,4 +1,4 @@
-#include "calibration/verdict.hpp"
+#include "redbee/calibration/verdict.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -1,10 +1,10 @@
-#include "calibration/verdict_table.hpp"
+#include "redbee/calibration/verdict_table.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "geometry/angle.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "calibration/calibration.hpp"
-#include "calibration/joint_problem.hpp"
+#include "redbee/calibration/calibration.hpp"
+#include "redbee/calibration/joint_problem.hpp"
 
 namespace redbee::calibration {
 

@@ -1,10 +1,10 @@
-#include "evaluation/extrinsics_disturbance.hpp"
+#include "redbee/evaluation/extrinsics_disturbance.hpp"
 
 #include <cmath>
 #include <cstdint>
 
-#include "geometry/angle.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee {
 namespace {

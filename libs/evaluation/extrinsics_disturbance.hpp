@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "geometry/angle.hpp"
-#include "inertial/imu.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/inertial/imu.hpp"
 
 namespace redbee {
 

@@ -1,4 +1,4 @@
-#include "evaluation/object_measures.hpp"
+#include "redbee/evaluation/object_measures.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "evaluation/pixel_measures.hpp"
+#include "redbee/evaluation/pixel_measures.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "fusion/estimate.hpp"
+#include "redbee/fusion/estimate.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -1,7 +1,7 @@
 // A homography that carries its error, and what is done with both at once.
 #pragma once
 
-#include "geometry/homography.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee {
 

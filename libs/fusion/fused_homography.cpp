@@ -1,4 +1,4 @@
-#include "fusion/fused_homography.hpp"
+#include "redbee/fusion/fused_homography.hpp"
 
 namespace redbee {
 

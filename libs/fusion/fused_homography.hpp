@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "geometry/homography.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee {
 

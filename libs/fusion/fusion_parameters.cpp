@@ -1,4 +1,4 @@
-#include "fusion/fusion_parameters.hpp"
+#include "redbee/fusion/fusion_parameters.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "fusion/homography_fusion.hpp"
+#include "redbee/fusion/homography_fusion.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "fusion/overlap.hpp"
-#include "fusion/transfer_sigma.hpp"
-#include "geometry/chi_square.hpp"
+#include "redbee/fusion/overlap.hpp"
+#include "redbee/fusion/transfer_sigma.hpp"
+#include "redbee/geometry/chi_square.hpp"
 
 namespace redbee {
 namespace {

@@ -13,10 +13,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "fusion/estimate.hpp"
-#include "fusion/fused_homography.hpp"
-#include "fusion/fusion_parameters.hpp"
-#include "fusion/step_chain.hpp"
+#include "redbee/fusion/estimate.hpp"
+#include "redbee/fusion/fused_homography.hpp"
+#include "redbee/fusion/fusion_parameters.hpp"
+#include "redbee/fusion/step_chain.hpp"
 
 namespace redbee {
 

@@ -1,4 +1,4 @@
-#include "fusion/overlap.hpp"
+#include "redbee/fusion/overlap.hpp"
 
 namespace redbee {
 

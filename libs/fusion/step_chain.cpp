@@ -1,4 +1,4 @@
-#include "fusion/step_chain.hpp"
+#include "redbee/fusion/step_chain.hpp"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <deque>
 #include <optional>
 
-#include "fusion/estimate.hpp"
+#include "redbee/fusion/estimate.hpp"
 
 namespace redbee {
 

@@ -1,4 +1,4 @@
-#include "fusion/transfer_sigma.hpp"
+#include "redbee/fusion/transfer_sigma.hpp"
 
 #include <cmath>
 

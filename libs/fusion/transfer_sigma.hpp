@@ -1,7 +1,7 @@
 // What a homography's covariance means in the picture.
 #pragma once
 
-#include "geometry/homography.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee {
 

@@ -1,4 +1,4 @@
-#include "geometry/camera.hpp"
+#include "redbee/geometry/camera.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-#include "geometry/chi_square.hpp"
+#include "redbee/geometry/chi_square.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "geometry/homography.hpp"
+#include "redbee/geometry/homography.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <limits>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee {
 namespace {

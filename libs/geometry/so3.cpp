@@ -1,4 +1,4 @@
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

@@ -1,14 +1,14 @@
-#include "inertial/corrections.hpp"
+#include "redbee/inertial/corrections.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/chi_square.hpp"
-#include "geometry/so3.hpp"
-#include "inertial/homography_measurement.hpp"
-#include "inertial/seconds.hpp"
+#include "redbee/geometry/chi_square.hpp"
+#include "redbee/geometry/so3.hpp"
+#include "redbee/inertial/homography_measurement.hpp"
+#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {

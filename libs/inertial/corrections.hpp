@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
-#include "inertial/error_state.hpp"
-#include "inertial/imu_buffer.hpp"
-#include "inertial/inertial_filter.hpp"
+#include "redbee/inertial/error_state.hpp"
+#include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
 
 namespace redbee {
 

@@ -1,8 +1,8 @@
-#include "inertial/error_state.hpp"
+#include "redbee/inertial/error_state.hpp"
 
 #include <cmath>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee {
 namespace {

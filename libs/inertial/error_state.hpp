@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "inertial/imu.hpp"
-#include "inertial/imu_buffer.hpp"
+#include "redbee/inertial/imu.hpp"
+#include "redbee/inertial/imu_buffer.hpp"
 
 namespace redbee {
 

@@ -1,10 +1,10 @@
-#include "inertial/frame_samples.hpp"
+#include "redbee/inertial/frame_samples.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "inertial/seconds.hpp"
+#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "inertial/imu_buffer.hpp"
-#include "inertial/imu_sample_check.hpp"
-#include "inertial/inertial_filter.hpp"
+#include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/inertial/imu_sample_check.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
 
 namespace redbee {
 

@@ -1,10 +1,10 @@
-#include "inertial/homography_measurement.hpp"
+#include "redbee/inertial/homography_measurement.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee {
 namespace {

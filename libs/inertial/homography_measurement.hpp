@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 
-#include "geometry/camera.hpp"
-#include "geometry/homography.hpp"
-#include "inertial/error_state.hpp"
-#include "inertial/inertial_homography.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/inertial/error_state.hpp"
+#include "redbee/inertial/inertial_homography.hpp"
 
 namespace redbee {
 

@@ -1,9 +1,9 @@
-#include "inertial/imu_buffer.hpp"
+#include "redbee/inertial/imu_buffer.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "inertial/seconds.hpp"
+#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {

@@ -1,9 +1,9 @@
-#include "inertial/imu_sample_check.hpp"
+#include "redbee/inertial/imu_sample_check.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "inertial/seconds.hpp"
+#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {

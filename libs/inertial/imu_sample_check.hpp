@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "inertial/imu.hpp"
+#include "redbee/inertial/imu.hpp"
 
 namespace redbee {
 

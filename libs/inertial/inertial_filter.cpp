@@ -1,13 +1,13 @@
-#include "inertial/inertial_filter.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
 
 #include <cmath>
 
-#include "inertial/corrections.hpp"
-#include "inertial/error_state.hpp"
-#include "inertial/frame_samples.hpp"
-#include "inertial/homography_measurement.hpp"
-#include "inertial/initial_state.hpp"
-#include "inertial/seconds.hpp"
+#include "redbee/inertial/corrections.hpp"
+#include "redbee/inertial/error_state.hpp"
+#include "redbee/inertial/frame_samples.hpp"
+#include "redbee/inertial/homography_measurement.hpp"
+#include "redbee/inertial/initial_state.hpp"
+#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {

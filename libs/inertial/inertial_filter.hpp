@@ -15,13 +15,13 @@
 #include <memory>
 #include <optional>
 
-#include "geometry/angle.hpp"
-#include "geometry/camera.hpp"
-#include "geometry/homography.hpp"
-#include "inertial/imu.hpp"
-#include "inertial/imu_sample_check.hpp"
-#include "inertial/inertial_homography.hpp"
-#include "inertial/inertial_knowledge.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/inertial/imu.hpp"
+#include "redbee/inertial/imu_sample_check.hpp"
+#include "redbee/inertial/inertial_homography.hpp"
+#include "redbee/inertial/inertial_knowledge.hpp"
 
 namespace redbee {
 

@@ -1,4 +1,4 @@
-#include "inertial/inertial_homography.hpp"
+#include "redbee/inertial/inertial_homography.hpp"
 
 namespace redbee {
 

@@ -1,13 +1,13 @@
-#include "inertial/inertial_knowledge.hpp"
+#include "redbee/inertial/inertial_knowledge.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/so3.hpp"
-#include "inertial/error_state.hpp"
-#include "inertial/imu_buffer.hpp"
-#include "inertial/inertial_filter.hpp"
-#include "inertial/seconds.hpp"
+#include "redbee/geometry/so3.hpp"
+#include "redbee/inertial/error_state.hpp"
+#include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {

@@ -1,11 +1,11 @@
-#include "inertial/initial_state.hpp"
+#include "redbee/inertial/initial_state.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "geometry/so3.hpp"
-#include "inertial/corrections.hpp"
-#include "inertial/homography_measurement.hpp"
+#include "redbee/geometry/so3.hpp"
+#include "redbee/inertial/corrections.hpp"
+#include "redbee/inertial/homography_measurement.hpp"
 
 namespace redbee {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "inertial/error_state.hpp"
-#include "inertial/inertial_filter.hpp"
-#include "inertial/inertial_knowledge.hpp"
+#include "redbee/inertial/error_state.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/inertial/inertial_knowledge.hpp"
 
 namespace redbee {
 

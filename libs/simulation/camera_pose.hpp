@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "inertial/imu.hpp"
-#include "simulation/trajectory.hpp"
+#include "redbee/inertial/imu.hpp"
+#include "redbee/simulation/trajectory.hpp"
 
 namespace redbee::simulation {
 

@@ -1,9 +1,9 @@
-#include "simulation/flight_simulator.hpp"
+#include "redbee/simulation/flight_simulator.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "geometry/homography.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee::simulation {
 namespace {

@@ -9,12 +9,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/camera.hpp"
-#include "inertial/imu.hpp"
-#include "simulation/imu_simulator.hpp"
-#include "simulation/renderer.hpp"
-#include "simulation/scene.hpp"
-#include "simulation/trajectory.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/inertial/imu.hpp"
+#include "redbee/simulation/imu_simulator.hpp"
+#include "redbee/simulation/renderer.hpp"
+#include "redbee/simulation/scene.hpp"
+#include "redbee/simulation/trajectory.hpp"
 
 namespace redbee::simulation {
 

@@ -1,9 +1,9 @@
-#include "simulation/imu_simulator.hpp"
+#include "redbee/simulation/imu_simulator.hpp"
 
 #include <cmath>
 #include <random>
 
-#include "simulation/camera_pose.hpp"
+#include "redbee/simulation/camera_pose.hpp"
 
 namespace redbee::simulation {
 namespace {

@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "geometry/homography.hpp"
-#include "inertial/imu.hpp"
-#include "simulation/trajectory.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/inertial/imu.hpp"
+#include "redbee/simulation/trajectory.hpp"
 
 namespace redbee::simulation {
 

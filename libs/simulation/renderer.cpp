@@ -1,4 +1,4 @@
-#include "simulation/renderer.hpp"
+#include "redbee/simulation/renderer.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "geometry/angle.hpp"
-#include "simulation/wave_field.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/simulation/wave_field.hpp"
 
 namespace redbee::simulation {
 namespace {

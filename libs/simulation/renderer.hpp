@@ -4,9 +4,9 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "geometry/camera.hpp"
-#include "simulation/camera_pose.hpp"
-#include "simulation/scene.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/simulation/camera_pose.hpp"
+#include "redbee/simulation/scene.hpp"
 
 namespace redbee::simulation {
 

@@ -1,10 +1,10 @@
-#include "simulation/scenarios.hpp"
+#include "redbee/simulation/scenarios.hpp"
 
 #include <cmath>
 #include <random>
 
-#include "geometry/angle.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::simulation {
 namespace {

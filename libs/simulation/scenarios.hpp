@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "simulation/flight_simulator.hpp"
+#include "redbee/simulation/flight_simulator.hpp"
 
 namespace redbee::simulation {
 

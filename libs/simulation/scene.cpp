@@ -1,4 +1,4 @@
-#include "simulation/scene.hpp"
+#include "redbee/simulation/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/texture.hpp"
+#include "redbee/simulation/texture.hpp"
 
 namespace redbee::simulation {
 

@@ -1,4 +1,4 @@
-#include "simulation/texture.hpp"
+#include "redbee/simulation/texture.hpp"
 
 #include <algorithm>
 #include <cmath>

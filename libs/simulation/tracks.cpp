@@ -1,12 +1,12 @@
-#include "simulation/tracks.hpp"
+#include "redbee/simulation/tracks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
-#include "geometry/angle.hpp"
-#include "geometry/homography.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee::simulation {
 namespace {

@@ -1,11 +1,11 @@
-#include "simulation/trajectory.hpp"
+#include "redbee/simulation/trajectory.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <initializer_list>
 #include <random>
 
-#include "geometry/angle.hpp"
+#include "redbee/geometry/angle.hpp"
 
 namespace redbee::simulation {
 namespace {

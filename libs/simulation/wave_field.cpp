@@ -1,9 +1,9 @@
-#include "simulation/wave_field.hpp"
+#include "redbee/simulation/wave_field.hpp"
 
 #include <cmath>
 #include <random>
 
-#include "geometry/angle.hpp"
+#include "redbee/geometry/angle.hpp"
 
 namespace redbee::simulation {
 namespace {

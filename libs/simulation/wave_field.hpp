@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "simulation/scene.hpp"
+#include "redbee/simulation/scene.hpp"
 
 namespace redbee::simulation {
 

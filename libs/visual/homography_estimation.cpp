@@ -1,4 +1,4 @@
-#include "visual/homography_estimation.hpp"
+#include "redbee/visual/homography_estimation.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "visual/plane_refinement.hpp"
-#include "visual/scaled_pairs.hpp"
+#include "redbee/visual/plane_refinement.hpp"
+#include "redbee/visual/scaled_pairs.hpp"
 
 namespace redbee {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/homography.hpp"
-#include "visual/point_tracker.hpp"
-#include "visual/ransac.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/visual/point_tracker.hpp"
+#include "redbee/visual/ransac.hpp"
 
 namespace redbee {
 

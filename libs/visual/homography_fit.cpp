@@ -1,4 +1,4 @@
-#include "visual/homography_fit.hpp"
+#include "redbee/visual/homography_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "visual/normal_equations.hpp"
+#include "redbee/visual/normal_equations.hpp"
 
 namespace redbee {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/homography.hpp"
-#include "visual/scaled_pairs.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/visual/scaled_pairs.hpp"
 
 namespace redbee {
 

@@ -1,4 +1,4 @@
-#include "visual/normal_equations.hpp"
+#include "redbee/visual/normal_equations.hpp"
 
 #include <array>
 #include <cmath>

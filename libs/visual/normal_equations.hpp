@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/homography.hpp"
-#include "visual/scaled_pairs.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/visual/scaled_pairs.hpp"
 
 namespace redbee {
 

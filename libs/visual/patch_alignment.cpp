@@ -1,4 +1,4 @@
-#include "visual/patch_alignment.hpp"
+#include "redbee/visual/patch_alignment.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "visual/lanes.hpp"
-#include "visual/pyramid.hpp"
+#include "redbee/imaging/pyramid.hpp"
+#include "redbee/visual/lanes.hpp"
 
 namespace redbee {
 

@@ -1,10 +1,10 @@
-#include "visual/plane_refinement.hpp"
+#include "redbee/visual/plane_refinement.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "visual/homography_fit.hpp"
+#include "redbee/visual/homography_fit.hpp"
 
 namespace redbee {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "visual/homography_estimation.hpp"
-#include "visual/scaled_pairs.hpp"
+#include "redbee/visual/homography_estimation.hpp"
+#include "redbee/visual/scaled_pairs.hpp"
 
 namespace redbee {
 

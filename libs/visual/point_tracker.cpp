@@ -1,4 +1,4 @@
-#include "visual/point_tracker.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "geometry/homography.hpp"
-#include "visual/patch_alignment.hpp"
-#include "visual/pyramid.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/imaging/pyramid.hpp"
+#include "redbee/visual/patch_alignment.hpp"
 
 namespace redbee {
 namespace {

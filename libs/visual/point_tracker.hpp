@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "visual/pyramid.hpp"
+#include "redbee/imaging/pyramid.hpp"
 
 namespace redbee {
 

@@ -1,4 +1,4 @@
-#include "visual/ransac.hpp"
+#include "redbee/visual/ransac.hpp"
 
 #include <algorithm>
 #include <cmath>

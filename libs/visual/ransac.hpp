@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "visual/homography_fit.hpp"
+#include "redbee/visual/homography_fit.hpp"
 
 namespace redbee {
 

@@ -1,4 +1,4 @@
-#include "visual/scaled_pairs.hpp"
+#include "redbee/visual/scaled_pairs.hpp"
 
 namespace redbee {
 

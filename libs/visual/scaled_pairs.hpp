@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/homography.hpp"
-#include "visual/point_tracker.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
 

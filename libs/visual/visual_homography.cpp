@@ -1,4 +1,4 @@
-#include "visual/visual_homography.hpp"
+#include "redbee/visual/visual_homography.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "visual/homography_estimation.hpp"
-#include "visual/point_tracker.hpp"
+#include "redbee/visual/homography_estimation.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
 

@@ -1,11 +1,11 @@
 #include "processes/homography_fusion/node.hpp"
 
-#include "inertial/inertial_homography.hpp"
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
-#include "processes/work_timer.hpp"
+#include "redbee/inertial/inertial_homography.hpp"
 #include "redbee/ins_t.hpp"
-#include "visual/homography_estimation.hpp"
+#include "redbee/node/work_timer.hpp"
+#include "redbee/visual/homography_estimation.hpp"
 
 namespace redbee {
 namespace {

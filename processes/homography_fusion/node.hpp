@@ -6,17 +6,17 @@
 #include <map>
 #include <optional>
 
-#include "fusion/homography_fusion.hpp"
-#include "inertial/calibration_monitor.hpp"
-#include "messaging/companion_buffer.hpp"
-#include "messaging/configuration.hpp"
-#include "messaging/frame_order.hpp"
-#include "messaging/message_clock.hpp"
-#include "messaging/node.hpp"
-#include "processes/work_timer.hpp"
+#include "redbee/configuration/configuration.hpp"
 #include "redbee/fused_homography_t.hpp"
+#include "redbee/fusion/homography_fusion.hpp"
+#include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/inertial_state_t.hpp"
+#include "redbee/node/companion_buffer.hpp"
+#include "redbee/node/frame_order.hpp"
+#include "redbee/node/message_clock.hpp"
+#include "redbee/node/node.hpp"
+#include "redbee/node/work_timer.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {

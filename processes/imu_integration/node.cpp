@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "processes/conversions.hpp"
-#include "processes/frame_intake.hpp"
 #include "processes/note_calibration.hpp"
-#include "processes/work_timer.hpp"
+#include "redbee/node/frame_intake.hpp"
+#include "redbee/node/work_timer.hpp"
 
 namespace redbee {
 namespace {

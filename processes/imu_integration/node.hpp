@@ -7,20 +7,20 @@
 #include <optional>
 #include <string>
 
-#include "inertial/calibration_monitor.hpp"
-#include "inertial/inertial_filter.hpp"
-#include "messaging/companion_buffer.hpp"
-#include "messaging/configuration.hpp"
-#include "messaging/frame_order.hpp"
-#include "messaging/message_clock.hpp"
-#include "messaging/node.hpp"
-#include "processes/work_timer.hpp"
 #include "redbee/altimeter_t.hpp"
+#include "redbee/configuration/configuration.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/inertial/calibration_monitor.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/node/companion_buffer.hpp"
+#include "redbee/node/frame_order.hpp"
+#include "redbee/node/message_clock.hpp"
+#include "redbee/node/node.hpp"
+#include "redbee/node/work_timer.hpp"
 
 namespace redbee {
 

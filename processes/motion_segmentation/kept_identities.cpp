@@ -6,7 +6,7 @@
 #include <fstream>
 #include <utility>
 
-#include "flight/atomic_file.hpp"
+#include "redbee/files/atomic_file.hpp"
 
 namespace redbee {
 

@@ -3,10 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
-#include "processes/work_timer.hpp"
+#include "redbee/bus/picture.hpp"
+#include "redbee/node/work_timer.hpp"
 
 namespace redbee {
 namespace {

@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <optional>
 
-#include "inertial/calibration_monitor.hpp"
-#include "messaging/companion_buffer.hpp"
-#include "messaging/configuration.hpp"
-#include "messaging/node.hpp"
 #include "processes/foreground_publisher.hpp"
 #include "processes/motion_segmentation/kept_identities.hpp"
-#include "processes/picture_queue.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/detection/motion_segmenter.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/inertial/calibration_monitor.hpp"
+#include "redbee/node/companion_buffer.hpp"
+#include "redbee/node/node.hpp"
+#include "redbee/node/picture_queue.hpp"
 #include "redbee/visual_homography_t.hpp"
-#include "segmentation/motion_segmenter.hpp"
 
 namespace redbee {
 

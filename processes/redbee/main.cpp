@@ -1,3 +1,3 @@
-#include "processes/redbee/commands.hpp"
+#include "processes/redbee/commands/commands.hpp"
 
 int main(int argc, char** argv) { return redbee::runTool(argc, argv); }

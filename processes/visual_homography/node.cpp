@@ -2,11 +2,11 @@
 
 #include <Eigen/Cholesky>
 
-#include "geometry/chi_square.hpp"
-#include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
-#include "processes/work_timer.hpp"
+#include "redbee/bus/picture.hpp"
+#include "redbee/geometry/chi_square.hpp"
+#include "redbee/node/work_timer.hpp"
 
 namespace redbee {
 namespace {

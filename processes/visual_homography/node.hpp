@@ -5,16 +5,16 @@
 #include <memory>
 #include <optional>
 
-#include "inertial/calibration_monitor.hpp"
-#include "messaging/companion_buffer.hpp"
-#include "messaging/configuration.hpp"
-#include "messaging/node.hpp"
-#include "processes/picture_queue.hpp"
+#include "redbee/configuration/configuration.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/imaging/rectifier.hpp"
+#include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/inertial_homography_t.hpp"
+#include "redbee/node/companion_buffer.hpp"
+#include "redbee/node/node.hpp"
+#include "redbee/node/picture_queue.hpp"
+#include "redbee/visual/visual_homography.hpp"
 #include "redbee/visual_homography_t.hpp"
-#include "visual/rectifier.hpp"
-#include "visual/visual_homography.hpp"
 
 namespace redbee {
 

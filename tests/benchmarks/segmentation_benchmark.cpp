@@ -5,15 +5,15 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "segmentation/carried_background.hpp"
-#include "segmentation/earlier_frames.hpp"
-#include "segmentation/guided_filter.hpp"
-#include "segmentation/motion_segmenter.hpp"
-#include "segmentation/object_tracker.hpp"
-#include "segmentation/parallax_evidence.hpp"
-#include "segmentation/two_plane_background.hpp"
-#include "simulation/scenarios.hpp"
-#include "tests/segmentation/simulated_flight.hpp"
+#include "redbee/detection/appearance/carried_background.hpp"
+#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/detection/objects/object_tracker.hpp"
+#include "redbee/detection/parallax/earlier_frames.hpp"
+#include "redbee/detection/parallax/parallax_evidence.hpp"
+#include "redbee/detection/two_planes/two_plane_background.hpp"
+#include "redbee/imaging/guided_filter.hpp"
+#include "redbee/simulation/scenarios.hpp"
+#include "tests/detection/simulated_flight.hpp"
 
 namespace {
 

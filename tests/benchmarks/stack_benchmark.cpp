@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "flight/log.hpp"
-#include "processes/redbee/detect.hpp"
+#include "processes/redbee/detect/detect.hpp"
+#include "redbee/files/log.hpp"
 
 namespace {
 

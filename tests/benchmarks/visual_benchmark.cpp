@@ -6,9 +6,9 @@
 #include <opencv2/video/tracking.hpp>
 #include <vector>
 
-#include "simulation/scenarios.hpp"
-#include "visual/homography_estimation.hpp"
-#include "visual/point_tracker.hpp"
+#include "redbee/simulation/scenarios.hpp"
+#include "redbee/visual/homography_estimation.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 namespace {
 

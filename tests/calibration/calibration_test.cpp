@@ -1,5 +1,5 @@
 // The whole calibration against simulated truth.
-#include "calibration/calibration.hpp"
+#include "redbee/calibration/calibration.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,12 +6,12 @@
 
 #include <memory>
 
-#include "calibration/altitude_cost.hpp"
-#include "calibration/ground_homography_cost.hpp"
-#include "calibration/preintegration_cost.hpp"
-#include "calibration/prior_costs.hpp"
-#include "calibration/target_pose_cost.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/calibration/altitude_cost.hpp"
+#include "redbee/calibration/ground_homography_cost.hpp"
+#include "redbee/calibration/preintegration_cost.hpp"
+#include "redbee/calibration/prior_costs.hpp"
+#include "redbee/calibration/target_pose_cost.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
 namespace {

@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <iostream>
 
-#include "calibration/initial_trajectory.hpp"
-#include "calibration/rotation_alignment.hpp"
-#include "calibration/target_pose.hpp"
+#include "redbee/calibration/initial_trajectory.hpp"
+#include "redbee/calibration/rotation_alignment.hpp"
+#include "redbee/calibration/target_pose.hpp"
 #include "tests/calibration/simulated_recording.hpp"
 
 namespace redbee::calibration {

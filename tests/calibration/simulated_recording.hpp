@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <random>
 
-#include "calibration/calibration.hpp"
-#include "geometry/angle.hpp"
-#include "geometry/so3.hpp"
-#include "simulation/imu_simulator.hpp"
-#include "simulation/scenarios.hpp"
-#include "simulation/trajectory.hpp"
+#include "redbee/calibration/calibration.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/so3.hpp"
+#include "redbee/simulation/imu_simulator.hpp"
+#include "redbee/simulation/scenarios.hpp"
+#include "redbee/simulation/trajectory.hpp"
 
 namespace redbee::calibration {
 

@@ -1,11 +1,11 @@
-#include "evaluation/extrinsics_disturbance.hpp"
+#include "redbee/evaluation/extrinsics_disturbance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "geometry/angle.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee {
 namespace {

@@ -1,4 +1,4 @@
-#include "fusion/homography_fusion.hpp"
+#include "redbee/fusion/homography_fusion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <limits>
 #include <random>
 
-#include "geometry/chi_square.hpp"
-#include "geometry/so3.hpp"
-#include "simulation/imu_simulator.hpp"
-#include "simulation/trajectory.hpp"
+#include "redbee/geometry/chi_square.hpp"
+#include "redbee/geometry/so3.hpp"
+#include "redbee/simulation/imu_simulator.hpp"
+#include "redbee/simulation/trajectory.hpp"
 
 namespace redbee {
 namespace {

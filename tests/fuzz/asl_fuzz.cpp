@@ -2,9 +2,9 @@
 // sensor.yaml and imu0's, cut by lines of "%%". The one picture there is is good.
 #include <opencv2/imgcodecs.hpp>
 
-#include "flight/import_asl.hpp"
-#include "flight/input_error.hpp"
-#include "fuzz_input.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/importers/import_asl.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 
 namespace redbee {
 namespace {

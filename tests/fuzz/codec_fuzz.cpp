@@ -1,12 +1,12 @@
 // Every message type: bytes that decode encode to the same bytes, and pictures decode or do not.
 // Input: one byte that picks the type, then what follows the type's hash.
-#include "fuzz_input.hpp"
-#include "messaging/codec.hpp"
-#include "messaging/picture.hpp"
 #include "redbee/altimeter_t.hpp"
+#include "redbee/bus/codec.hpp"
+#include "redbee/bus/picture.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 
 namespace redbee {
 namespace {

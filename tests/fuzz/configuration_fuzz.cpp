@@ -1,6 +1,6 @@
 // A vehicle's YAML file with any content: read, or refused in one line.
-#include "fuzz_input.hpp"
-#include "messaging/configuration.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace redbee;  // NOLINT: a target is one function

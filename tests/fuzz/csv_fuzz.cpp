@@ -1,8 +1,8 @@
 // The CSV files that a user hands over: an IMU beside a video, corners and IMU of a calibration target.
-#include "flight/import_video.hpp"
-#include "flight/input_error.hpp"
-#include "fuzz_input.hpp"
-#include "processes/redbee/calibration_target_csv.hpp"
+#include "processes/redbee/calibrate/calibration_target_csv.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/importers/import_video.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace redbee;  // NOLINT: a target is one function

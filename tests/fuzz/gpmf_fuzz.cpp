@@ -1,8 +1,8 @@
 // A GoPro's motion track with any content: two payloads, cut by a line of "%%".
-#include "flight/gopro_imu.hpp"
-#include "flight/gpmf.hpp"
-#include "flight/video_reader.hpp"
-#include "fuzz_input.hpp"
+#include "redbee/importers/gopro_imu.hpp"
+#include "redbee/importers/gpmf.hpp"
+#include "redbee/importers/video_reader.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace redbee;  // NOLINT: a target is one function

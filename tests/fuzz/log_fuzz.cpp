@@ -1,7 +1,7 @@
 // An LCM log with any content: read to its end, twice the same.
-#include "flight/input_error.hpp"
-#include "flight/log.hpp"
-#include "fuzz_input.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 
 namespace redbee {
 namespace {

@@ -5,19 +5,19 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "flight/log.hpp"
-#include "flight/video_writer.hpp"
-#include "fuzz_input.hpp"
-#include "messaging/codec.hpp"
-#include "messaging/picture.hpp"
 #include "processes/conversions.hpp"
 #include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
+#include "redbee/bus/codec.hpp"
+#include "redbee/bus/picture.hpp"
 #include "redbee/detections_t.hpp"
+#include "redbee/files/log.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/process_health_t.hpp"
-#include "small_vehicle.hpp"
+#include "redbee/results/video_writer.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
+#include "tests/fuzz/small_vehicle.hpp"
 
 namespace redbee::fuzz {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "fuzz_input.hpp"
 #include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/fused_homography_t.hpp"
@@ -14,6 +13,7 @@
 #include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/visual_homography_t.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 #include "tests/fuzz/small_vehicle.hpp"
 
 namespace redbee::fuzz {

@@ -1,8 +1,8 @@
 // A vehicle whose camera is small enough for a fuzzer's inputs.
 #pragma once
 
-#include "messaging/configuration.hpp"
-#include "simulation/scenarios.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/simulation/scenarios.hpp"
 
 namespace redbee::fuzz {
 

@@ -1,7 +1,7 @@
 // Any bytes as a video: its first frames and its motion track are read, or it is refused.
-#include "flight/input_error.hpp"
-#include "flight/video_reader.hpp"
-#include "fuzz_input.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/importers/video_reader.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace redbee;  // NOLINT: a target is one function

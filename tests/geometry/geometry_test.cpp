@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/camera.hpp"
-#include "geometry/homography.hpp"
-#include "geometry/so3.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee {
 namespace {

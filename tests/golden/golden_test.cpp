@@ -11,9 +11,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "flight/csv.hpp"
-#include "geometry/homography.hpp"
-#include "processes/redbee/detect.hpp"
+#include "processes/redbee/detect/detect.hpp"
+#include "redbee/files/csv.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee {
 namespace {

@@ -1,4 +1,4 @@
-#include "inertial/imu_sample_check.hpp"
+#include "redbee/inertial/imu_sample_check.hpp"
 
 #include <gtest/gtest.h>
 

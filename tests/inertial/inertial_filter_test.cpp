@@ -1,11 +1,11 @@
-#include "inertial/inertial_filter.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
 
 #include <gtest/gtest.h>
 
 #include <iostream>
 #include <limits>
 
-#include "geometry/chi_square.hpp"
+#include "redbee/geometry/chi_square.hpp"
 #include "tests/inertial/simulated_flight.hpp"
 
 namespace redbee {

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "inertial/inertial_filter.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
 #include "tests/inertial/simulated_flight.hpp"
 
 namespace redbee {

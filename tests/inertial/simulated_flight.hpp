@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
-#include "geometry/so3.hpp"
-#include "inertial/inertial_filter.hpp"
-#include "simulation/imu_simulator.hpp"
-#include "simulation/trajectory.hpp"
+#include "redbee/geometry/so3.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/simulation/imu_simulator.hpp"
+#include "redbee/simulation/trajectory.hpp"
 
 namespace redbee::testing {
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "flight/csv.hpp"
+#include "redbee/files/csv.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "messaging/picture.hpp"
+#include "redbee/bus/picture.hpp"
 #include "tests/processes/fault_trial.hpp"
 
 namespace redbee::test {

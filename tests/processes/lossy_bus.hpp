@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "messaging/bus.hpp"
+#include "redbee/bus/bus.hpp"
 
 namespace redbee::test {
 

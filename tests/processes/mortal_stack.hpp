@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "messaging/bus.hpp"
 #include "processes/homography_fusion/node.hpp"
 #include "processes/imu_integration/node.hpp"
 #include "processes/motion_segmentation/node.hpp"
 #include "processes/visual_homography/node.hpp"
+#include "redbee/bus/bus.hpp"
 
 namespace redbee::test {
 

@@ -8,9 +8,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "processes/conversions.hpp"
-#include "tests/flight/scratch.hpp"
 #include "tests/processes/mortal_stack.hpp"
 #include "tests/processes/stack_fixture.hpp"
+#include "tests/support/scratch.hpp"
 
 namespace redbee::test {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "messaging/picture.hpp"
 #include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
+#include "redbee/bus/picture.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
@@ -18,8 +18,8 @@
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/process_health_t.hpp"
+#include "redbee/simulation/scenarios.hpp"
 #include "redbee/visual_homography_t.hpp"
-#include "simulation/scenarios.hpp"
 
 namespace redbee::test {
 

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 #include "tests/processes/stack_fixture.hpp"
 
 namespace redbee::test {

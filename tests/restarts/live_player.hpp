@@ -3,9 +3,9 @@
 
 #include <chrono>
 
-#include "messaging/bus.hpp"
-#include "messaging/picture.hpp"
 #include "redbee/altimeter_t.hpp"
+#include "redbee/bus/bus.hpp"
+#include "redbee/bus/picture.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "tests/restarts/looped_flight.hpp"

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "simulation/scenarios.hpp"
+#include "redbee/simulation/scenarios.hpp"
 
 namespace redbee::test {
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <random>
 
-#include "flight/atomic_file.hpp"
-#include "messaging/configuration.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/files/atomic_file.hpp"
 #include "tests/restarts/live_player.hpp"
 #include "tests/restarts/witness.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "messaging/bus.hpp"
+#include "redbee/bus/bus.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/process_health_t.hpp"

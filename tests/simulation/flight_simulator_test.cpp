@@ -1,4 +1,4 @@
-#include "simulation/flight_simulator.hpp"
+#include "redbee/simulation/flight_simulator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "simulation/scenarios.hpp"
+#include "redbee/simulation/scenarios.hpp"
 
 namespace redbee::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/imu_simulator.hpp"
+#include "redbee/simulation/imu_simulator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::simulation {
 namespace {

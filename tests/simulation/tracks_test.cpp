@@ -1,11 +1,11 @@
-#include "simulation/tracks.hpp"
+#include "redbee/simulation/tracks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/homography.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee::simulation {
 namespace {

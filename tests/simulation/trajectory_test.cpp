@@ -1,11 +1,11 @@
-#include "simulation/trajectory.hpp"
+#include "redbee/simulation/trajectory.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "geometry/so3.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::simulation {
 namespace {

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "messaging/bus.hpp"
+#include "redbee/bus/bus.hpp"
 #include "redbee/process_health_t.hpp"
 #include "tests/restarts/live_player.hpp"
 

@@ -1,4 +1,4 @@
-#include "visual/homography_estimation.hpp"
+#include "redbee/visual/homography_estimation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "synthetic.hpp"
+#include "tests/visual/synthetic.hpp"
 
 namespace redbee {
 namespace {

@@ -1,4 +1,4 @@
-#include "visual/point_tracker.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "synthetic.hpp"
-#include "visual/patch_alignment.hpp"
+#include "redbee/visual/patch_alignment.hpp"
+#include "tests/visual/synthetic.hpp"
 
 namespace redbee {
 namespace {

@@ -6,10 +6,10 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "geometry/homography.hpp"
-#include "geometry/so3.hpp"
-#include "simulation/tracks.hpp"
-#include "visual/point_tracker.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/so3.hpp"
+#include "redbee/simulation/tracks.hpp"
+#include "redbee/visual/point_tracker.hpp"
 
 namespace redbee::testing {
 

@@ -1,11 +1,11 @@
-#include "visual/visual_homography.hpp"
+#include "redbee/visual/visual_homography.hpp"
 
 #include <gtest/gtest.h>
 
 #include <iostream>
 
-#include "simulation/scenarios.hpp"
-#include "synthetic.hpp"
+#include "redbee/simulation/scenarios.hpp"
+#include "tests/visual/synthetic.hpp"
 
 namespace redbee {
 namespace {

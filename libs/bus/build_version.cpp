@@ -1,0 +1,9 @@
+#include "redbee/bus/build_version.hpp"
+
+#include "build_version_text.hpp"
+
+namespace redbee {
+
+const char* buildVersion() { return REDBEE_BUILD_VERSION; }
+
+}  // namespace redbee

@@ -1,0 +1,60 @@
+// Messages behind a small interface, so that a node runs over UDP multicast, in one process on memq://, or on
+// a fake.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "redbee/bus/codec.hpp"
+
+namespace redbee {
+
+class Bus {
+ public:
+  using Handler = std::function<void(const uint8_t* data, int size)>;
+
+  virtual ~Bus() = default;
+  virtual void publish(const std::string& channel, const std::vector<uint8_t>& data) = 0;
+  /// `channel` is a name, not a pattern. `capacity`: messages that wait for the handler before the newest is
+  /// dropped.
+  virtual void subscribe(const std::string& channel, int capacity, Handler handler) = 0;
+  /// Waits up to `timeout` for a message, then hands out all that are waiting. Number of messages handed out;
+  /// 0 after the timeout or a signal. Nothing that a handler throws gets through.
+  virtual int handle(std::chrono::milliseconds timeout) = 0;
+  /// Exceptions that handlers let out so far: each was logged and cost its message.
+  virtual int64_t handlerFailures() const { return 0; }
+
+  template <typename Message>
+  void publish(const std::string& channel, const Message& message) {
+    publish(channel, encodeMessage(message));
+  }
+
+  /// Hands out messages that decode; calls `damaged` (if any) for those that do not.
+  template <typename Message>
+  void subscribe(const std::string& channel, int capacity, std::function<void(const Message&)> handler,
+                 std::function<void()> damaged) {
+    subscribe(channel, capacity,
+              [handler = std::move(handler), damaged = std::move(damaged)](const uint8_t* data, int size) {
+                Message message;
+                if (decodeMessage(data, size, message)) {
+                  handler(message);
+                } else if (damaged) {
+                  damaged();
+                }
+              });
+  }
+};
+
+/// Throws where the environment has REDBEE_NETWORK_POLICY=none and this is anything but memq://; warns of a
+/// receive buffer in which pictures will be lost.
+void checkLcmUrl(const std::string& url);
+
+/// A bus on an LCM URL (udpm://..., memq://). Throws std::runtime_error where LCM cannot open it, or
+/// checkLcmUrl() refuses it.
+std::unique_ptr<Bus> makeLcmBus(const std::string& url);
+
+}  // namespace redbee

@@ -1,0 +1,138 @@
+#include <lcm/lcm.h>
+#include <spdlog/spdlog.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "redbee/bus/bus.hpp"
+#include "redbee/bus/receive_buffer.hpp"
+
+namespace redbee {
+namespace {
+
+/// LCM's receivers refuse from 256 MiB on; no picture comes near this.
+constexpr size_t kMaxMessageBytes = size_t{64} << 20;
+constexpr size_t kMaxChannelName = 63;
+/// A sender that is faster than we are must not keep a process from its work for ever.
+constexpr int kMaxBatch = 10000;
+
+struct LcmDeleter {
+  void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
+};
+
+struct Subscription {
+  std::string channel;
+  Bus::Handler handler;
+  int64_t* failures;
+};
+
+bool isInProcess(const std::string& url) { return url.rfind("memq://", 0) == 0; }
+
+/// LCM takes subscription names as regular expressions.
+std::string escapePattern(const std::string& channel) {
+  std::string escaped;
+  for (const char c : channel) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+void checkChannel(const std::string& channel) {
+  if (channel.empty() || channel.size() > kMaxChannelName) {
+    throw std::invalid_argument("channel name \"" + channel + "\" is empty or longer than 63 bytes");
+  }
+}
+
+/// The one place that handlers' exceptions reach: beyond it lies C, which they would abort.
+void dispatch(const lcm_recv_buf_t* received, const char*, void* user) noexcept {
+  auto& subscription = *static_cast<Subscription*>(user);
+  const auto fail = [&](const char* what) {
+    ++*subscription.failures;
+    spdlog::error("{}: handler failed: {}", subscription.channel, what);
+  };
+  try {
+    subscription.handler(static_cast<const uint8_t*>(received->data), static_cast<int>(received->data_size));
+  } catch (const std::exception& error) {
+    fail(error.what());
+  } catch (...) {
+    fail("unknown exception");
+  }
+}
+
+class LcmBus : public Bus {
+ public:
+  explicit LcmBus(const std::string& url) : lcm_(lcm_create(url.c_str())), in_process_(isInProcess(url)) {
+    if (!lcm_) throw std::runtime_error("LCM cannot open " + url + " (is there a multicast route?)");
+  }
+
+  void publish(const std::string& channel, const std::vector<uint8_t>& data) override {
+    checkChannel(channel);
+    if (data.size() > kMaxMessageBytes) {
+      throw std::length_error(channel + ": message of " + std::to_string(data.size()) + " bytes is too long");
+    }
+    const bool sent =
+        lcm_publish(lcm_.get(), channel.c_str(), data.data(), static_cast<unsigned>(data.size())) == 0;
+    if (!sent && ++publish_failures_ == 1) spdlog::error("{}: LCM cannot send", channel);
+  }
+
+  void subscribe(const std::string& channel, int capacity, Handler handler) override {
+    checkChannel(channel);
+    subscriptions_.push_back(
+        std::make_unique<Subscription>(Subscription{channel, std::move(handler), &handler_failures_}));
+    lcm_subscription_t* subscription =
+        lcm_subscribe(lcm_.get(), escapePattern(channel).c_str(), &dispatch, subscriptions_.back().get());
+    if (subscription == nullptr) throw std::runtime_error(channel + ": LCM cannot subscribe");
+    lcm_subscription_set_queue_capacity(subscription, capacity);
+  }
+
+  int handle(std::chrono::milliseconds timeout) override {
+    int handed_out = 0;
+    auto wait = timeout;
+    while ((in_process_ || handed_out < kMaxBatch) && handleOne(wait)) {
+      ++handed_out;
+      wait = std::chrono::milliseconds(0);
+    }
+    return handed_out;
+  }
+
+  int64_t handlerFailures() const override { return handler_failures_; }
+
+ private:
+  bool handleOne(std::chrono::milliseconds timeout) {
+    const int result = lcm_handle_timeout(lcm_.get(), static_cast<int>(timeout.count()));
+    if (result < 0 && errno != EINTR) {
+      throw std::runtime_error(std::string("LCM cannot receive: ") + std::strerror(errno));
+    }
+    return result > 0;
+  }
+
+  std::vector<std::unique_ptr<Subscription>> subscriptions_;  ///< outlives lcm_, which points into it
+  int64_t handler_failures_ = 0;
+  int64_t publish_failures_ = 0;
+  std::unique_ptr<lcm_t, LcmDeleter> lcm_;
+  bool in_process_;
+};
+
+}  // namespace
+
+void checkLcmUrl(const std::string& url) {
+  const char* policy = std::getenv("REDBEE_NETWORK_POLICY");  // NOLINT(concurrency-mt-unsafe)
+  if (policy != nullptr && std::string(policy) == "none" && !isInProcess(url)) {
+    throw std::runtime_error("REDBEE_NETWORK_POLICY=none allows memq:// only, not " + url);
+  }
+  const UdpBufferCheck check = checkReceiveBuffer(url);
+  if (!check.enough) spdlog::warn("{}", check.advice);
+}
+
+std::unique_ptr<Bus> makeLcmBus(const std::string& url) {
+  checkLcmUrl(url);
+  return std::make_unique<LcmBus>(url);
+}
+
+}  // namespace redbee

@@ -1,0 +1,87 @@
+#include "redbee/configuration/configuration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "redbee/configuration/configuration_loader.hpp"
+#include "redbee/configuration/configuration_preset.hpp"
+#include "redbee/configuration/configuration_table.hpp"
+#include "redbee/configuration/configuration_value.hpp"
+
+namespace redbee {
+namespace {
+
+std::vector<std::string> splitKey(const std::string& key) {
+  std::vector<std::string> parts;
+  size_t start = 0;
+  for (size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', start)) {
+    parts.push_back(key.substr(start, dot - start));
+    start = dot + 1;
+  }
+  parts.push_back(key.substr(start));
+  return parts;
+}
+
+}  // namespace
+
+Configuration loadConfiguration(const std::filesystem::path& file) {
+  configuration::Loader loader;
+  loader.loadFile(file);
+  loader.checkWhole(file);
+  return loader.configuration();
+}
+
+void applySetting(Configuration& configuration, const std::string& key, const std::string& text) {
+  const auto* setting = configuration::findSetting(key);
+  if (setting == nullptr) throw ConfigurationError("command line: " + key + ": unknown key");
+  try {
+    setting->read(configuration, YAML::Load(text));
+  } catch (const configuration::ValueError& error) {
+    throw ConfigurationError("command line: " + key + ": " + error.what());
+  } catch (const YAML::Exception& error) {
+    throw ConfigurationError("command line: " + key + ": " + error.msg);
+  }
+}
+
+bool applyPreset(Configuration& configuration, const std::string& name) {
+  const auto* preset = configuration::findPreset(name);
+  if (preset == nullptr) return false;
+  for (const auto& [key, text] : *preset) applySetting(configuration, key, text);
+  return true;
+}
+
+std::string emitYaml(const Configuration& configuration) {
+  std::string yaml;
+  std::vector<std::string> open;
+  for (const auto& setting : configuration::settings()) {
+    const auto parts = splitKey(setting.key);
+    const auto sections_end = parts.end() - 1;
+    const auto shared = static_cast<size_t>(
+        std::mismatch(open.begin(), open.end(), parts.begin(), sections_end).first - open.begin());
+    open.assign(parts.begin(), sections_end);
+    for (size_t depth = shared; depth < open.size(); ++depth) {
+      yaml += std::string(2 * depth, ' ') + open[depth] + ":\n";
+    }
+    yaml += std::string(2 * open.size(), ' ') + parts.back() + ": " + setting.text(configuration) + "\n";
+  }
+  return yaml;
+}
+
+std::string configurationHash(const Configuration& configuration) {
+  uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : emitYaml(configuration)) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  }
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
+}
+
+std::vector<std::string> configurationKeys() {
+  std::vector<std::string> keys;
+  for (const auto& setting : configuration::settings()) keys.push_back(setting.key);
+  return keys;
+}
+
+}  // namespace redbee

@@ -1,0 +1,91 @@
+// One vehicle's configuration: what its YAML file says, checked.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "redbee/detection/parameters.hpp"
+#include "redbee/fusion/homography_fusion.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/visual/visual_homography.hpp"
+
+namespace redbee {
+
+struct Channels {
+  std::string camera = "CAMERA";
+  std::string imu = "IMU";
+  std::string altimeter = "ALTIMETER";
+  std::string inertial_homography = "INERTIAL_HOMOGRAPHY";
+  std::string inertial_state = "INERTIAL_STATE";
+  std::string kept_state = "KEPT_STATE";
+  std::string visual_homography = "VISUAL_HOMOGRAPHY";
+  std::string fused_homography = "FUSED_HOMOGRAPHY";
+  std::string foreground = "FOREGROUND";
+  std::string detections = "DETECTIONS";
+  std::string overlay = "OVERLAY";
+  std::string health = "PROCESS_HEALTH";
+};
+
+/// How long each process waits for the companions of a frame, in message time. Who waits for a process that
+/// itself waits for another must have the longer patience, or one death makes both give up.
+struct WaitParameters {
+  double inertial_s = 0.25;      ///< s, for the fused homography of the frame before
+  double visual_s = 0.25;        ///< s, for the inertial homography
+  double fusion_s = 0.3;         ///< s, for either homography
+  double segmentation_s = 0.45;  ///< s, for the fused homography
+  int max_backlog = 14;          ///< frames that may wait; beyond it the oldest are skipped
+};
+
+struct Configuration {
+  std::string vehicle = "unnamed";
+  CameraIntrinsics camera;
+  bool has_imu = true;        ///< false: vision only, nothing waits for the IMU
+  bool has_altimeter = true;  ///< false: altimeter messages are not listened to
+  InertialParameters inertial;
+  VisualParameters visual;
+  FrontPlaneParameters front;
+  FusionParameters fusion;
+  SegmentationParameters segmentation;
+  Channels channels;
+  WaitParameters waits;
+  int overlay_period_frames = 4;  ///< every how many frames OVERLAY shows one; 0: never
+};
+
+/// what() is one line: `file:line: key: what is wrong`.
+class ConfigurationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads a vehicle's file. Keys that it leaves out keep the values of the files it includes, else the
+/// defaults above.
+///   include: FILE or [FILE, ...]   relative to the including file; read first, so the including file wins
+///   preset: default | paper        `paper`: the paper's own fusion noise and segmentation; wins over
+///   included files, while
+///                                  the keys of the file that names it win over it
+/// Throws ConfigurationError on the first fault: unknown or repeated keys, wrong types, impossible values, a
+/// camera that is not described, channels that share a name, files that include each other.
+Configuration loadConfiguration(const std::filesystem::path& file);
+
+/// Sets one key (`segmentation.threshold`) from YAML text, as a command line gives it. Throws
+/// ConfigurationError.
+void applySetting(Configuration& configuration, const std::string& key, const std::string& text);
+/// Sets all that a preset sets. False for a name that is no preset.
+bool applyPreset(Configuration& configuration, const std::string& name);
+
+/// The whole configuration as YAML, which loads back to the same hash.
+std::string emitYaml(const Configuration& configuration);
+
+/// 16 hexadecimal digits that are equal for equal contents, however the files were written (FNV-1a of
+/// emitYaml).
+std::string configurationHash(const Configuration& configuration);
+
+/// Every key a file may have (`camera.fx`), in the order of emitYaml. `include` and `preset` are not among
+/// them.
+std::vector<std::string> configurationKeys();
+
+}  // namespace redbee

@@ -1,0 +1,121 @@
+#include "redbee/configuration/configuration_loader.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "redbee/configuration/configuration_preset.hpp"
+#include "redbee/configuration/configuration_table.hpp"
+#include "redbee/configuration/configuration_value.hpp"
+
+namespace redbee::configuration {
+namespace {
+
+bool isDirective(const std::string& key) { return key == "include" || key == "preset"; }
+
+/// yaml-cpp's messages run over several lines at times, and a key in the file may.
+std::string oneLine(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+void Loader::fail(const Place& place, const std::string& key, const std::string& what) {
+  throw ConfigurationError(place.file + ":" + std::to_string(place.line) + ": " + oneLine(key + ": " + what));
+}
+
+Loader::Place Loader::placeOf(const YAML::Node& node) const {
+  return {open_files_.back().string(), std::max(node.Mark().line, 0) + 1};
+}
+
+void Loader::loadFile(const std::filesystem::path& file) {
+  YAML::Node root;
+  try {
+    root = YAML::LoadFile(file.string());
+  } catch (const YAML::BadFile&) {
+    fail({file.string(), 1}, "file", "cannot be read");
+  } catch (const YAML::Exception& error) {
+    fail({file.string(), std::max(error.mark.line, 0) + 1}, "syntax", error.msg);
+  }
+  open_files_.push_back(file);
+  if (!root.IsMap()) fail(placeOf(root), "file", "holds no keys");
+  applyIncludes(root);
+  applyPreset(root);
+  applySection(root, "");
+  open_files_.pop_back();
+}
+
+void Loader::applyIncludes(const YAML::Node& root) {
+  const YAML::Node includes = root["include"];
+  if (!includes) return;
+  if (!includes.IsSequence()) return includeOne(includes);
+  for (const auto& name : includes) includeOne(name);
+}
+
+void Loader::includeOne(const YAML::Node& name) {
+  if (!name.IsScalar()) fail(placeOf(name), "include", "must be a file name or a list of them");
+  const std::filesystem::path file = open_files_.back().parent_path() / name.Scalar();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    fail(placeOf(name), "include", "no file " + file.string());
+  const bool open = std::any_of(open_files_.begin(), open_files_.end(), [&](const auto& other) {
+    return std::filesystem::equivalent(file, other, error);
+  });
+  if (open) fail(placeOf(name), "include", file.string() + " includes itself");
+  loadFile(file);
+}
+
+void Loader::applyPreset(const YAML::Node& root) {
+  const YAML::Node name = root["preset"];
+  if (!name) return;
+  const PresetValues* preset = name.IsScalar() ? findPreset(name.Scalar()) : nullptr;
+  if (preset == nullptr) fail(placeOf(name), "preset", "must be default or paper");
+  for (const auto& [key, text] : *preset) apply(key, YAML::Load(text), placeOf(name));
+}
+
+void Loader::applySection(const YAML::Node& section, const std::string& prefix) {
+  std::set<std::string> seen;
+  for (const auto& entry : section) {
+    const std::string key = prefix + (entry.first.IsScalar() ? entry.first.Scalar() : "?");
+    if (!seen.insert(key).second) fail(placeOf(entry.first), key, "stands here for the second time");
+    applyEntry(entry.first, entry.second, key);
+  }
+}
+
+void Loader::applyEntry(const YAML::Node& name, const YAML::Node& value, const std::string& key) {
+  if (isDirective(key)) return;
+  if (findSetting(key) != nullptr) return apply(key, value, placeOf(name));
+  if (!isSection(key)) fail(placeOf(name), key, "unknown key");
+  if (!value.IsMap()) fail(placeOf(name), key, "is a section and must hold keys");
+  applySection(value, key + ".");
+}
+
+void Loader::apply(const std::string& key, const YAML::Node& value, const Place& place) {
+  try {
+    findSetting(key)->read(configuration_, value);
+  } catch (const ValueError& error) {
+    fail(place, key, error.what());
+  }
+  places_[key] = place;
+}
+
+void Loader::checkWhole(const std::filesystem::path& file) const {
+  for (const char* key :
+       {"camera.width", "camera.height", "camera.fx", "camera.fy", "camera.cx", "camera.cy"}) {
+    if (places_.count(key) == 0) fail({file.string(), 1}, key, "is missing");
+  }
+  std::map<std::string, std::string> key_of_channel;
+  for (const auto& setting : settings()) {
+    if (setting.key.rfind("channels.", 0) != 0) continue;
+    const std::string name = setting.text(configuration_);
+    const auto [first, is_new] = key_of_channel.emplace(name, setting.key);
+    if (is_new) continue;
+    // The name may be a default that no file states.
+    const auto place =
+        places_.count(setting.key) > 0 ? places_.find(setting.key) : places_.find(first->second);
+    fail(place->second, place->first,
+         "channel name " + name + " is used twice, by " + first->second + " and " + setting.key);
+  }
+}
+
+}  // namespace redbee::configuration

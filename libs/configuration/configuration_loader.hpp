@@ -1,0 +1,45 @@
+// From YAML files to a Configuration; internal to the configuration.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "redbee/configuration/configuration.hpp"
+
+namespace redbee::configuration {
+
+/// Reads a file and what it includes; remembers where every key was set last, for complaints about several
+/// keys at once.
+class Loader {
+ public:
+  /// All functions throw ConfigurationError.
+  void loadFile(const std::filesystem::path& file);
+  /// What only the whole can break: a camera that is not described, channels that share a name.
+  void checkWhole(const std::filesystem::path& file) const;
+  const Configuration& configuration() const { return configuration_; }
+
+ private:
+  struct Place {
+    std::string file;
+    int line = 1;
+  };
+
+  [[noreturn]] static void fail(const Place& place, const std::string& key, const std::string& what);
+  Place placeOf(const YAML::Node& node) const;
+  void applyIncludes(const YAML::Node& root);
+  void includeOne(const YAML::Node& name);
+  void applyPreset(const YAML::Node& root);
+  void applySection(const YAML::Node& section, const std::string& prefix);
+  void applyEntry(const YAML::Node& name, const YAML::Node& value, const std::string& key);
+  void apply(const std::string& key, const YAML::Node& value, const Place& place);
+
+  Configuration configuration_;
+  std::map<std::string, Place> places_;
+  std::vector<std::filesystem::path> open_files_;  ///< the file being read is the last
+};
+
+}  // namespace redbee::configuration

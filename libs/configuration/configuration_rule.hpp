@@ -1,0 +1,60 @@
+// Which values a key may have, and how a refusal is worded; internal to the configuration.
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "redbee/configuration/configuration_table.hpp"
+#include "redbee/configuration/configuration_value.hpp"
+#include "redbee/geometry/so3.hpp"
+
+namespace redbee::configuration {
+
+/// Values that are possible, and how to say so.
+template <typename Predicate>
+struct Rule {
+  Predicate holds;
+  std::string wording;
+};
+template <typename Predicate>
+Rule(Predicate, const char*) -> Rule<Predicate>;
+
+inline const Rule anything{[](const auto&) { return true; }, ""};
+inline const Rule positive{[](auto x) { return x > 0; }, "must be above 0"};
+inline const Rule notNegative{[](auto x) { return x >= 0; }, "must not be negative"};
+inline const Rule share{[](auto x) { return x >= 0 && x <= 1; }, "must lie from 0 to 1"};
+inline const Rule probability{[](auto x) { return x > 0 && x < 1; }, "must lie between 0 and 1"};
+inline const Rule odd{[](int x) { return x > 0 && x % 2 == 1; }, "must be odd and above 0"};
+inline const Rule atLeastTwo{[](int x) { return x >= 2; }, "must be at least 2"};
+inline const Rule halving{[](int x) { return x == 1 || x == 2 || x == 4; }, "must be 1, 2 or 4"};
+inline const Rule pyramid{[](int x) { return x >= 1 && x <= 8; }, "must lie from 1 to 8"};
+inline const Rule fourOrMore{[](int x) { return x >= 4; },
+                             "must be at least 4: so many points fix a homography"};
+inline const Rule pictureSide{[](int x) { return x >= 16 && x <= 16384; }, "must lie from 16 to 16384"};
+inline const Rule notEmpty{[](const std::string& x) { return !x.empty(); }, "must not be empty"};
+inline const Rule rotation{[](const Eigen::Matrix3d& R) { return isRotation(R, 1e-5); },
+                           "is no rotation: its rows must be orthonormal to 1e-5, its determinant +1"};
+inline const Rule variances{[](const Vector8d& v) { return (v.array() > 0).all(); },
+                            "must be eight variances above 0"};
+inline const Rule channelName{[](const std::string& x) {
+                                return !x.empty() && x.size() <= 63 &&
+                                       x.find_first_of(" \t\r\n") == std::string::npos;
+                              },
+                              "must be a name of 1 to 63 bytes without blanks"};
+
+/// A key that fills the member that `access` gives, within its rule.
+template <typename Access, typename Predicate>
+Setting setting(std::string key, Access access, const Rule<Predicate>& rule) {
+  using Value = std::decay_t<decltype(access(std::declval<Configuration&>()))>;
+  auto read = [access, rule](Configuration& configuration, const YAML::Node& node) {
+    Value value = access(configuration);
+    readValue(node, value);
+    if (!rule.holds(value)) throw ValueError(rule.wording);
+    access(configuration) = value;
+  };
+  auto text = [access](const Configuration& configuration) { return valueText(access(configuration)); };
+  return {std::move(key), std::move(read), std::move(text)};
+}
+
+}  // namespace redbee::configuration

@@ -1,0 +1,243 @@
+#include "redbee/configuration/configuration_table.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "redbee/configuration/configuration_rule.hpp"
+
+namespace redbee::configuration {
+namespace {
+
+using Settings = std::vector<Setting>;
+
+void append(Settings& settings, Settings more) {
+  std::move(more.begin(), more.end(), std::back_inserter(settings));
+}
+
+// A member's name cannot stand in parentheses. NOLINTNEXTLINE(bugprone-macro-parentheses)
+#define MEMBER(path) \
+  [](auto& configuration) -> auto& { return configuration.path; }
+
+Settings vehicleSettings() {
+  return {
+      setting("vehicle", MEMBER(vehicle), notEmpty),
+      setting("camera.width", MEMBER(camera.width), pictureSide),
+      setting("camera.height", MEMBER(camera.height), pictureSide),
+      setting("camera.fx", MEMBER(camera.fx), positive),
+      setting("camera.fy", MEMBER(camera.fy), positive),
+      setting("camera.cx", MEMBER(camera.cx), anything),
+      setting("camera.cy", MEMBER(camera.cy), anything),
+      setting("camera.distortion", MEMBER(camera.distortion), anything),
+      setting("camera.R_CI", MEMBER(inertial.extrinsics.R_CI), rotation),
+      setting("camera.p_IC", MEMBER(inertial.extrinsics.p_IC), anything),
+      setting("camera.timeshift_s", MEMBER(inertial.extrinsics.timeshift_s), anything),
+      setting("plane.height_m", MEMBER(inertial.extrinsics.start_height_m), positive),
+      setting("plane.height_sigma_m", MEMBER(inertial.extrinsics.start_height_sigma_m), positive),
+      setting("imu.present", MEMBER(has_imu), anything),
+      setting("imu.gyro_noise_density", MEMBER(inertial.noise.gyro_noise_density), positive),
+      setting("imu.accel_noise_density", MEMBER(inertial.noise.accel_noise_density), positive),
+      setting("imu.gyro_random_walk", MEMBER(inertial.noise.gyro_random_walk), notNegative),
+      setting("imu.accel_random_walk", MEMBER(inertial.noise.accel_random_walk), notNegative),
+      setting("imu.gyro_range", MEMBER(inertial.imu_limits.gyro_range), positive),
+      setting("imu.accel_range", MEMBER(inertial.imu_limits.accel_range), positive),
+      setting("imu.gyro_bias", MEMBER(inertial.gyro_bias), anything),
+      setting("imu.accel_bias", MEMBER(inertial.accel_bias), anything),
+      setting("imu.gyro_bias_sigma", MEMBER(inertial.gyro_bias_sigma), positive),
+      setting("imu.accel_bias_sigma", MEMBER(inertial.accel_bias_sigma), positive),
+      setting("altimeter.present", MEMBER(has_altimeter), anything),
+  };
+}
+
+Settings inertialSettings() {
+  return {
+      setting("inertial.gravity", MEMBER(inertial.gravity), positive),
+      setting("inertial.start_velocity_sigma", MEMBER(inertial.start_velocity_sigma), positive),
+      setting("inertial.extrinsic_rotation_sigma_deg", MEMBER(inertial.extrinsic_rotation_sigma_deg),
+              notNegative),
+      setting("inertial.gravity_gate", MEMBER(inertial.gravity_gate), notNegative),
+      setting("inertial.gravity_sigma", MEMBER(inertial.gravity_sigma), positive),
+      setting("inertial.gravity_correlation_s", MEMBER(inertial.gravity_correlation_s), positive),
+      setting("inertial.max_imu_gap_s", MEMBER(inertial.max_imu_gap_s), positive),
+      setting("inertial.max_frame_gap_s", MEMBER(inertial.max_frame_gap_s), positive),
+      setting("inertial.feedback_correlation_frames", MEMBER(inertial.feedback_correlation_frames), positive),
+      setting("inertial.innovation_gate_probability", MEMBER(inertial.innovation_gate_probability),
+              probability),
+  };
+}
+
+template <typename Access>
+Settings ransacSettings(const std::string& section, Access ransac) {
+  const auto member = [ransac](auto field) {
+    return [ ransac, field ](auto& configuration) -> auto& { return ransac(configuration).*field; };
+  };
+  using P = RansacParameters;
+  return {
+      setting(section + ".inlier_px", member(&P::inlier_px), positive),
+      setting(section + ".max_iterations", member(&P::max_iterations), positive),
+      setting(section + ".confidence", member(&P::confidence), probability),
+      setting(section + ".min_inliers", member(&P::min_inliers), fourOrMore),
+      setting(section + ".min_inlier_share", member(&P::min_inlier_share), share),
+      setting(section + ".min_spread", member(&P::min_spread), share),
+      setting(section + ".seed", member(&P::seed), anything),
+  };
+}
+
+Settings trackerSettings() {
+  return {
+      setting("visual.tracker.grid_px", MEMBER(visual.tracker.grid_px), positive),
+      setting("visual.tracker.window_px", MEMBER(visual.tracker.window_px), odd),
+      setting("visual.tracker.levels", MEMBER(visual.tracker.levels), pyramid),
+      setting("visual.tracker.iterations", MEMBER(visual.tracker.iterations), positive),
+      setting("visual.tracker.epsilon_px", MEMBER(visual.tracker.epsilon_px), positive),
+      setting("visual.tracker.min_eigenvalue", MEMBER(visual.tracker.min_eigenvalue), notNegative),
+      setting("visual.tracker.max_forward_backward_px", MEMBER(visual.tracker.max_forward_backward_px),
+              positive),
+      setting("visual.tracker.max_residual", MEMBER(visual.tracker.max_residual), positive),
+  };
+}
+
+Settings visualSettings() {
+  Settings settings{
+      setting("visual.max_frame_gap_s", MEMBER(visual.max_frame_gap_s), positive),
+      setting("visual.min_sharpness", MEMBER(visual.min_sharpness), notNegative),
+      setting("visual.min_sharpness_share", MEMBER(visual.min_sharpness_share), share),
+  };
+  append(settings, trackerSettings());
+  append(settings, ransacSettings("visual.ransac", MEMBER(visual.ransac)));
+  append(settings, {setting("front_plane.ground_px", MEMBER(front.ground_px), positive),
+                    setting("front_plane.min_separation_px", MEMBER(front.min_separation_px), notNegative)});
+  append(settings, ransacSettings("front_plane.ransac", MEMBER(front.ransac)));
+  return settings;
+}
+
+Settings fusionSettings() {
+  return {
+      setting("fusion.noise", MEMBER(fusion.noise), anything),
+      setting("fusion.paper_Q", MEMBER(fusion.paper_Q), variances),
+      setting("fusion.paper_P0", MEMBER(fusion.paper_P0), variances),
+      setting("fusion.gate_probability", MEMBER(fusion.gate_probability), probability),
+      setting("fusion.max_gated_in_a_row", MEMBER(fusion.max_gated_in_a_row), positive),
+      setting("fusion.min_overlap", MEMBER(fusion.min_overlap), share),
+      setting("fusion.visual_inflation", MEMBER(fusion.visual_inflation), positive),
+      setting("fusion.process_inflation", MEMBER(fusion.process_inflation), positive),
+  };
+}
+
+Settings backgroundSettings() {
+  return {
+      setting("segmentation.method", MEMBER(segmentation.method), anything),
+      setting("segmentation.mixture_history", MEMBER(segmentation.mixture_history), positive),
+      setting("segmentation.mixture_threshold", MEMBER(segmentation.mixture_threshold), positive),
+      setting("segmentation.canvas_margin", MEMBER(segmentation.canvas_margin), share),
+      setting("segmentation.learning_frames", MEMBER(segmentation.learning_frames), notNegative),
+      setting("segmentation.use_front_plane", MEMBER(segmentation.use_front_plane), anything),
+      setting("segmentation.baseline_s", MEMBER(segmentation.baseline_s), positive),
+      setting("segmentation.work_downscale", MEMBER(segmentation.work_downscale), halving),
+      setting("segmentation.flow_downscale", MEMBER(segmentation.flow_downscale), halving),
+      setting("segmentation.use_short_baseline", MEMBER(segmentation.use_short_baseline), anything),
+      setting("segmentation.use_epipolar", MEMBER(segmentation.use_epipolar), anything),
+      setting("segmentation.parallax_noise_px", MEMBER(segmentation.parallax_noise_px), positive),
+      setting("segmentation.direction_error", MEMBER(segmentation.direction_error), notNegative),
+      setting("segmentation.nearest_depth_share", MEMBER(segmentation.nearest_depth_share), share),
+      setting("segmentation.evidence_sigmas", MEMBER(segmentation.evidence_sigmas), positive),
+      setting("segmentation.use_registration", MEMBER(segmentation.use_registration), anything),
+      setting("segmentation.border_stretch", MEMBER(segmentation.border_stretch), share),
+      setting("segmentation.motion_half", MEMBER(segmentation.motion_half), positive),
+      setting("segmentation.use_appearance", MEMBER(segmentation.use_appearance), anything),
+      setting("segmentation.background_downscale", MEMBER(segmentation.background_downscale), halving),
+      setting("segmentation.background_span_s", MEMBER(segmentation.background_span_s), positive),
+      setting("segmentation.background_noise", MEMBER(segmentation.background_noise), positive),
+      setting("segmentation.min_gradient", MEMBER(segmentation.min_gradient), positive),
+      setting("segmentation.fill_radius_px", MEMBER(segmentation.fill_radius_px), positive),
+      setting("segmentation.fill_contrast", MEMBER(segmentation.fill_contrast), positive),
+      setting("segmentation.use_hole_filling", MEMBER(segmentation.use_hole_filling), anything),
+      setting("segmentation.outline_gap_px", MEMBER(segmentation.outline_gap_px), notNegative),
+      setting("segmentation.region_radius_px", MEMBER(segmentation.region_radius_px), notNegative),
+      setting("segmentation.edge_doubt_px", MEMBER(segmentation.edge_doubt_px), notNegative),
+      setting("segmentation.use_surfaces", MEMBER(segmentation.use_surfaces), anything),
+      setting("segmentation.use_shadow_test", MEMBER(segmentation.use_shadow_test), anything),
+      setting("segmentation.shadow_noise", MEMBER(segmentation.shadow_noise), positive),
+      setting("segmentation.evidence_rate", MEMBER(segmentation.evidence_rate), share),
+  };
+}
+
+Settings objectSettings() {
+  return {
+      setting("segmentation.use_refinement", MEMBER(segmentation.use_refinement), anything),
+      setting("segmentation.use_entropy", MEMBER(segmentation.use_entropy), anything),
+      setting("segmentation.alpha", MEMBER(segmentation.alpha), share),
+      setting("segmentation.beta", MEMBER(segmentation.beta), share),
+      setting("segmentation.gamma", MEMBER(segmentation.gamma), share),
+      setting("segmentation.spatial_window_px", MEMBER(segmentation.spatial_window_px), odd),
+      setting("segmentation.sample_grid_px", MEMBER(segmentation.sample_grid_px), positive),
+      setting("segmentation.entropy_cell_points", MEMBER(segmentation.entropy_cell_points), positive),
+      setting("segmentation.entropy_bins", MEMBER(segmentation.entropy_bins), atLeastTwo),
+      setting("segmentation.entropy_floor", MEMBER(segmentation.entropy_floor), positive),
+      setting("segmentation.flow_noise_px", MEMBER(segmentation.flow_noise_px), notNegative),
+      setting("segmentation.threshold", MEMBER(segmentation.threshold), share),
+      setting("segmentation.extent_threshold", MEMBER(segmentation.extent_threshold), share),
+      setting("segmentation.opening_px", MEMBER(segmentation.opening_px), notNegative),
+      setting("segmentation.closing_px", MEMBER(segmentation.closing_px), notNegative),
+      setting("segmentation.min_area_px", MEMBER(segmentation.min_area_px), notNegative),
+      setting("segmentation.max_missed_frames", MEMBER(segmentation.max_missed_frames), notNegative),
+      setting("segmentation.confirm_frames", MEMBER(segmentation.confirm_frames), positive),
+      setting("segmentation.min_contrast", MEMBER(segmentation.min_contrast), notNegative),
+  };
+}
+
+Settings messagingSettings() {
+  return {
+      setting("channels.camera", MEMBER(channels.camera), channelName),
+      setting("channels.imu", MEMBER(channels.imu), channelName),
+      setting("channels.altimeter", MEMBER(channels.altimeter), channelName),
+      setting("channels.inertial_homography", MEMBER(channels.inertial_homography), channelName),
+      setting("channels.inertial_state", MEMBER(channels.inertial_state), channelName),
+      setting("channels.kept_state", MEMBER(channels.kept_state), channelName),
+      setting("channels.visual_homography", MEMBER(channels.visual_homography), channelName),
+      setting("channels.fused_homography", MEMBER(channels.fused_homography), channelName),
+      setting("channels.foreground", MEMBER(channels.foreground), channelName),
+      setting("channels.detections", MEMBER(channels.detections), channelName),
+      setting("channels.overlay", MEMBER(channels.overlay), channelName),
+      setting("channels.health", MEMBER(channels.health), channelName),
+      setting("waits.inertial_s", MEMBER(waits.inertial_s), notNegative),
+      setting("waits.visual_s", MEMBER(waits.visual_s), notNegative),
+      setting("waits.fusion_s", MEMBER(waits.fusion_s), notNegative),
+      setting("waits.segmentation_s", MEMBER(waits.segmentation_s), notNegative),
+      setting("waits.max_backlog", MEMBER(waits.max_backlog), positive),
+      setting("overlay.period_frames", MEMBER(overlay_period_frames), notNegative),
+  };
+}
+
+#undef MEMBER
+
+Settings makeSettings() {
+  Settings settings = vehicleSettings();
+  append(settings, inertialSettings());
+  append(settings, visualSettings());
+  append(settings, fusionSettings());
+  append(settings, backgroundSettings());
+  append(settings, objectSettings());
+  append(settings, messagingSettings());
+  return settings;
+}
+
+}  // namespace
+
+const std::vector<Setting>& settings() {
+  static const Settings table = makeSettings();
+  return table;
+}
+
+const Setting* findSetting(const std::string& key) {
+  const auto it =
+      std::find_if(settings().begin(), settings().end(), [&](const Setting& s) { return s.key == key; });
+  return it == settings().end() ? nullptr : &*it;
+}
+
+bool isSection(const std::string& name) {
+  const std::string start = name + '.';
+  return std::any_of(settings().begin(), settings().end(),
+                     [&](const Setting& s) { return s.key.compare(0, start.size(), start) == 0; });
+}
+
+}  // namespace redbee::configuration

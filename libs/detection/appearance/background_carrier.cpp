@@ -1,0 +1,93 @@
+#include "redbee/detection/appearance/background_carrier.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace redbee {
+namespace {
+
+using Pixel = Eigen::Map<Eigen::Array4f>;
+using ConstPixel = Eigen::Map<const Eigen::Array4f>;
+
+/// Maps resampled along a row. Between knots the source moves linearly: over so few pixels perspective bends
+/// a path by less than a thousandth of one.
+class RowCarrier {
+ public:
+  RowCarrier(const BackgroundMaps& from, BackgroundMaps& to) : from_(from), to_(to) {}
+
+  /// Pixels begin to end of row y, which `back` takes into the earlier picture.
+  void carry(const Eigen::Matrix3f& back, int y, int begin, int end) {
+    constexpr int kKnot = 16;
+    for (int x = begin; x < end; x += kKnot) {
+      const int next = std::min(x + kKnot, end);
+      const Eigen::Vector2f first = source(back, x, y);
+      const Eigen::Vector2f step = (source(back, next, y) - first) / static_cast<float>(next - x);
+      for (int i = x; i < next; ++i) sample(first + static_cast<float>(i - x) * step, y, i);
+    }
+  }
+
+ private:
+  static Eigen::Vector2f source(const Eigen::Matrix3f& back, int x, int y) {
+    return (back * Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y), 1)).hnormalized();
+  }
+
+  void sample(const Eigen::Vector2f& from, int y, int x) {
+    // Written so that what is not a number is outside, too.
+    const bool inside = from.x() >= 0 && from.y() >= 0 &&
+                        from.x() < static_cast<float>(from_.model.cols - 1) &&
+                        from.y() < static_cast<float>(from_.model.rows - 1);
+    if (!inside) {
+      to_.age.at<uint8_t>(y, x) = 0;
+      return;
+    }
+    const int column = static_cast<int>(from.x());
+    const int row = static_cast<int>(from.y());
+    const float right = from.x() - static_cast<float>(column);
+    const float below = from.y() - static_cast<float>(row);
+    const float* top = from_.model.ptr<float>(row) + 4 * column;
+    const float* bottom = from_.model.ptr<float>(row + 1) + 4 * column;
+    const Eigen::Array4f upper = ConstPixel(top) + right * (ConstPixel(top + 4) - ConstPixel(top));
+    const Eigen::Array4f lower = ConstPixel(bottom) + right * (ConstPixel(bottom + 4) - ConstPixel(bottom));
+    Pixel(to_.model.ptr<float>(y) + 4 * x) = upper + below * (lower - upper);
+    const int near_row = row + (below > 0.5F ? 1 : 0);
+    const int near_column = column + (right > 0.5F ? 1 : 0);
+    to_.age.ptr<uint8_t>(y)[x] = from_.age.ptr<uint8_t>(near_row)[near_column];
+    to_.speed.ptr<float>(y)[x] = from_.speed.ptr<float>(near_row)[near_column];
+  }
+
+  const BackgroundMaps& from_;
+  BackgroundMaps& to_;
+};
+
+/// Where along row y the ground begins or ends, and whether the row begins with it.
+struct HorizonCut {
+  int at;
+  bool ground_first;
+};
+HorizonCut cutAtHorizon(const Eigen::RowVector3d& horizon, int y, int width) {
+  const double at_left = horizon.y() * y + horizon.z();
+  if (horizon.x() == 0) return {width, at_left > 0};
+  const double crossing = std::clamp(std::ceil(-at_left / horizon.x()), 0.0, static_cast<double>(width));
+  return {static_cast<int>(crossing), horizon.x() < 0};
+}
+
+}  // namespace
+
+BackgroundMaps carryBackground(const BackgroundMaps& maps, const SceneMotion& scene) {
+  const Eigen::Matrix3f ground = scene.ground.inverse().cast<float>();
+  const Eigen::Matrix3f far = scene.far.inverse().cast<float>();
+  BackgroundMaps carried{cv::Mat::zeros(maps.model.size(), maps.model.type()),
+                         cv::Mat::zeros(maps.speed.size(), maps.speed.type()),
+                         cv::Mat(maps.age.size(), maps.age.type())};
+  RowCarrier carrier(maps, carried);
+  for (int y = 0; y < maps.model.rows; ++y) {
+    const HorizonCut cut = cutAtHorizon(scene.horizon, y, maps.model.cols);
+    carrier.carry(cut.ground_first ? ground : far, y, 0, cut.at);
+    carrier.carry(cut.ground_first ? far : ground, y, cut.at, maps.model.cols);
+  }
+  return carried;
+}
+
+}  // namespace redbee

@@ -1,0 +1,19 @@
+// The carried background resampled for a view that has moved: a step of CarriedBackground.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "redbee/imaging/warping.hpp"
+
+namespace redbee {
+
+struct BackgroundMaps {
+  cv::Mat model;  ///< CV_32FC4, interpolated between pixels
+  cv::Mat speed;  ///< CV_32F, of the nearest pixel
+  cv::Mat age;    ///< CV_8U, of the nearest pixel; 0 for what comes from outside
+};
+
+/// The maps as the current camera sees them: ground up to the horizon, infinitely far above it.
+BackgroundMaps carryBackground(const BackgroundMaps& maps, const SceneMotion& scene);
+
+}  // namespace redbee

@@ -1,0 +1,42 @@
+// What the static scene looks like, in colour, pixel by pixel: carried along with the camera, and aware of
+// how well it knows each pixel (after Yi et al. 2013, whose model is carried too, on a coarse grid and in
+// grey).
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "redbee/detection/parameters.hpp"
+#include "redbee/imaging/warping.hpp"
+
+namespace redbee {
+
+/// How fast what a pixel shows moves against the ground: CV_32FC2, speed [px] and its variance [px^2], over
+/// the baseline of the motion. A tree's parallax counts as speed.
+using SurfaceSpeed = cv::Mat;
+
+class CarriedBackground {
+ public:
+  explicit CarriedBackground(const SegmentationParameters& parameters) : parameters_(parameters) {}
+
+  void reset();
+  /// The view moves (pixels of the pictures that are compared and learned).
+  void carry(const SceneMotion& scene);
+  /// CV_32F, 0..1: d^2 / (d^2 + variance + noise^2 + (edge doubt * slope)^2) of the pixel's difference d.
+  /// Less where it may be the background in shadow, and where the background was learned from a surface that
+  /// has moved away since; 0 where the model has not seen the scene. `picture`: CV_32FC4 (blue, green, red,
+  /// anything).
+  cv::Mat unlike(const cv::Mat& picture, const SurfaceSpeed& speed) const;
+  /// What moves (CV_32F, 0..1) is learned slowly, so that it leaves no trail. `elapsed_s`: since the last
+  /// picture.
+  void learn(const cv::Mat& picture, const cv::Mat& moving, const SurfaceSpeed& speed, double elapsed_s);
+
+ private:
+  float movedAway(float learned_speed, const cv::Vec2f& speed) const;
+
+  SegmentationParameters parameters_;
+  cv::Mat model_;  ///< CV_32FC4: mean colour (3, grey levels), variance about it (of one channel)
+  cv::Mat speed_;  ///< CV_32F, px: speed of the surface that a pixel's model was learned from
+  cv::Mat age_;    ///< CV_8U: pictures that a pixel's model was learned from, at most 255; 0: none
+};
+
+}  // namespace redbee

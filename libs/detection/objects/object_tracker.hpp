@@ -1,0 +1,67 @@
+// From masks to objects with an identity.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "redbee/detection/parameters.hpp"
+
+namespace redbee {
+
+struct Detection {
+  int id = 0;          ///< identity: the same object keeps it, through missed frames and stops
+  cv::Rect box;        ///< px
+  double area_px = 0;  ///< of its mask
+  double score = 0;    ///< mean P_FG over its mask, 0..1
+  bool seen = true;    ///< false: carried by the tracker through a frame in which it did not stand out
+};
+
+/// Two thresholds (hysteresis), opening, closing, and the components that are large enough. `mask` (CV_8U, 0
+/// or 255) holds exactly those. `probability`: CV_8U, P_FG * 255.
+struct ForegroundComponents {
+  cv::Mat mask;
+  std::vector<Detection> components;  ///< without identity
+};
+ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& unknown,
+                                    const SegmentationParameters& parameters);
+
+/// Follows objects over the ground: each has a velocity relative to it, which fades while the object is not
+/// seen, for an object that no longer stands out has most likely stopped.
+class ObjectTracker {
+ public:
+  explicit ObjectTracker(const SegmentationParameters& parameters) : parameters_(parameters) {}
+
+  void reset() { objects_.clear(); }
+  /// The view moves by the ground homography (previous to current, pixels).
+  void carry(const Eigen::Matrix3d& ground);
+  /// Gives components their identities. Objects that were told before and are not among the components follow
+  /// with seen = false, until max_missed_frames or until they have left the picture.
+  std::vector<Detection> update(const std::vector<Detection>& components, cv::Size picture);
+  /// A frame in which nothing could be judged, as while a process of the stack begins anew: nothing was
+  /// looked for, and so nothing was missed. Up to max_missed_frames of these in a row cost no identity.
+  std::vector<Detection> skip(cv::Size picture);
+
+ private:
+  struct Object {
+    Detection last;
+    Eigen::Vector2d centre;    ///< px
+    Eigen::Vector2d velocity;  ///< px a frame, against the ground
+    int hits = 1;
+    int missed = 0;  ///< frames in a row without a component
+    int blind = 0;   ///< of these, in how many nothing could be judged
+    bool told = false;
+  };
+
+  void associate(const std::vector<Detection>& components, std::vector<int>& component_of_object) const;
+  void observe(Object& object, const Detection& component) const;
+  static void miss(Object& object);
+  void forgetLost(const cv::Rect& view);
+  std::vector<Detection> tell(const cv::Rect& view);
+
+  SegmentationParameters parameters_;
+  std::vector<Object> objects_;
+  int next_id_ = 1;
+};
+
+}  // namespace redbee

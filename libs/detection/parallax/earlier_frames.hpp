@@ -1,0 +1,47 @@
+// Pictures of the last second and the camera's motion from each of them to now.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "redbee/geometry/homography.hpp"
+
+namespace redbee {
+
+struct EarlierFrame {
+  int64_t utime = 0;
+  cv::Mat grey;                                          ///< CV_8U
+  Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  ///< this frame's pixels to the current frame's
+  std::optional<PlaneMotion> motion;                     ///< from this frame to the current one
+  std::optional<Eigen::Matrix3d> front;                  ///< like `ground`, of the second plane
+  bool still = true;                                     ///< no carry() since: all motion is the identity
+};
+
+class EarlierFrames {
+ public:
+  void reset() { frames_.clear(); }
+  /// The view moves (previous to current, pixels of the pictures that are remembered).
+  void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
+             const std::optional<Eigen::Matrix3d>& front = std::nullopt);
+  /// Forgets what is older than span_s.
+  void remember(int64_t utime, const cv::Mat& grey, double span_s);
+  /// The frame whose age is nearest to age_s; null while there is none.
+  const EarlierFrame* aged(int64_t now, double age_s) const;
+  const EarlierFrame* newest() const { return frames_.empty() ? nullptr : &frames_.back(); }
+
+ private:
+  std::deque<EarlierFrame> frames_;  ///< oldest first
+};
+
+/// An earlier picture as the current camera would see it, were the scene ground up to the horizon and
+/// infinitely far above it.
+struct AlignedPicture {
+  cv::Mat grey;    ///< CV_8U
+  cv::Mat unseen;  ///< CV_8U, 255 where the earlier picture does not show the scene, or within margin_px of
+                   ///< that
+};
+AlignedPicture alignPicture(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px);
+
+}  // namespace redbee

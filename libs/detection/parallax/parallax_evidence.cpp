@@ -1,0 +1,166 @@
+#include "redbee/detection/parallax/parallax_evidence.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "redbee/detection/parallax/border_structure.hpp"
+#include "redbee/detection/parallax/registration_error.hpp"
+#include "redbee/imaging/guided_filter.hpp"
+#include "redbee/imaging/warping.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr double kExpectedErrorPx = 0.5;  // full-size px, of the registration of two frames
+constexpr double kMarginPx = 16;          // full-size px: flow so near to what is not there is made up
+
+int halvings(int from_downscale, int to_downscale) {
+  int times = 0;
+  for (int downscale = std::max(from_downscale, 1); downscale < to_downscale; downscale *= 2) ++times;
+  return times;
+}
+
+}  // namespace
+
+cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const SegmentationParameters& parameters) {
+  constexpr int kIterations = 4;
+  constexpr int kStride = 5;
+  auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
+  dis->setFinestScale(halvings(parameters.work_downscale, parameters.flow_downscale));
+  dis->setGradientDescentIterations(kIterations);
+  dis->setPatchStride(kStride);
+  return dis;
+}
+
+ParallaxEvidence::ParallaxEvidence(const SegmentationParameters& parameters)
+    : parameters_(parameters),
+      scale_(std::max(parameters.work_downscale, 1)),
+      work_(downscaling(scale_)),
+      dis_(makeMotionFlow(parameters)),
+      travelling_(parameters) {}
+
+void ParallaxEvidence::reset() {
+  frames_.reset();
+  travelling_.reset();
+  fast_ = false;
+  unseen_.release();
+  speed_.release();
+}
+
+void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+                             const std::optional<PlaneMotion>& motion) {
+  const auto at_work = [&](const Eigen::Matrix3d& H) {
+    return normaliseHomography(work_ * H * work_.inverse());
+  };
+  last_step_ = at_work(ground);
+  frames_.carry(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
+}
+
+cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K, cv::Size full) {
+  cv::Mat small;
+  cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
+  cv::Mat found;
+  const EarlierFrame* frame = frames_.aged(utime, fast_ ? 0 : parameters_.baseline_s);
+  const EarlierFrame* newest = frames_.newest();
+  if (frame != nullptr && newest != nullptr) {
+    const double frames =
+        static_cast<double>(utime - frame->utime) / static_cast<double>(utime - newest->utime);
+    found = evidence(*frame, small, work_ * K, frames);
+  }
+  if (small.data == grey.data) small = grey.clone();
+  frames_.remember(utime, small, parameters_.baseline_s);
+  return found;
+}
+
+cv::Mat ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K,
+                                   double frames) {
+  const int margin = static_cast<int>(std::lround(kMarginPx / scale_));
+  const AlignedPicture reference = alignPicture(frame, K, margin);
+  unseen_ = reference.unseen;
+  cv::Mat flow;
+  dis_->calc(grey, reference.grey, flow);
+  const bool two_planes = !frame.motion && frame.front;
+  const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
+                                             : ParallaxSegment(frame.motion, K, parameters_);
+  FrameEvidence now = judgeFlow(segment, grey, flow, frames);
+  fast_ = parameters_.use_short_baseline && holdsFastMovers(flow, now.off, frames);
+  now.off.setTo(cv::Scalar::all(0), unseen_);
+  travelling_.update(now, last_step_, unseen_);
+  const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
+  cv::Mat motion = guidedFilter(grey, travelling_.motion(), radius, parameters_.fill_contrast);
+  motion = cv::min(cv::max(motion, 0), 1);
+  if (!frame.motion && parameters_.border_stretch > 0) muteBorderStructure(motion);
+  return motion;
+}
+
+bool ParallaxEvidence::holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, double frames) const {
+  // Within two frames half a patch of the flow a frame makes a whole one: as wide are the halos that the
+  // flow then has where ground is covered and uncovered.
+  constexpr double kFastPx = 8;  // full-size px a frame
+  constexpr float kSureSigmas = 3;
+  constexpr int kStep = 8;
+  constexpr double kShare = 0.02;  // of the picture
+  const auto fast = static_cast<float>(kFastPx / scale_ * frames);
+  int seen = 0, fast_movers = 0;
+  for (int y = kStep / 2; y < flow.rows; y += kStep) {
+    for (int x = kStep / 2; x < flow.cols; x += kStep) {
+      if (unseen_.at<uint8_t>(y, x) != 0) continue;
+      ++seen;
+      const bool moves = cv::norm(off.at<cv::Vec2f>(y, x)) > kSureSigmas;
+      if (moves && cv::norm(flow.at<cv::Vec2f>(y, x)) > fast) ++fast_movers;
+    }
+  }
+  return fast_movers > kShare * seen;
+}
+
+void ParallaxEvidence::muteBorderStructure(cv::Mat& motion) const {
+  // Squared, because what enters the picture has not gathered all of its evidence at the border yet.
+  const cv::Mat inside =
+      1 - shareOfBorderStructure(motion, unseen_, parameters_.border_stretch * motion.cols);
+  motion = motion.mul(inside).mul(inside);
+}
+
+cv::Mat ParallaxEvidence::flowVariance(const cv::Mat& grey) const {
+  // At a quarter of the full size, about the flow's own grid. OpenCV's eigenvalue is that of the sum of
+  // squared Sobel responses over kBlock^2 pixels, scaled by (kSobelGain / 2 * kBlock * 255)^-2.
+  constexpr int kBlock = 5;
+  constexpr double kSobelGain = 8;
+  const double to_square_gradient = std::pow(kSobelGain / 2 * kBlock * 255 / (kBlock * kSobelGain), 2);
+  cv::Mat quarter, variance;
+  cv::resize(grey, quarter, {}, scale_ / 4, scale_ / 4, cv::INTER_AREA);
+  cv::cornerMinEigenVal(quarter, variance, kBlock);
+  const double noise2 = std::pow(parameters_.parallax_noise_px / scale_, 2);
+  const double floor2 = parameters_.min_gradient * parameters_.min_gradient;
+  variance = noise2 + noise2 * floor2 / (variance * to_square_gradient + 1e-3);
+  cv::resize(variance, variance, grey.size(), 0, 0, cv::INTER_LINEAR);
+  return variance;
+}
+
+FrameEvidence ParallaxEvidence::judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey,
+                                          const cv::Mat& flow, double frames) {
+  const cv::Mat variance = flowVariance(grey);
+  HomographyFlow error(flow.size());
+  if (parameters_.use_registration) {
+    const double expected = kExpectedErrorPx / scale_;
+    error = registrationError(flow, variance, unseen_, segment, static_cast<float>(expected));
+  }
+  FrameEvidence evidence{cv::Mat(flow.size(), CV_32FC2), flow * (1 / frames)};
+  speed_.create(flow.size(), CV_32FC2);
+  for (int y = 0; y < flow.rows; ++y) {
+    const cv::Vec2f* back = flow.ptr<cv::Vec2f>(y);
+    const float* noise = variance.ptr<float>(y);
+    cv::Vec2f* off = evidence.off.ptr<cv::Vec2f>(y);
+    cv::Vec2f* speed = speed_.ptr<cv::Vec2f>(y);
+    for (int x = 0; x < flow.cols; ++x) {
+      const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
+      const cv::Vec2f forth = -back[x] - error.at(pixel[0], pixel[1]);
+      off[x] = segment.judge(pixel + back[x], forth, noise[x]).off_in_sigmas;
+      speed[x] = {std::sqrt(forth.dot(forth)), noise[x]};
+    }
+  }
+  return evidence;
+}
+
+}  // namespace redbee

@@ -1,0 +1,66 @@
+// What no static surface at any depth explains (plane plus parallax; Irani and Anandan 1998).
+//
+// An earlier picture is laid onto the current one by the ground homography (above the horizon, where there is
+// no ground, by the rotation). Does the dense flow that remains lie off the segment of possible parallax
+// (parallax_segment.hpp)? The answer is averaged along what moves (travelling_evidence.hpp). It knows trees
+// and facades (without an IMU by where they stand, border_structure.hpp), but its outlines are coarse.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <optional>
+#include <vector>
+
+#include "redbee/detection/parallax/earlier_frames.hpp"
+#include "redbee/detection/parallax/parallax_segment.hpp"
+#include "redbee/detection/parallax/travelling_evidence.hpp"
+#include "redbee/detection/parameters.hpp"
+#include "redbee/geometry/homography.hpp"
+
+namespace redbee {
+
+/// Dense inverse-search flow for pictures of work_downscale, found at flow_downscale.
+cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const SegmentationParameters& parameters);
+
+class ParallaxEvidence {
+ public:
+  explicit ParallaxEvidence(const SegmentationParameters& parameters);
+
+  void reset();
+  /// The view moves (previous to current; full-size pixels).
+  void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+             const std::optional<PlaneMotion>& motion);
+  /// Evidence of motion per pixel of the work, CV_32F 0..1; empty where there is no earlier frame. Remembers
+  /// the picture (CV_8U, `full` or smaller).
+  cv::Mat learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K, cv::Size full);
+
+  /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
+  const cv::Mat& unseen() const { return unseen_; }
+  /// What the last learn() saw of the flow; the work's pixels (CV_32FC2, see SurfaceSpeed). Empty where there
+  /// was no earlier frame.
+  const cv::Mat& speed() const { return speed_; }
+
+ private:
+  cv::Mat evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K, double frames);
+  FrameEvidence judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey, const cv::Mat& flow,
+                          double frames);
+  /// Whether much of the picture moves, and by so much that the frame before shows it better than an earlier
+  /// one. `off`: CV_32FC2, sigmas.
+  bool holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, double frames) const;
+  void muteBorderStructure(cv::Mat& motion) const;
+  cv::Mat flowVariance(const cv::Mat& grey) const;
+
+  SegmentationParameters parameters_;
+  double scale_;          ///< full-size pixels to a pixel of the work
+  Eigen::Matrix3d work_;  ///< full-size pixels to the work's
+  cv::Ptr<cv::DISOpticalFlow> dis_;
+  EarlierFrames frames_;
+  TravellingEvidence travelling_;
+  Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< in the work's pixels
+  bool fast_ = false;                                        ///< the last frame held fast movers
+  cv::Mat unseen_;
+  cv::Mat speed_;
+};
+
+}  // namespace redbee

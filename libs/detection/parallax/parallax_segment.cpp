@@ -1,0 +1,80 @@
+#include "redbee/detection/parallax/parallax_segment.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "redbee/imaging/warping.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr double kPlanesError = 3;  // times the direction's error with an IMU
+constexpr float kNoDirection = 1e-6F;
+
+}  // namespace
+
+ParallaxSegment::ParallaxSegment(const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K,
+                                 const SegmentationParameters& parameters)
+    : direction_variance_(static_cast<float>(parameters.direction_error * parameters.direction_error)) {
+  if (!motion || !parameters.use_epipolar) return;
+  const Eigen::Vector3f e = (K * motion->t_ba / (parameters.nearest_depth_share * motion->h_a)).cast<float>();
+  epipole_ = {e.x(), e.y(), e.z()};
+}
+
+ParallaxSegment::ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
+                                 const SegmentationParameters& parameters)
+    : direction_variance_(static_cast<float>(std::pow(kPlanesError * parameters.direction_error, 2))) {
+  if (parameters.use_epipolar) to_front_ = cv::Matx33f(toMatx(front * ground.inverse()));
+}
+
+/// From the ground's place in the picture to that of the nearest static surface.
+cv::Vec2f ParallaxSegment::end(const cv::Vec2f& ground) const {
+  constexpr float kBeyondFront = 1.5F;  // parts of it stand out from the plane
+  // A point at depth z lies at (a + e / z) / (a_3 + e_3 / z), a its image at infinity: whatever the depth, it
+  // moves along e_12 - e_3 ground.
+  if (!to_front_) return {epipole_[0] - epipole_[2] * ground[0], epipole_[1] - epipole_[2] * ground[1]};
+  const cv::Vec3f front = *to_front_ * cv::Vec3f(ground[0], ground[1], 1);
+  return kBeyondFront * (cv::Vec2f(front[0], front[1]) / front[2] - ground);
+}
+
+ParallaxSegment::Ray ParallaxSegment::ray(const cv::Vec2f& ground) const {
+  const cv::Vec2f towards = end(ground);
+  const float length = std::sqrt(towards.dot(towards));
+  if (length < kNoDirection) return {{0, 0}, 0};
+  return {towards * (1 / length), length};
+}
+
+cv::Vec2f ParallaxSegment::direction(const cv::Vec2f& ground) const { return ray(ground).direction; }
+
+ParallaxSegment::Verdict ParallaxSegment::judge(const cv::Vec2f& ground, const cv::Vec2f& flow,
+                                                float noise_variance) const {
+  const auto [direction, length] = ray(ground);
+  if (length == 0) return {{0, 0}, flow * (1 / std::sqrt(noise_variance))};
+  const float along = flow.dot(direction);
+  const cv::Vec2f nearest = direction * std::clamp(along, 0.0F, length);
+  const float sigma = std::sqrt(noise_variance + direction_variance_ * along * along);
+  return {nearest, (flow - nearest) * (1 / sigma)};
+}
+
+bool runsOutOfPicture(const PointTracks& tracks, const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
+                      cv::Size picture) {
+  constexpr double kExplained_px = 1.5;
+  constexpr double kBorderShare = 1.0 / 12;  // of the picture's height
+  constexpr double kLeastShare = 0.1;        // of the points, near the border
+  const double border = kBorderShare * picture.height;
+  int on_front = 0, at_border = 0;
+  for (size_t i = 0; i < tracks.current.size(); ++i) {
+    const Eigen::Vector2d before(tracks.previous[i].x, tracks.previous[i].y);
+    const Eigen::Vector2d now(tracks.current[i].x, tracks.current[i].y);
+    if ((transfer(front, before) - now).norm() > kExplained_px) continue;
+    if ((transfer(ground, before) - now).norm() <= kExplained_px) continue;
+    ++on_front;
+    const double to_border =
+        std::min({now.x(), now.y(), picture.width - 1 - now.x(), picture.height - 1 - now.y()});
+    if (to_border < border) ++at_border;
+  }
+  return on_front > 0 && at_border >= kLeastShare * on_front;
+}
+
+}  // namespace redbee

@@ -1,0 +1,57 @@
+// Where a static surface may have moved in the picture, once the ground's motion has been taken out (plane
+// plus parallax; Irani and Anandan 1998).
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "redbee/detection/parameters.hpp"
+#include "redbee/geometry/homography.hpp"
+#include "redbee/visual/point_tracker.hpp"
+
+namespace redbee {
+
+/// A static surface nearer than the ground has moved along the line through the epipole e = K t, away from
+/// where the ground would be, and no further than the nearest plausible depth allows: its remaining flow lies
+/// on a known segment, from 0 to where that nearest surface would be. Without an IMU a second plane shows the
+/// same: surfaces between the two move by less than it, beyond it by somewhat more. With neither the segment
+/// is the point 0.
+class ParallaxSegment {
+ public:
+  ParallaxSegment(const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K,
+                  const SegmentationParameters& parameters);
+  /// Both homographies from the earlier frame to the current one. Their difference tells the direction less
+  /// well than an IMU does.
+  ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
+                  const SegmentationParameters& parameters);
+
+  struct Verdict {
+    cv::Vec2f nearest;        ///< px: the point of the segment that is nearest to the flow
+    cv::Vec2f off_in_sigmas;  ///< from there to the flow, over its standard deviation
+    float sigmasSquared() const { return off_in_sigmas.dot(off_in_sigmas); }
+  };
+  /// `ground`: where the scene point would be in the current picture if it lay on the ground [px]; `flow`:
+  /// from there to where it is [px], of variance `noise_variance` [px^2].
+  Verdict judge(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
+  /// Unit vector along which parallax moves what stands at `ground`; 0 where there is none.
+  cv::Vec2f direction(const cv::Vec2f& ground) const;
+
+ private:
+  struct Ray {
+    cv::Vec2f direction;  ///< unit; 0 where there is no parallax
+    float length;         ///< px; 0 there
+  };
+  cv::Vec2f end(const cv::Vec2f& ground) const;
+  Ray ray(const cv::Vec2f& ground) const;
+
+  cv::Vec3f epipole_{0, 0, 0};           ///< K t over the nearest depth
+  std::optional<cv::Matx33f> to_front_;  ///< the ground's place of a pixel to the front plane's
+  float direction_variance_;             ///< rad^2
+};
+
+/// Whether what follows the second plane (and not the ground) runs out of the picture, as static structures
+/// do: an island in the ground is more likely something that moves. Homographies previous to current.
+bool runsOutOfPicture(const PointTracks& tracks, const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
+                      cv::Size picture);
+
+}  // namespace redbee

@@ -1,0 +1,41 @@
+// What the ground's homography leaves of the motion of everything that stands still: a smooth error of
+// registration, which would otherwise add up to evidence of motion.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "redbee/detection/parallax/parallax_segment.hpp"
+
+namespace redbee {
+
+/// The flow [px] of a homography that hardly moves anything, to first order in its eight entries. Pixels are
+/// taken in units of half the picture's width about its middle, so that all entries are in pixels.
+struct HomographyFlow {
+  explicit HomographyFlow(cv::Size picture)
+      : middle(0.5F * static_cast<float>(picture.width), 0.5F * static_cast<float>(picture.height)),
+        unit(0.5F * static_cast<float>(picture.width)) {}
+
+  cv::Vec2f at(float x, float y) const {
+    const float u = (x - middle[0]) / unit, v = (y - middle[1]) / unit;
+    const float scale = perspective[0] * u + perspective[1] * v;
+    return {affine(0, 0) * u + affine(0, 1) * v + affine(0, 2) + scale * u,
+            affine(1, 0) * u + affine(1, 1) * v + affine(1, 2) + scale * v};
+  }
+
+  cv::Vec2f middle;
+  float unit;
+  Eigen::Matrix<float, 2, 3> affine = Eigen::Matrix<float, 2, 3>::Zero();
+  cv::Vec2f perspective{0, 0};
+};
+
+/// What a homography explains of the flow across the direction of parallax (where there is no parallax, of
+/// all of it), robustly over the picture: static surfaces agree on it whatever their depth, what moves does
+/// not. `flow`: CV_32FC2, px, from the current picture to the earlier one that the ground's homography has
+/// laid onto it; `variance`: CV_32F, px^2, of the flow; `unseen`: CV_8U, not 0 where the flow means nothing;
+/// `expected_px`: how large an error is expected, a weak prior. The result points like the flow of `segment`,
+/// from the earlier picture to the current one.
+HomographyFlow registrationError(const cv::Mat& flow, const cv::Mat& variance, const cv::Mat& unseen,
+                                 const ParallaxSegment& segment, float expected_px);
+
+}  // namespace redbee

@@ -1,0 +1,84 @@
+#include "redbee/detection/parallax/travelling_evidence.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+namespace {
+
+constexpr float kSmall = 1e-3F;
+
+/// Where the pixels were in the previous picture.
+cv::Mat previousPlaces(const cv::Mat& back_step, const Eigen::Matrix3d& ground) {
+  const Eigen::Matrix3f back = ground.inverse().cast<float>();
+  cv::Mat places(back_step.size(), CV_32FC2);
+  for (int y = 0; y < places.rows; ++y) {
+    const cv::Vec2f* step = back_step.ptr<cv::Vec2f>(y);
+    cv::Vec2f* to = places.ptr<cv::Vec2f>(y);
+    for (int x = 0; x < places.cols; ++x) {
+      const float u = static_cast<float>(x) + step[x][0];
+      const float v = static_cast<float>(y) + step[x][1];
+      const float scale = 1 / (back(2, 0) * u + back(2, 1) * v + back(2, 2));
+      to[x] = {(back(0, 0) * u + back(0, 1) * v + back(0, 2)) * scale,
+               (back(1, 0) * u + back(1, 1) * v + back(1, 2)) * scale};
+    }
+  }
+  return places;
+}
+
+cv::Mat fetch(const cv::Mat& map, const cv::Mat& places, const cv::Mat& like) {
+  if (map.empty()) return cv::Mat::zeros(like.size(), like.type());
+  cv::Mat fetched;
+  cv::remap(map, fetched, places, {}, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  return fetched;
+}
+
+}  // namespace
+
+void TravellingEvidence::reset() { moving_.release(); }
+
+void TravellingEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d& ground,
+                                const cv::Mat& unseen) {
+  const cv::Mat places = previousPlaces(now.back_step, ground);
+  cv::Mat moving = fetch(moving_, places, cv::Mat(now.off.size(), CV_32FC4));
+  cv::Mat off_around;
+  cv::blur(now.off, off_around, {3, 3});
+  const auto half2 = static_cast<float>(parameters_.evidence_sigmas * parameters_.evidence_sigmas);
+  const auto rate = static_cast<float>(parameters_.evidence_rate);
+  for (int y = 0; y < moving.rows; ++y) {
+    const cv::Vec2f* off = now.off.ptr<cv::Vec2f>(y);
+    const cv::Vec2f* around = off_around.ptr<cv::Vec2f>(y);
+    cv::Vec4f* sum = moving.ptr<cv::Vec4f>(y);
+    for (int x = 0; x < moving.cols; ++x) {
+      // Background that an object has just uncovered stands still where the object moved: it inherits
+      // nothing.
+      const float then2 = sum[x][1] * sum[x][1] + sum[x][2] * sum[x][2];
+      const float kept = std::min(1.0F, (4 * around[x].dot(around[x]) + half2) / (then2 + half2));
+      const float off2 = off[x].dot(off[x]);
+      const cv::Vec4f newest(off2 / (off2 + half2), off[x][0], off[x][1], std::sqrt(off2));
+      sum[x] = kept * (1 - rate) * sum[x] + rate * newest;
+    }
+  }
+  moving.setTo(cv::Scalar::all(0), unseen);
+  moving_ = moving;
+}
+
+cv::Mat TravellingEvidence::motion() const {
+  // Averaging leaves about half of the variance that a single vector has.
+  const auto half2 = static_cast<float>(0.5 * parameters_.evidence_sigmas * parameters_.evidence_sigmas);
+  cv::Mat motion(moving_.size(), CV_32F);
+  for (int y = 0; y < motion.rows; ++y) {
+    const cv::Vec4f* sum = moving_.ptr<cv::Vec4f>(y);
+    float* to = motion.ptr<float>(y);
+    for (int x = 0; x < motion.cols; ++x) {
+      const float net2 = sum[x][1] * sum[x][1] + sum[x][2] * sum[x][2];
+      const float coherence = net2 / (sum[x][3] * sum[x][3] + kSmall);
+      to[x] = std::sqrt(sum[x][0] * coherence * net2 / (net2 + half2));
+    }
+  }
+  return motion;
+}
+
+}  // namespace redbee

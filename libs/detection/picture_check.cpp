@@ -1,0 +1,30 @@
+#include "redbee/detection/picture_check.hpp"
+
+namespace redbee {
+namespace {
+
+/// Of neighbouring pixels in a row: 1 where they have nothing to do with each other, a few hundredths in a
+/// picture of something.
+constexpr double kMaxRoughness = 0.7;
+
+/// Mean squared difference of neighbours over what it is for independent ones, twice the variance.
+double roughness(const cv::Mat& grey, double deviation) {
+  cv::Mat difference;
+  cv::absdiff(grey.colRange(1, grey.cols), grey.colRange(0, grey.cols - 1), difference);
+  const double squares = cv::norm(difference, cv::NORM_L2SQR);
+  return squares / static_cast<double>(difference.total()) / (2 * deviation * deviation);
+}
+
+}  // namespace
+
+bool PictureCheck::accepts(const cv::Mat& grey) {
+  if (grey.empty()) return false;
+  const bool frozen = previous_.size() == grey.size() && cv::norm(previous_, grey, cv::NORM_INF) == 0;
+  previous_ = grey.clone();
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(grey, mean, deviation);
+  if (frozen || deviation[0] < min_contrast_) return false;
+  return grey.cols < 2 || deviation[0] == 0 || roughness(grey, deviation[0]) < kMaxRoughness;
+}
+
+}  // namespace redbee

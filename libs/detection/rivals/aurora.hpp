@@ -1,0 +1,67 @@
+// AURORA: autonomous real-time on-board video analytics (Sadeghi-Tehran, Clarke, Angelov): one homography,
+// and recursive density estimation per pixel.
+//
+// The model is carried into each frame by the homography, as the authors do. Density of the newest value x_k
+// among the k values that the pixel has had,
+//   mu_k = (k-1)/k mu_(k-1) + x_k / k,   S_k = (k-1)/k S_(k-1) + |x_k|^2 / k,
+//   D_k = 1 / (1 + |x_k - mu_k|^2 + S_k - |mu_k|^2),
+// and foreground where D_k < mean(D) - deviation(D), both over the pixel's own past. Score: kDecisionScore
+// at a tenth of a
+// deviation, since a deviation is held up from below (tuned), graded by (mean - D_k) / deviation. Their
+// grouping of the foreground pixels is an average over a box here (tuned, EXPERIMENTS.md). Mean and deviation
+// of D begin when a pixel is first judged: the first densities are all 1. Pictures are smoothed first, or
+// what the carrying blurs would be foreground wherever there is fine texture. `aurora-davis` has what was
+// best on DAVIS' clips alone: it forgets sooner.
+#pragma once
+
+#include "redbee/detection/rivals/registration.hpp"
+#include "redbee/detection/rivals/rival.hpp"
+
+namespace redbee {
+
+/// The recursion for a picture's worth of pixels. Values are colours over `unit` grey levels.
+class RecursiveDensity {
+ public:
+  struct Parameters {
+    float unit = 512;    ///< grey levels: distance at which the density has halved; not published, tuned
+    float longest = 10;  ///< frames, k is held here; the paper's grows for ever, this forgets; tuned
+    float least_deviation = 0.05F;  ///< of the density: what is flatter than noise does not stand out; tuned
+    int learning_frames = 4;        ///< a pixel seen less often is not judged
+  };
+  RecursiveDensity(cv::Size size, const Parameters& parameters);
+
+  void carry(const cv::Matx33d& H);
+  /// Takes in a picture (CV_8UC3). CV_32F: by how many deviations the density lies below its mean, 0 where it
+  /// lies above or the pixel is not judged yet.
+  cv::Mat update(const cv::Mat& colour);
+
+  const cv::Mat& density() const { return density_; }  ///< CV_32F, D_k of the last update
+
+ private:
+  Parameters parameters_;
+  cv::Mat mean_;     ///< CV_32FC3, mu
+  cv::Mat moments_;  ///< CV_32FC3: S, mean of D, mean of D^2
+  cv::Mat count_;    ///< CV_32F, k
+  cv::Mat density_;
+};
+
+struct AuroraParameters {
+  RecursiveDensity::Parameters density;
+  int average_px = 15;  ///< side of the box
+};
+
+class Aurora : public Rival {
+ public:
+  explicit Aurora(const AuroraParameters& parameters = {}) : parameters_(parameters) {}
+  bool wantsColour() const override { return true; }
+
+ private:
+  void reset() override;
+  RivalOutput judge(const RivalInput& input) override;
+
+  AuroraParameters parameters_;
+  Registrar registrar_;
+  std::optional<RecursiveDensity> density_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,35 @@
+// The absolute difference to the picture before the previous one, laid onto this one by homographies: the
+// simplest of all.
+//
+// Nobody's publication. The difference is averaged over a box, which fills what is hollow and drowns what is
+// speckled. Box, smoothing, how far back and the threshold are tuned (EXPERIMENTS.md). Score: kDecisionScore
+// at 20 grey levels.
+//
+// `difference-davis` has what was best on DAVIS' clips alone, whose movers are large and fast.
+#pragma once
+
+#include "redbee/detection/rivals/picture_history.hpp"
+#include "redbee/detection/rivals/registration.hpp"
+#include "redbee/detection/rivals/rival.hpp"
+
+namespace redbee {
+
+struct DifferenceParameters {
+  size_t back_frames = 2;
+  int average_px = 15;  ///< side of the box
+};
+
+class Difference : public Rival {
+ public:
+  explicit Difference(const DifferenceParameters& parameters = {});
+
+ private:
+  void reset() override;
+  RivalOutput judge(const RivalInput& input) override;
+
+  DifferenceParameters parameters_;
+  Registrar registrar_;
+  PictureHistory history_;
+};
+
+}  // namespace redbee

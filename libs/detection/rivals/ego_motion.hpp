@@ -1,0 +1,45 @@
+// The camera's motion between two frames, for the rivals that reason about it.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "redbee/detection/rivals/grid_flow.hpp"
+#include "redbee/geometry/homography.hpp"
+
+namespace redbee {
+
+/// Static points at inverse depth s along the ray of a previous pixel lie at q + s e in the current picture
+/// (homogeneous), for s between two bounds.
+class EgoMotion {
+ public:
+  /// From an IMU. The scene is no nearer than `nearest_share` of the height, and no deeper than the ground
+  /// plane, whose depth is trusted to within `ground_slack`.
+  EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_share, double ground_slack);
+  /// From the tracks alone: essential matrix (Nister's five points, RANSAC). Depth is only known to be
+  /// positive, and is taken to be at least `nearest_baselines` times the length of travel. Nothing where too
+  /// few points agree.
+  static std::optional<EgoMotion> fromTracks(const GridTracks& tracks, const Eigen::Matrix3d& K,
+                                             double nearest_baselines);
+
+  /// Where a static scene point seen at `previous` may lie in the current picture: a straight segment [px].
+  struct Segment {
+    Eigen::Vector2d farthest, nearest;
+  };
+  /// Nothing for a ray that the motion takes behind the camera.
+  std::optional<Segment> segmentOf(const cv::Point2f& previous) const;
+
+ private:
+  EgoMotion(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const Eigen::Matrix3d& K);
+
+  Eigen::Matrix3d rotation_;  ///< K R K^-1
+  Eigen::Vector3d epipole_;   ///< K t
+  Eigen::Vector3d ground_ =
+      Eigen::Vector3d::Zero();  ///< inverse depth of the ground at a pixel: its scalar product
+  double nearest_inverse_depth_ = 0;
+};
+
+/// From the segment's nearest point to where the point is [px].
+Eigen::Vector2d offSegment(const EgoMotion::Segment& segment, const cv::Point2f& current);
+
+}  // namespace redbee

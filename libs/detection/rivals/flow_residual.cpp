@@ -1,0 +1,58 @@
+#include "redbee/detection/rivals/flow_residual.hpp"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "redbee/detection/rivals/graded_score.hpp"
+
+namespace redbee {
+
+cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
+  const cv::Matx33d back = H.inv();
+  const cv::Rect2d picture(0, 0, flow.cols - 1, flow.rows - 1);
+  cv::Mat remains = cv::Mat::zeros(flow.size(), CV_32F);
+  for (int y = 0; y < flow.rows; ++y) {
+    const auto* measured = flow.ptr<cv::Vec2f>(y);
+    auto* to = remains.ptr<float>(y);
+    for (int x = 0; x < flow.cols; ++x) {
+      const cv::Vec3d p = back * cv::Vec3d(x, y, 1);
+      const cv::Point2d expected(p[0] / p[2], p[1] / p[2]);
+      if (p[2] <= 0 || !picture.contains(expected)) continue;
+      to[x] =
+          static_cast<float>(std::hypot(x + measured[x][0] - expected.x, y + measured[x][1] - expected.y));
+    }
+  }
+  return remains;
+}
+
+FlowResidual::FlowResidual(const FlowResidualParameters& parameters)
+    : parameters_(parameters),
+      flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)),
+      history_(parameters.back_frames) {}
+
+void FlowResidual::reset() {
+  registrar_.reset();
+  history_.clear();
+}
+
+RivalOutput FlowResidual::judge(const RivalInput& input) {
+  RivalOutput output;
+  const bool first = !registrar_.hasPrevious();
+  const auto registration = registrar_.advance(input.grey);
+  if (registration) {
+    output.status = RivalStatus::kGood;
+    output.background = *registration;
+    history_.carry(*registration);
+    cv::Mat flow;
+    flow_->calc(input.grey, history_.oldest(), flow);
+    cv::Mat remains = flowAgainst(flow, history_.oldestToNewest());
+    cv::blur(remains, remains, {parameters_.average_px, parameters_.average_px});
+    output.score = gradedScore(remains, parameters_.threshold_px);
+  } else if (!first) {
+    output.status = RivalStatus::kLost;
+  }
+  history_.push(input.grey.clone());
+  return output;
+}
+
+}  // namespace redbee

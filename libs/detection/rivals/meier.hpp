@@ -1,0 +1,34 @@
+// Inertial-optical flow: Meier, Brockers, Matthies, Siegwart, Weiss, "Detection and Characterization of
+// Moving Objects with Aerial Vehicles Using Inertial-Optical Flow", IROS 2015.
+//
+// Points are followed from frame to frame; the rotation that the IMU tells is taken out of their flow; what
+// is left must lie on the epipolar line of the direction of travel, point the right way, and be no shorter
+// than the ground's and no longer than the nearest surface's. Points that do not are gathered by place and
+// flow; each gathering is an object, its convex hull the mask. Score: hulls at thresholds from lenient
+// to strict, see paintClusters().
+//
+// Without an IMU, rotation and direction come from the essential matrix of the points, and the bound by the
+// ground is left out. Departures: the points lie on a grid; direction of travel and height are those of this
+// project's inertial filter, which vision corrects, as theirs does. Nothing is published of the thresholds:
+// the reach of neighbours, the direction's error and an average over a box at the end are tuned
+// (EXPERIMENTS.md), with kDecisionScore where the mean F1 of the development clips is best.
+#pragma once
+
+#include "redbee/detection/rivals/grid_flow.hpp"
+#include "redbee/detection/rivals/rival.hpp"
+
+namespace redbee {
+
+class Meier : public Rival {
+ public:
+  Meier();
+  bool wantsMotion() const override { return true; }
+
+ private:
+  void reset() override { flow_.reset(); }
+  RivalOutput judge(const RivalInput& input) override;
+
+  GridFlow flow_;
+};
+
+}  // namespace redbee

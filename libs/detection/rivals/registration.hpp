@@ -1,0 +1,31 @@
+// Two successive pictures brought onto each other by one homography: pyramidal Lucas-Kanade on a grid, then
+// RANSAC, both OpenCV's, as the authors of these methods use them.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "redbee/detection/rivals/grid_flow.hpp"
+
+namespace redbee {
+
+/// Homography of `tracks`, previous to current, by RANSAC with this inlier distance [px]. Nothing where fewer
+/// than 3 % of the points sampled (and 8 more) follow it, or it turns or scales the picture as no camera does
+/// (the authors do not check).
+std::optional<cv::Matx33d> registerTracks(const GridTracks& tracks, double inlier_px = 1.0);
+
+class Registrar {
+ public:
+  explicit Registrar(const GridFlowParameters& parameters = {}) : flow_(parameters) {}
+
+  void reset() { flow_.reset(); }
+  bool hasPrevious() const { return flow_.hasPrevious(); }
+  /// Registers the picture (CV_8U) before to this one, which is then the one before. Nothing for the first
+  /// picture and where registerTracks() fails.
+  std::optional<cv::Matx33d> advance(const cv::Mat& grey) { return registerTracks(flow_.advance(grey)); }
+
+ private:
+  GridFlow flow_;
+};
+
+}  // namespace redbee

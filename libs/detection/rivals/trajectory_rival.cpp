@@ -1,0 +1,178 @@
+#include "redbee/detection/rivals/trajectory_rival.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <set>
+#include <utility>
+
+#include "redbee/detection/rivals/graded_score.hpp"
+#include "redbee/detection/rivals/lrr.hpp"
+#include "redbee/detection/rivals/randomized_voting.hpp"
+#include "redbee/detection/rivals/registration.hpp"
+#include "redbee/detection/rivals/ssc.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr float kDistanceUnitPx = 1;
+constexpr float kTrackingErrorPx = 0.6F;
+constexpr int kMotions = 5;
+constexpr TrajectoryRivalParameters kRvParameters{16, 0.15};
+constexpr TrajectoryRivalParameters kLrrParameters{24, 0.2};
+constexpr TrajectoryRivalParameters kSscParameters{24, 0.1};
+constexpr double kReachPx = 16;  // tracks are lost, and where they were must not go without a score
+constexpr int kAveragePx = 25;
+constexpr float kDecisionShare = 0.38F;
+constexpr double kRegisteredPx = 1;  // tracks this close to the background's motions register the picture
+constexpr Eigen::Index kAffineRank = 3;
+
+cv::Mat fillFromNearest(cv::Size picture, const Eigen::MatrixXd& X, const std::vector<uint8_t>& scores) {
+  cv::Mat empty(picture, CV_8U, cv::Scalar(255));
+  const auto pixelOf = [&](Eigen::Index i) {
+    const Eigen::Vector2d p = X.col(i).tail<2>();
+    return cv::Point(std::clamp(cvRound(p.x()), 0, picture.width - 1),
+                     std::clamp(cvRound(p.y()), 0, picture.height - 1));
+  };
+  for (Eigen::Index i = 0; i < X.cols(); ++i) empty.at<uint8_t>(pixelOf(i)) = 0;
+  cv::Mat distance, cell;
+  cv::distanceTransform(empty, distance, cell, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+  std::vector<uint8_t> score_of_cell(scores.size() + 1, 0);
+  for (Eigen::Index i = 0; i < X.cols(); ++i)
+    score_of_cell[static_cast<size_t>(cell.at<int>(pixelOf(i)))] = scores[static_cast<size_t>(i)];
+  cv::Mat map = cv::Mat::zeros(picture, CV_8U);
+  for (int y = 0; y < map.rows; ++y) {
+    for (int x = 0; x < map.cols; ++x) {
+      if (distance.at<float>(y, x) <= kReachPx)
+        map.at<uint8_t>(y, x) = score_of_cell[static_cast<size_t>(cell.at<int>(y, x))];
+    }
+  }
+  return map;
+}
+
+/// About the points' centre, the largest coordinate 1: what the subspace methods are fed with.
+Eigen::MatrixXd scaled(const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd Y = X;
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    auto rows = Y(Eigen::seq(axis, Eigen::last, 2), Eigen::all);
+    const double mean = rows.mean();
+    rows.array() -= mean;
+  }
+  return Y / std::max(Y.cwiseAbs().maxCoeff(), 1.0);
+}
+
+GridTracks lastStepOfBackground(const Eigen::MatrixXd& X, const Eigen::VectorXd& distance) {
+  GridTracks tracks;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) {
+    if (distance(i) > kRegisteredPx) continue;
+    const Eigen::Vector4f last = X.col(i).tail<4>().cast<float>();
+    tracks.previous.emplace_back(last(0), last(1));
+    tracks.current.emplace_back(last(2), last(3));
+  }
+  tracks.sampled = tracks.current.size();
+  return tracks;
+}
+
+}  // namespace
+
+std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_share) {
+  std::vector<long> members;
+  members.reserve(static_cast<size_t>(count));
+  for (int label = 0; label < count; ++label)
+    members.push_back(std::count(labels.begin(), labels.end(), label));
+  const long largest = *std::max_element(members.begin(), members.end());
+  const double enough =
+      std::min(least_share * static_cast<double>(labels.size()), static_cast<double>(largest));
+  std::vector<int> background;
+  for (int label = 0; label < count; ++label) {
+    if (static_cast<double>(members[static_cast<size_t>(label)]) >= enough) background.push_back(label);
+  }
+  return background;
+}
+
+Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& tracks, const Eigen::MatrixXd& X,
+                                         const std::vector<bool>& of) {
+  const auto members = std::count(of.begin(), of.end(), true);
+  if (members <= kAffineRank)
+    return Eigen::VectorXd::Constant(tracks.cols(), std::numeric_limits<double>::infinity());
+  Eigen::MatrixXd own(X.rows(), members);
+  Eigen::Index column = 0;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) {
+    if (of[static_cast<size_t>(i)]) own.col(column++) = X.col(i);
+  }
+  const Eigen::VectorXd mean = own.rowwise().mean();
+  own.colwise() -= mean;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(own * own.transpose(), Eigen::ComputeThinU);
+  const Eigen::MatrixXd basis = svd.matrixU().leftCols(kAffineRank);
+  const Eigen::MatrixXd centred = tracks.colwise() - mean;
+  const Eigen::MatrixXd off = centred - basis * (basis.transpose() * centred);
+  return (off.colwise().squaredNorm().transpose() * 2.0 / static_cast<double>(X.rows())).cwiseSqrt();
+}
+
+Eigen::VectorXd distanceFromBackground(const Eigen::MatrixXd& tracks, const Eigen::MatrixXd& X,
+                                       const std::vector<int>& labels, const std::vector<int>& background) {
+  Eigen::VectorXd least = Eigen::VectorXd::Constant(tracks.cols(), std::numeric_limits<double>::infinity());
+  for (const int still : background) {
+    std::vector<bool> of;
+    of.reserve(labels.size());
+    for (const int label : labels) of.push_back(label == still);
+    least = least.cwiseMin(distanceFromAffineMotion(tracks, X, of));
+  }
+  return least;
+}
+
+Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, int cell_px) {
+  std::set<std::pair<int, int>> taken;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) {
+    const Eigen::Vector2d end = X.col(i).tail<2>() / cell_px;
+    if (taken.emplace(cvFloor(end.x()), cvFloor(end.y())).second) kept.push_back(i);
+  }
+  return X(Eigen::all, kept);
+}
+
+TrajectoryRival::TrajectoryRival(TrajectoryClustering clustering, const TrajectoryRivalParameters& parameters)
+    : clustering_(std::move(clustering)), parameters_(parameters), window_(TrajectoryWindowParameters{}) {}
+
+RivalOutput TrajectoryRival::judge(const RivalInput& input) {
+  RivalOutput output;
+  if (!window_.advance(input.grey)) {
+    output.status = RivalStatus::kLost;
+    return output;
+  }
+  const Eigen::MatrixXd tracks = window_.trajectories();
+  if (tracks.cols() == 0) return output;
+  const Eigen::MatrixXd X = thinned(tracks, parameters_.clustered_px);
+  if (X.cols() < 4 * kMotions) return output;
+  const std::vector<int> labels = clustering_(X, kMotions);
+  const Eigen::VectorXd distance = distanceFromBackground(
+      tracks, X, labels, backgroundLabels(labels, kMotions, parameters_.background_share));
+  std::vector<uint8_t> scores;
+  for (const double px : distance)
+    scores.push_back(gradedScore((static_cast<float>(px) - kTrackingErrorPx) / kDistanceUnitPx));
+  output.status = RivalStatus::kGood;
+  output.score =
+      averagedScore(fillFromNearest(input.grey.size(), tracks, scores), kAveragePx, kDecisionShare);
+  output.background = registerTracks(lastStepOfBackground(tracks, distance)).value_or(cv::Matx33d::eye());
+  return output;
+}
+
+std::unique_ptr<Rival> makeRandomizedVoting() {
+  const auto clustering = [](const Eigen::MatrixXd& X, int count) {
+    return randomizedVotingClusters(X, count);
+  };
+  return std::make_unique<TrajectoryRival>(clustering, kRvParameters);
+}
+
+std::unique_ptr<Rival> makeLrr() {
+  const auto clustering = [](const Eigen::MatrixXd& X, int count) { return lrrClusters(scaled(X), count); };
+  return std::make_unique<TrajectoryRival>(clustering, kLrrParameters);
+}
+
+std::unique_ptr<Rival> makeSsc() {
+  const auto clustering = [](const Eigen::MatrixXd& X, int count) { return sscClusters(scaled(X), count); };
+  return std::make_unique<TrajectoryRival>(clustering, kSscParameters);
+}
+
+}  // namespace redbee

@@ -1,0 +1,67 @@
+// Table I of the paper: motion segmentation by clustering point trajectories, made a detector.
+//
+// Tracks over a sliding window (trajectory_window.hpp), thinned to a coarse grid, are clustered afresh in
+// every frame by randomised voting (randomized_voting.hpp), low-rank representation (lrr.hpp) or sparse
+// subspace clustering (ssc.hpp). The background is every cluster that has its share of the tracks, since
+// a ground seen from near to far, facades and trees come apart in several. Each has an affine motion (a
+// subspace of three dimensions and a mean; Tomasi and Kanade 1992). All tracks, those of the fine grid as
+// well, are judged by how badly the best of these motions explains them: half the range at 1 px, less what
+// tracking errs by. Each pixel takes the score of the nearest track within kReachPx (a Voronoi fill), then
+// the mean over a box, with kDecisionScore where the mean F1 of the development clips is best.
+//
+// The methods are told the number of motions, which nobody knows here. They are batch methods: none says how
+// to run it on a stream, how to tell the background, or how to fill a mask; all of that was tuned
+// (EXPERIMENTS.md).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "redbee/detection/rivals/rival.hpp"
+#include "redbee/detection/rivals/trajectory_window.hpp"
+
+namespace redbee {
+
+/// Labels 0 .. count - 1 of the columns of 2F x N trajectories.
+using TrajectoryClustering = std::function<std::vector<int>(const Eigen::MatrixXd& X, int count)>;
+
+/// Labels of the clusters with at least this share of all tracks; the largest one's where none has. Labels
+/// lie from 0 to `count` - 1.
+std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_share);
+
+/// Root mean square distance [px] of each of `tracks` from the affine motion of those columns of `X` that
+/// have `of[i]` true; infinite where they are too few to have one.
+Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& tracks, const Eigen::MatrixXd& X,
+                                         const std::vector<bool>& of);
+
+/// The least distance [px] of each of `tracks` from the affine motions of the columns of `X` that have one of
+/// the labels `background`.
+Eigen::VectorXd distanceFromBackground(const Eigen::MatrixXd& tracks, const Eigen::MatrixXd& X,
+                                       const std::vector<int>& labels, const std::vector<int>& background);
+
+/// The columns of which at most one ends in each cell of this side [px].
+Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, int cell_px);
+
+struct TrajectoryRivalParameters {
+  int clustered_px = 24;           ///< px between the tracks that are clustered
+  double background_share = 0.15;  ///< of these: what a cluster needs to be the background's
+};
+
+class TrajectoryRival : public Rival {
+ public:
+  TrajectoryRival(TrajectoryClustering clustering, const TrajectoryRivalParameters& parameters);
+
+ private:
+  void reset() override { window_.reset(); }
+  RivalOutput judge(const RivalInput& input) override;
+
+  TrajectoryClustering clustering_;
+  TrajectoryRivalParameters parameters_;
+  TrajectoryWindow window_;
+};
+
+std::unique_ptr<Rival> makeRandomizedVoting();
+std::unique_ptr<Rival> makeLrr();
+std::unique_ptr<Rival> makeSsc();
+
+}  // namespace redbee

@@ -1,0 +1,24 @@
+// How ordered the flow is, cell by cell (paper, equation 12): objects move together, waves and leaves do not.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "redbee/detection/parameters.hpp"
+#include "redbee/visual/point_tracker.hpp"
+
+namespace redbee {
+
+/// Entropy [bits] of a histogram; 0 for an empty one.
+double histogramEntropy(const std::vector<int>& histogram);
+
+/// Reciprocal entropy of the flow's direction per cell of entropy_cell_points^2 sample points, after the
+/// ground's motion has been taken out: floor / max(entropy, floor), in (0, 1]. CV_32F of the picture's size.
+/// Points that moved less than flow_noise_px do not vote. A cell in which nothing votes gets the least value
+/// there is, that of a flat histogram, for nothing in it moves together; a cell without any track says
+/// nothing and gets 1.
+cv::Mat flowOrder(const PointTracks& tracks, const Eigen::Matrix3d& ground, cv::Size picture,
+                  const SegmentationParameters& parameters);
+
+}  // namespace redbee

@@ -1,0 +1,28 @@
+// The foreground's probability from its temporal, spatial and entropy maps (paper III.B, equations 13 to 16).
+// The maps belong to scene points: they are carried with the ground homography from frame to frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "redbee/detection/parameters.hpp"
+
+namespace redbee {
+
+class ForegroundProbability {
+ public:
+  explicit ForegroundProbability(const SegmentationParameters& parameters) : parameters_(parameters) {}
+
+  void reset();
+  /// The view moves by the ground homography (previous to current).
+  void carry(const Eigen::Matrix3d& ground);
+  /// `foreground`: CV_32F, 0..1, the D_t of (13) and (14); `order`: CV_32F, 0..1, the E_t of (15), empty for
+  /// none. P_FG (16), CV_32F, 0..1.
+  cv::Mat update(const cv::Mat& foreground, const cv::Mat& order);
+
+ private:
+  SegmentationParameters parameters_;
+  cv::Mat temporal_, spatial_, entropy_;  ///< CV_32F, empty before the first update
+};
+
+}  // namespace redbee

@@ -1,0 +1,35 @@
+#include "redbee/detection/two_planes/two_plane_background.hpp"
+
+namespace redbee {
+
+void TwoPlaneBackground::reset() {
+  ground_.reset();
+  front_.reset();
+}
+
+void TwoPlaneBackground::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front) {
+  if (!ground_) return;
+  if (!front || !parameters_.use_front_plane) {
+    front_.reset();
+  } else {
+    if (!front_) front_ = ground_;
+    front_->carry(*front);
+  }
+  ground_->carry(ground);
+}
+
+BackgroundVerdict TwoPlaneBackground::learn(const cv::Mat& grey) {
+  if (!ground_) ground_.emplace(grey.size(), parameters_);
+  BackgroundVerdict ground = ground_->learn(grey);
+  if (!front_) return ground;
+  const BackgroundVerdict front = front_->learn(grey);
+  BackgroundVerdict both;
+  both.foreground = ground.foreground & front.foreground;
+  // A pixel that one plane knows as background is background, whatever the other one has not seen.
+  const cv::Mat not_background_ground = ground.foreground | ground.unknown;
+  const cv::Mat not_background_front = front.foreground | front.unknown;
+  both.unknown = (ground.unknown & not_background_front) | (front.unknown & not_background_ground);
+  return both;
+}
+
+}  // namespace redbee

@@ -1,0 +1,29 @@
+// Foreground is what neither the ground nor the front plane explains (paper III.A).
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "redbee/detection/two_planes/background_model.hpp"
+
+namespace redbee {
+
+class TwoPlaneBackground {
+ public:
+  explicit TwoPlaneBackground(const SegmentationParameters& parameters) : parameters_(parameters) {}
+
+  void reset();
+  /// The view moves (homographies previous to current). A front plane that was not there before starts with
+  /// the ground's model, so that it is not blind; one that is gone is forgotten.
+  void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front);
+  /// The first picture after a reset is learned without carry().
+  BackgroundVerdict learn(const cv::Mat& grey);
+
+ private:
+  SegmentationParameters parameters_;
+  std::optional<BackgroundModel> ground_;
+  std::optional<BackgroundModel> front_;
+};
+
+}  // namespace redbee

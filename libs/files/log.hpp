@@ -1,0 +1,97 @@
+// Flights on disk: LCM's own log format, so that lcm-logplayer and lcm-logger read and write the same files.
+//
+// An event, all numbers big-endian: uint32 0xEDA1DA01, int64 event number, int64 timestamp [us], int32 length
+// of the channel's name, int32 length of the data, name, data. Our events' timestamp is the time inside the
+// message.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "redbee/files/atomic_file.hpp"
+
+namespace redbee {
+
+/// What a message says of itself: an event's `utime` is the message's.
+struct LogEvent {
+  int64_t number = 0;
+  int64_t utime = 0;  ///< us
+  std::string channel;
+  std::vector<uint8_t> data;
+};
+
+/// The log appears under its name on close(); until then, and for ever if close() is not reached, there is
+/// none. Throws InputError when the disk does not take it.
+class LogWriter {
+ public:
+  explicit LogWriter(const std::filesystem::path& path) : file_(path) {}
+
+  void write(int64_t utime, const std::string& channel, const std::vector<uint8_t>& data);
+  /// Any lcm-gen message with a utime.
+  template <typename Message>
+  void write(const std::string& channel, const Message& message) {
+    std::vector<uint8_t> data(static_cast<size_t>(message.getEncodedSize()));
+    message.encode(data.data(), 0, static_cast<int>(data.size()));
+    write(message.utime, channel, data);
+  }
+  void close() { file_.close(); }
+  int64_t events() const { return number_; }
+  int64_t bytes() const { return bytes_; }
+
+ private:
+  AtomicFile file_;
+  int64_t number_ = 0;
+  int64_t bytes_ = 0;
+};
+
+/// Events in the order of the file. A damaged event is skipped: the reader looks for the next place where a
+/// plausible event starts and another one (or the end of the file) follows it. Lengths are compared with what
+/// the file still holds before anything is allocated.
+class LogReader {
+ public:
+  /// Throws InputError where the file cannot be read or holds no LCM log.
+  explicit LogReader(std::filesystem::path path);
+
+  /// The next whole event; nothing at the end.
+  std::optional<LogEvent> next();
+  /// Back to the first event; the counts start anew.
+  void rewind();
+
+  int64_t size() const { return size_; }          ///< bytes
+  int64_t position() const { return position_; }  ///< bytes read so far, for progress
+  int64_t damaged() const { return damaged_; }    ///< stretches that were skipped
+  bool truncated() const { return truncated_; }   ///< the last event was cut short
+  /// One line that names file and byte offset of the first damage; empty where there was none.
+  const std::string& complaint() const { return complaint_; }
+
+ private:
+  struct Header {
+    int64_t number = 0;
+    int64_t utime = 0;
+    int32_t channel_size = 0;
+    int32_t data_size = 0;
+    int64_t size() const;  ///< bytes, of the whole event
+  };
+  std::optional<Header> headerAt(int64_t offset);
+  bool eventFollows(int64_t offset);
+  bool endsWhereItSays(const Header& header);
+  std::optional<LogEvent> take(const Header& header);
+  void skipDamage();
+  std::optional<int64_t> resynchronise(int64_t from);
+  void complain(int64_t offset, const std::string& what);
+  bool readAt(int64_t offset, void* into, size_t count);
+
+  std::filesystem::path path_;
+  std::ifstream file_;
+  int64_t size_ = 0;
+  int64_t position_ = 0;
+  int64_t damaged_ = 0;
+  bool truncated_ = false;
+  std::string complaint_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,69 @@
+#include "redbee/imaging/pyramid.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+namespace {
+
+PyramidLevel withMargin(const cv::Mat& picture, int margin) {
+  PyramidLevel level;
+  level.margin = margin;
+  level.width = picture.cols;
+  level.height = picture.rows;
+  // Isolated: a picture that is a part of a larger one ends at its own edge.
+  cv::copyMakeBorder(picture, level.padded, margin, margin, margin, margin,
+                     cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
+  return level;
+}
+
+double meanDifference(const cv::Mat& from, const cv::Mat& to, cv::Point shift, int brightness) {
+  const cv::Rect frame(cv::Point(0, 0), from.size());
+  const cv::Rect common = frame & (frame - shift);
+  int64_t sum = 0;
+  for (int y = common.y; y < common.br().y; ++y) {
+    const uint8_t* a = from.ptr(y);
+    const uint8_t* b = to.ptr(y + shift.y) + shift.x;
+    int row = 0;
+    for (int x = common.x; x < common.br().x; ++x) row += std::abs(b[x] - a[x] - brightness);
+    sum += row;
+  }
+  return static_cast<double>(sum) / std::max(1, common.area());
+}
+
+}  // namespace
+
+Pyramid::Pyramid(const cv::Mat& grey, int levels, int margin, int min_side) {
+  cv::Mat picture = grey;
+  while (true) {
+    // A mirrored margin cannot be wider than the picture itself.
+    levels_.push_back(withMargin(picture, margin));
+    if (size() >= levels || std::min(picture.cols, picture.rows) / 2 < min_side) return;
+    cv::Mat half;
+    cv::pyrDown(picture, half, cv::Size(), cv::BORDER_REFLECT_101);
+    picture = half;
+  }
+}
+
+cv::Point bestShift(const PyramidLevel& from, const PyramidLevel& to, int reach) {
+  const cv::Mat a = from.picture();
+  const cv::Mat b = to.picture();
+  const int brightness = cvRound(cv::mean(b)[0] - cv::mean(a)[0]);
+  const int reach_x = std::min(reach, from.width / 4);
+  const int reach_y = std::min(reach, from.height / 4);
+  cv::Point best(0, 0);
+  double smallest = meanDifference(a, b, best, brightness);
+  for (int dy = -reach_y; dy <= reach_y; ++dy) {
+    for (int dx = -reach_x; dx <= reach_x; ++dx) {
+      const double difference = meanDifference(a, b, {dx, dy}, brightness);
+      if (difference >= smallest) continue;
+      smallest = difference;
+      best = {dx, dy};
+    }
+  }
+  return best;
+}
+
+}  // namespace redbee

@@ -1,0 +1,30 @@
+// Between the raw picture and the ideal one that homographies hold in.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "redbee/geometry/camera.hpp"
+
+namespace redbee {
+
+/// Look-up tables for one camera. A camera without distortion costs nothing: pictures pass through uncopied.
+class Rectifier {
+ public:
+  explicit Rectifier(const Camera& camera);
+
+  /// Raw picture to ideal picture of the same size and K, bilinear; black where the raw picture does not
+  /// reach.
+  cv::Mat toIdeal(const cv::Mat& raw) const;
+  /// Map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; 0 where the ideal picture
+  /// does not reach.
+  cv::Mat toRaw(const cv::Mat& ideal) const;
+  /// 255 where the ideal picture has been seen by the raw one; empty for a camera without distortion.
+  const cv::Mat& seen() const { return seen_; }
+
+ private:
+  cv::Mat to_ideal_1_, to_ideal_2_;
+  cv::Mat to_raw_1_, to_raw_2_;
+  cv::Mat seen_;
+};
+
+}  // namespace redbee

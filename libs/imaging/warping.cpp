@@ -1,0 +1,49 @@
+#include "redbee/imaging/warping.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+
+cv::Matx33d toMatx(const Eigen::Matrix3d& H) {
+  return {H(0, 0), H(0, 1), H(0, 2), H(1, 0), H(1, 1), H(1, 2), H(2, 0), H(2, 1), H(2, 2)};
+}
+
+cv::Mat carryMap(const cv::Mat& map, const Eigen::Matrix3d& H, int interpolation) {
+  cv::Mat carried;
+  cv::warpPerspective(map, carried, toMatx(H), map.size(), interpolation, cv::BORDER_CONSTANT,
+                      cv::Scalar::all(0));
+  return carried;
+}
+
+cv::Mat overlapMask(const cv::Size& size, const Eigen::Matrix3d& H) {
+  return carryMap(cv::Mat(size, CV_8U, cv::Scalar(255)), H, cv::INTER_NEAREST);
+}
+
+bool isUsableHomography(const Eigen::Matrix3d& H) {
+  constexpr double kSingular = 1e-9;
+  return H.allFinite() && std::abs(H.determinant()) > kSingular;
+}
+
+Eigen::Matrix3d downscaling(double downscale) {
+  const double shift = -(downscale - 1) / (2 * downscale);
+  Eigen::Matrix3d to_small;
+  to_small << 1 / downscale, 0, shift, 0, 1 / downscale, shift, 0, 0, 1;
+  return to_small;
+}
+
+cv::Size shrunkSize(cv::Size full, double downscale) {
+  return {cvRound(full.width / downscale), cvRound(full.height / downscale)};
+}
+
+SceneMotion::SceneMotion(const Eigen::Matrix3d& ground_homography, const std::optional<PlaneMotion>& motion,
+                         const Eigen::Matrix3d& K)
+    : ground(ground_homography), far(ground_homography), horizon(0, 0, 1) {
+  if (!motion) return;
+  far = K * motion->R_ba * K.inverse();
+  // Ground is where m' R' K^-1 x > 0, a linear function of the current pixel x.
+  horizon = motion->m_a.transpose() * motion->R_ba.transpose() * K.inverse();
+}
+
+}  // namespace redbee

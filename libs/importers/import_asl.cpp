@@ -1,0 +1,165 @@
+#include "redbee/importers/import_asl.hpp"
+
+#include <cstdlib>
+
+#include "redbee/files/csv.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/importers/flight_merger.hpp"
+#include "redbee/importers/sensor_yaml.hpp"
+
+namespace redbee {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How far from the first frame an altitude still tells the start height.
+constexpr int64_t kStartHeightWindow = 200'000;
+
+struct NamedFrame {
+  int64_t utime = 0;
+  std::string name;
+  int line = 0;
+};
+
+fs::path findVehicleFolder(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw InputError(folder, "no such folder");
+  if (fs::is_directory(folder / "mav0")) return folder / "mav0";
+  if (fs::is_directory(folder / "cam0")) return folder;
+  throw InputError(folder, "holds neither mav0 nor cam0");
+}
+
+std::vector<NamedFrame> readFrameList(const fs::path& file) {
+  CsvReader csv(file);
+  IncreasingTimes times;
+  std::vector<NamedFrame> frames;
+  while (csv.next(2)) {
+    const int64_t utime = microseconds(csv.integer(0));
+    times.check(csv, utime);
+    if (csv.fields()[1].empty()) csv.fail("names no picture");
+    frames.push_back({utime, csv.fields()[1], csv.line()});
+  }
+  if (frames.empty()) throw InputError(file, "lists no pictures");
+  return frames;
+}
+
+std::vector<ImuSample> readImu(const fs::path& file) {
+  CsvReader csv(file);
+  IncreasingTimes times;
+  std::vector<ImuSample> samples;
+  while (csv.next(7)) {
+    ImuSample sample;
+    sample.utime = microseconds(csv.integer(0));
+    times.check(csv, sample.utime);
+    for (int axis = 0; axis < 3; ++axis) {
+      sample.gyro[axis] = csv.number(static_cast<size_t>(1 + axis));
+      sample.accel[axis] = csv.number(static_cast<size_t>(4 + axis));
+    }
+    samples.push_back(sample);
+  }
+  if (samples.empty()) throw InputError(file, "holds no samples");
+  return samples;
+}
+
+std::vector<AltitudeSample> readAltitudes(const fs::path& folder) {
+  if (!fs::is_directory(folder)) return {};
+  const double sigma = readAltimeterSigma(folder / "sensor.yaml");
+  CsvReader csv(folder / "data.csv");
+  IncreasingTimes times;
+  std::vector<AltitudeSample> samples;
+  while (csv.next(2)) {
+    const int64_t utime = microseconds(csv.integer(0));
+    times.check(csv, utime);
+    samples.push_back({utime, csv.number(1), sigma});
+  }
+  return samples;
+}
+
+std::optional<AltitudeSample> altitudeAt(const std::vector<AltitudeSample>& altitudes, int64_t utime) {
+  std::optional<AltitudeSample> nearest;
+  for (const AltitudeSample& sample : altitudes) {
+    const int64_t distance = std::abs(sample.utime - utime);
+    if (distance > kStartHeightWindow || sample.height_m <= 0) continue;
+    if (!nearest || distance < std::abs(nearest->utime - utime)) nearest = sample;
+  }
+  return nearest;
+}
+
+void describeExtrinsics(const SensorPose& camera, const SensorPose& imu, VehicleDescription& vehicle) {
+  vehicle.R_CI = camera.R_BS.transpose() * imu.R_BS;
+  vehicle.p_IC = imu.R_BS.transpose() * (camera.p_BS - imu.p_BS);
+}
+
+/// Reads the sensor.yaml files. One that is absent is a warning: the flight replays without it.
+void describeVehicle(const fs::path& mav, bool has_imu, ImportSummary& summary) {
+  const fs::path camera_file = mav / "cam0" / "sensor.yaml";
+  const fs::path imu_file = mav / "imu0" / "sensor.yaml";
+  CameraSensor camera;
+  if (fs::exists(camera_file)) {
+    camera = readCameraSensor(camera_file);
+    summary.vehicle.intrinsics = camera.intrinsics;
+  } else {
+    summary.warnings.push_back(camera_file.string() +
+                               ": no such file, the camera's calibration is not known");
+  }
+  if (!has_imu) return;
+  ImuSensor imu;
+  if (fs::exists(imu_file)) {
+    imu = readImuSensor(imu_file);
+    summary.vehicle.noise = imu.noise;
+  } else {
+    summary.warnings.push_back(imu_file.string() + ": no such file, the IMU's noise is not known");
+  }
+  if (camera.pose) describeExtrinsics(*camera.pose, imu.pose.value_or(SensorPose{}), summary.vehicle);
+}
+
+image_t loadListed(const fs::path& list, const NamedFrame& frame, const PictureOptions& options) {
+  const fs::path file = list.parent_path() / "data" / frame.name;
+  if (!fs::exists(file)) throw InputError(list, frame.line, "picture " + file.string() + " is missing");
+  return loadPicture(file, frame.utime, options);
+}
+
+void checkAgainstCalibration(const fs::path& camera_folder, const image_t& first,
+                             const VehicleDescription& vehicle) {
+  if (!vehicle.intrinsics) return;
+  if (vehicle.intrinsics->width != first.width || vehicle.intrinsics->height != first.height) {
+    throw InputError(camera_folder / "sensor.yaml",
+                     "resolution is " + std::to_string(vehicle.intrinsics->width) + "x" +
+                         std::to_string(vehicle.intrinsics->height) + " px, the pictures have " +
+                         std::to_string(first.width) + "x" + std::to_string(first.height));
+  }
+}
+
+}  // namespace
+
+ImportSummary importAsl(const AslImportOptions& options, Progress& progress) {
+  const fs::path mav = findVehicleFolder(options.folder);
+  const fs::path list = mav / "cam0" / "data.csv";
+  const std::vector<NamedFrame> frames = readFrameList(list);
+  const bool has_imu = fs::is_directory(mav / "imu0");
+  const std::vector<ImuSample> imu = has_imu ? readImu(mav / "imu0" / "data.csv") : std::vector<ImuSample>{};
+  const std::vector<AltitudeSample> altitudes = readAltitudes(mav / "altimeter0");
+
+  ImportSummary summary;
+  describeVehicle(mav, has_imu, summary);
+  summary.vehicle.name =
+      fs::weakly_canonical(mav.filename() == "mav0" ? mav.parent_path() : mav).filename().string();
+  summary.vehicle.start_height = altitudeAt(altitudes, frames.front().utime);
+
+  FlightMerger merger(options.log, options.channels, imu, altitudes);
+  OneResolution resolution;
+  for (const NamedFrame& frame : frames) {
+    const image_t picture = loadListed(list, frame, options.pictures);
+    resolution.check(list.parent_path() / "data" / frame.name, picture);
+    if (&frame == &frames.front()) {
+      checkAgainstCalibration(mav / "cam0", picture, summary.vehicle);
+      summary.vehicle.width = picture.width;
+      summary.vehicle.height = picture.height;
+    }
+    merger.addFrame(picture);
+    progress.update(&frame - frames.data() + 1, static_cast<int64_t>(frames.size()));
+  }
+  merger.close(summary);
+  return summary;
+}
+
+}  // namespace redbee

@@ -1,0 +1,50 @@
+#include "redbee/importers/import_gopro.hpp"
+
+#include "redbee/files/input_error.hpp"
+#include "redbee/importers/flight_merger.hpp"
+#include "redbee/importers/gopro_imu.hpp"
+#include "redbee/importers/gpmf.hpp"
+#include "redbee/importers/video_log.hpp"
+#include "redbee/importers/video_reader.hpp"
+
+namespace redbee {
+namespace {
+
+std::vector<ImuSample> readImu(const std::filesystem::path& video) {
+  const std::vector<DataPacket> packets = readDataTrack(video, "gpmd");
+  if (packets.empty()) throw InputError(video, "has no GPMF track: import it as a video");
+  try {
+    return mergeAtGyroTimes(readGoproStreams(packets));
+  } catch (const GpmfError& error) {
+    throw InputError(video, error.what());
+  }
+}
+
+/// C looks along I's x with its x to the right and its y down.
+Eigen::Matrix3d nominalMounting() {
+  Eigen::Matrix3d R_CI;
+  R_CI << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return R_CI;
+}
+
+}  // namespace
+
+ImportSummary importGopro(const GoproImportOptions& options, Progress& progress) {
+  VideoImportOptions video;
+  video.video = options.video;
+  video.log = options.log;
+  video.width = options.width;
+  video.format = options.format;
+  video.jpeg_quality = options.jpeg_quality;
+
+  ImportSummary summary;
+  summary.vehicle.name = options.video.stem().string();
+  summary.vehicle.R_CI = nominalMounting();
+  FlightMerger merger(options.log, options.channels, readImu(options.video), {});
+  addVideoFrames(video, merger, summary, progress);
+  merger.close(summary);
+  assumeIntrinsics(summary);
+  return summary;
+}
+
+}  // namespace redbee

@@ -1,0 +1,124 @@
+#include "redbee/importers/import_video.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "redbee/bus/picture.hpp"
+#include "redbee/files/csv.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/importers/flight_merger.hpp"
+#include "redbee/importers/video_log.hpp"
+#include "redbee/importers/video_reader.hpp"
+
+namespace redbee {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::array<size_t, 7> findColumns(const CsvReader& csv) {
+  constexpr std::array<const char*, 7> kNames = {"t_s", "gx", "gy", "gz", "ax", "ay", "az"};
+  std::array<size_t, 7> columns{};
+  for (size_t i = 0; i < kNames.size(); ++i) {
+    const auto& header = csv.fields();
+    const auto found = std::find(header.begin(), header.end(), kNames[i]);
+    if (found == header.end()) {
+      csv.fail(std::string("header names no column '") + kNames[i] + "' (needed: t_s gx gy gz ax ay az)");
+    }
+    columns[i] = static_cast<size_t>(found - header.begin());
+  }
+  return columns;
+}
+
+bool isPicture(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
+}
+
+std::vector<fs::path> listPictures(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && isPicture(entry.path())) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw InputError(folder, "holds no JPEG or PNG pictures");
+  return files;
+}
+
+void addPictures(const VideoImportOptions& options, FlightMerger& merger, ImportSummary& summary,
+                 Progress& progress) {
+  if (!std::isfinite(options.fps) || options.fps <= 0) {
+    throw InputError(options.video, "is a folder of pictures: a frame rate above 0 is needed");
+  }
+  const std::vector<fs::path> files = listPictures(options.video);
+  OneResolution resolution;
+  for (size_t i = 0; i < files.size(); ++i) {
+    const int64_t utime = std::llround(1e6 * static_cast<double>(i) / options.fps);
+    const image_t picture = loadPicture(files[i], utime, {true, options.jpeg_quality});
+    resolution.check(files[i], picture);
+    summary.vehicle.width = picture.width;
+    summary.vehicle.height = picture.height;
+    merger.addFrame(picture);
+    progress.update(static_cast<int64_t>(i) + 1, static_cast<int64_t>(files.size()));
+  }
+}
+
+}  // namespace
+
+std::vector<ImuSample> readImuCsv(const fs::path& file) {
+  constexpr double kLatest_s = 1e10;  // the year 2286; far beyond it microseconds overflow
+  CsvReader csv(file);
+  if (!csv.next(0)) throw InputError(file, "is empty");
+  const auto columns = findColumns(csv);
+  const size_t width = csv.fields().size();
+  IncreasingTimes times;
+  std::vector<ImuSample> samples;
+  while (csv.next(width)) {
+    ImuSample sample;
+    const double t_s = csv.number(columns[0]);
+    if (std::abs(t_s) > kLatest_s) csv.fail("'" + csv.fields().at(columns[0]) + "' s is no time");
+    sample.utime = std::llround(1e6 * t_s);
+    times.check(csv, sample.utime);
+    for (int axis = 0; axis < 3; ++axis) {
+      sample.gyro[axis] = csv.number(columns[static_cast<size_t>(1 + axis)]);
+      sample.accel[axis] = csv.number(columns[static_cast<size_t>(4 + axis)]);
+    }
+    samples.push_back(sample);
+  }
+  if (samples.empty()) throw InputError(file, "holds no samples");
+  return samples;
+}
+
+void addVideoFrames(const VideoImportOptions& options, FlightMerger& merger, ImportSummary& summary,
+                    Progress& progress) {
+  VideoReader reader(options.video, {options.width, options.format == FrameFormat::kRawGrey});
+  int64_t done = 0;
+  while (const auto frame = reader.next()) {
+    merger.addFrame(options.format == FrameFormat::kRawGrey
+                        ? rawGreyMessage(frame->utime, frame->picture)
+                        : jpegMessage(frame->utime, frame->picture, options.jpeg_quality));
+    summary.vehicle.width = frame->picture.cols;
+    summary.vehicle.height = frame->picture.rows;
+    progress.update(++done, reader.expectedFrames());
+  }
+}
+
+ImportSummary importVideo(const VideoImportOptions& options, Progress& progress) {
+  const std::vector<ImuSample> imu = options.imu ? readImuCsv(*options.imu) : std::vector<ImuSample>{};
+  ImportSummary summary;
+  summary.vehicle.name = options.video.stem().string();
+  FlightMerger merger(options.log, options.channels, imu, {});
+  if (fs::is_directory(options.video)) {
+    addPictures(options, merger, summary, progress);
+  } else {
+    addVideoFrames(options, merger, summary, progress);
+  }
+  merger.close(summary);
+  assumeIntrinsics(summary);
+  return summary;
+}
+
+}  // namespace redbee

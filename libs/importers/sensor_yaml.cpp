@@ -1,0 +1,158 @@
+#include "redbee/importers/sensor_yaml.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "redbee/files/input_error.hpp"
+
+namespace redbee {
+namespace {
+
+/// One parsed file; every access complains with file and line.
+class SensorFile {
+ public:
+  explicit SensorFile(const std::filesystem::path& file) : file_(file) {
+    std::ifstream in(file);
+    if (!in) throw InputError(file, "no such file");
+    std::string text;
+    for (std::string line; std::getline(in, line);) {
+      // OpenCV's directive is no YAML; an empty line in its place keeps the line numbers.
+      text += (line.rfind("%YAML", 0) == 0 ? "" : line) + "\n";
+    }
+    try {
+      root_ = YAML::Load(text);
+    } catch (const YAML::Exception& error) {
+      throw InputError(file, error.mark.line + 1, error.msg);
+    }
+    if (!root_.IsMap()) throw InputError(file, 1, "holds no keys");
+  }
+
+  bool has(const char* key) const { return root_[key].IsDefined(); }
+
+  template <typename Value>
+  Value get(const char* key) const {
+    const YAML::Node node = root_[key];
+    if (!node.IsDefined()) throw InputError(file_, std::string("key '") + key + "' is missing");
+    return convert<Value>(node, key);
+  }
+
+  double positive(const char* key) const {
+    const double value = get<double>(key);
+    if (!std::isfinite(value) || value <= 0) fail(key, "must be a positive number");
+    return value;
+  }
+
+  std::optional<SensorPose> pose(const char* key = "T_BS") const {
+    if (!has(key)) return std::nullopt;
+    const YAML::Node node = root_[key];
+    const auto data = convert<std::vector<double>>(node.IsMap() ? node["data"] : node, key);
+    if (data.size() != 16) fail(key, "must have 16 numbers, has " + std::to_string(data.size()));
+    for (const double number : data) {
+      if (!std::isfinite(number)) fail(key, "holds a number that is not finite");
+    }
+    const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T_BS(data.data());
+    const Eigen::Matrix3d R = T_BS.topLeftCorner<3, 3>();
+    // Files print few digits; what is a rotation up to that is made an exact one.
+    if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0) {
+      fail(key, "its rotation is not one");
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    return SensorPose{svd.matrixU() * svd.matrixV().transpose(), T_BS.topRightCorner<3, 1>()};
+  }
+
+  [[noreturn]] void fail(const char* key, const std::string& what) const {
+    throw InputError(file_, root_[key].Mark().line + 1, std::string(key) + ": " + what);
+  }
+
+ private:
+  template <typename Value>
+  Value convert(const YAML::Node& node, const char* key) const {
+    try {
+      return node.as<Value>();
+    } catch (const YAML::Exception&) {
+      fail(key, "has the wrong type");
+    }
+  }
+
+  std::filesystem::path file_;
+  YAML::Node root_;
+};
+
+std::vector<double> finiteNumbers(const SensorFile& file, const char* key, size_t least, size_t most) {
+  auto numbers = file.get<std::vector<double>>(key);
+  if (numbers.size() < least || numbers.size() > most) {
+    file.fail(key, "has " + std::to_string(numbers.size()) + " numbers");
+  }
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) file.fail(key, "holds a number that is not finite");
+  }
+  return numbers;
+}
+
+}  // namespace
+
+CameraSensor readCameraSensor(const std::filesystem::path& path) {
+  const SensorFile file(path);
+  const auto model =
+      file.has("camera_model") ? file.get<std::string>("camera_model") : std::string("pinhole");
+  if (model != "pinhole") file.fail("camera_model", "'" + model + "' is not supported, only pinhole");
+
+  CameraSensor camera;
+  const auto resolution = finiteNumbers(file, "resolution", 2, 2);
+  const auto intrinsics = finiteNumbers(file, "intrinsics", 4, 4);
+  if (resolution[0] < 1 || resolution[1] < 1) file.fail("resolution", "must be positive");
+  if (intrinsics[0] <= 0 || intrinsics[1] <= 0) file.fail("intrinsics", "focal lengths must be positive");
+  camera.intrinsics.width = static_cast<int>(resolution[0]);
+  camera.intrinsics.height = static_cast<int>(resolution[1]);
+  camera.intrinsics.fx = intrinsics[0];
+  camera.intrinsics.fy = intrinsics[1];
+  camera.intrinsics.cx = intrinsics[2];
+  camera.intrinsics.cy = intrinsics[3];
+  if (file.has("distortion_coefficients")) {
+    const auto coefficients = finiteNumbers(file, "distortion_coefficients", 4, 5);
+    std::copy(coefficients.begin(), coefficients.end(), camera.intrinsics.distortion.begin());
+    const auto name =
+        file.has("distortion_model") ? file.get<std::string>("distortion_model") : std::string("radtan");
+    if (name != "radial-tangential" && name != "radtan" && name != "plumb_bob") {
+      file.fail("distortion_model", "'" + name + "' is not supported, only radial-tangential");
+    }
+  }
+  camera.pose = file.pose();
+  return camera;
+}
+
+ImuSensor readImuSensor(const std::filesystem::path& path) {
+  const SensorFile file(path);
+  ImuSensor imu;
+  imu.pose = file.pose();
+  if (file.has("gyroscope_noise_density")) {
+    ImuNoise noise;
+    noise.gyro_noise_density = file.positive("gyroscope_noise_density");
+    noise.accel_noise_density = file.positive("accelerometer_noise_density");
+    noise.gyro_random_walk = file.positive("gyroscope_random_walk");
+    noise.accel_random_walk = file.positive("accelerometer_random_walk");
+    imu.noise = noise;
+  }
+  return imu;
+}
+
+double readAltimeterSigma(const std::filesystem::path& path) {
+  return SensorFile(path).positive("noise_sigma");
+}
+
+TrueExtrinsics readTrueCameraExtrinsics(const std::filesystem::path& path) {
+  const SensorFile file(path);
+  const auto pose = file.pose("T_BS_cam0_true");
+  if (!pose) throw InputError(path, "key 'T_BS_cam0_true' is missing");
+  return {*pose, file.get<double>("time_offset_s")};
+}
+
+}  // namespace redbee

@@ -1,0 +1,41 @@
+// sensor.yaml of the ASL layout.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+
+#include "redbee/geometry/camera.hpp"
+#include "redbee/inertial/imu.hpp"
+
+namespace redbee {
+
+/// Pose of a sensor S in the body B: x_B = R_BS x_S + p_BS.
+struct SensorPose {
+  Eigen::Matrix3d R_BS = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_BS = Eigen::Vector3d::Zero();
+};
+
+struct CameraSensor {
+  CameraIntrinsics intrinsics;
+  std::optional<SensorPose> pose;
+};
+struct ImuSensor {
+  std::optional<ImuNoise> noise;
+  std::optional<SensorPose> pose;
+};
+
+/// What groundtruth.yaml of a rendered flight says of the camera.
+struct TrueExtrinsics {
+  SensorPose pose;         ///< of cam0, T_BS_cam0_true
+  double timeshift_s = 0;  ///< time_offset_s: t_imu = t_cam + timeshift
+};
+
+/// All throw InputError with file and line. OpenCV's "%YAML:1.0" line is passed over.
+CameraSensor readCameraSensor(const std::filesystem::path& file);
+ImuSensor readImuSensor(const std::filesystem::path& file);
+/// noise_sigma [m] of an altimeter.
+double readAltimeterSigma(const std::filesystem::path& file);
+TrueExtrinsics readTrueCameraExtrinsics(const std::filesystem::path& file);
+
+}  // namespace redbee

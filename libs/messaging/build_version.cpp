@@ -1,9 +1,0 @@
-#include "messaging/build_version.hpp"
-
-#include "build_version_text.hpp"
-
-namespace redbee {
-
-const char* buildVersion() { return REDBEE_BUILD_VERSION; }
-
-}  // namespace redbee

@@ -1,0 +1,68 @@
+// Waiting for the message that belongs to a frame, but not for ever, and without looking at a clock.
+#pragma once
+
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "redbee/node/frame_order.hpp"
+
+namespace redbee {
+
+/// Messages of one channel by frame time. A frame's companion is waited for while its publisher is believed
+/// alive: until a later message of the channel shows that it was lost, or message time has moved on by
+/// `patience_us`. Who has been waited for in vain is not waited for again until it speaks. So the answer
+/// depends on the messages alone while none is lost, and a dead publisher costs one wait.
+template <typename Message>
+class CompanionBuffer {
+ public:
+  enum class Answer { kHere, kWait, kGivenUp };
+
+  /// `expected` false: never waited for (a vehicle without this source).
+  CompanionBuffer(int64_t patience_us, bool expected, size_t capacity = 64)
+      : patience_us_(patience_us), expected_(expected), alive_(expected), capacity_(capacity) {}
+
+  /// Messages that are later by more than kSetBack are forgotten: either time was set back, or they were
+  /// damaged, and would make every companion look overtaken from then on.
+  void put(int64_t utime, Message message) {
+    alive_ = expected_;
+    const int64_t horizon = std::numeric_limits<int64_t>::max() - FrameOrder::kSetBack;
+    if (utime < horizon)
+      messages_.erase(messages_.upper_bound(utime + FrameOrder::kSetBack), messages_.end());
+    messages_[utime] = std::move(message);
+    if (messages_.size() > capacity_) messages_.erase(messages_.begin());
+  }
+
+  /// `newest_utime`: the latest message time that the node has seen on any channel.
+  Answer ask(int64_t utime, int64_t newest_utime) {
+    if (messages_.count(utime) > 0) return Answer::kHere;
+    if (!alive_) return Answer::kGivenUp;
+    const bool overtaken = messages_.upper_bound(utime) != messages_.end();
+    if (!overtaken && newest_utime - utime <= patience_us_) return Answer::kWait;
+    if (!overtaken) alive_ = false;
+    ++given_up_;
+    return Answer::kGivenUp;
+  }
+
+  const Message* find(int64_t utime) const {
+    const auto it = messages_.find(utime);
+    return it == messages_.end() ? nullptr : &it->second;
+  }
+  const std::map<int64_t, Message>& messages() const { return messages_; }
+  void forgetUpTo(int64_t utime) { messages_.erase(messages_.begin(), messages_.upper_bound(utime)); }
+  void clear() { messages_.clear(); }
+  /// Companions that were waited for in vain.
+  int64_t givenUp() const { return given_up_; }
+
+ private:
+  int64_t patience_us_;
+  bool expected_;
+  bool alive_;
+  size_t capacity_;
+  int64_t given_up_ = 0;
+  std::map<int64_t, Message> messages_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,30 @@
+// What every node does with the time of a frame that arrives.
+#pragma once
+
+#include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/node/frame_order.hpp"
+#include "redbee/node/health.hpp"
+
+namespace redbee {
+
+/// True for a frame to work on. `restart` is called first where the camera's clock was set back.
+template <typename Restart>
+bool acceptFrame(FrameOrder& order, HealthMonitor& health, int64_t utime, const Restart& restart) {
+  if (!isPlausibleTime(utime)) {
+    health.noteDamaged();
+    return false;
+  }
+  health.noteInput(utime);
+  const auto verdict = order.judge(utime);
+  if (verdict == FrameOrder::Verdict::kDiscard) {
+    health.noteSkipped();
+    return false;
+  }
+  if (verdict == FrameOrder::Verdict::kRestart) {
+    restart();
+    health.setState(HealthState::kDegraded, "the camera's clock was set back: started anew");
+  }
+  return true;
+}
+
+}  // namespace redbee

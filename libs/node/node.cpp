@@ -1,0 +1,87 @@
+#include "redbee/node/node.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <csignal>
+#include <exception>
+#include <new>
+#include <opencv2/core.hpp>
+
+namespace redbee {
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{50};
+constexpr std::chrono::seconds kHealthPeriod{1};
+
+// A signal handler reaches nothing but statics.
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+extern "C" void requestStop(int) { stop_requested = true; }
+
+/// What escapes one frame's work must not end the flight: the node goes on with the next and says so. But a
+/// process that is out of memory would go on failing for ever: it ends, and is started again with a clean
+/// heap.
+void guarded(Node& node, void (Node::*work)()) {
+  try {
+    (node.*work)();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    const auto* from_opencv = dynamic_cast<const cv::Exception*>(&error);
+    if (from_opencv != nullptr && from_opencv->code == cv::Error::StsNoMem) throw std::bad_alloc();
+    spdlog::error("a frame could not be worked on: {}", error.what());
+    node.health().setState(HealthState::kDegraded, std::string("internal error: ") + error.what());
+  }
+}
+
+/// How long the input that drives a node has been away.
+class QuietTimer {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  double seconds(int64_t inputs, Clock::time_point now) {
+    if (inputs != inputs_) last_ = now;
+    inputs_ = inputs;
+    return std::chrono::duration<double>(now - last_).count();
+  }
+
+ private:
+  int64_t inputs_ = 0;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace
+
+void runNode(Bus& bus, Node& node, const std::string& health_channel, const std::atomic<bool>& stop) {
+  auto next_health = std::chrono::steady_clock::now();
+  QuietTimer quiet;
+  int64_t failures = 0;
+  while (!stop) {
+    bus.handle(kPatience);
+    node.health().noteDamaged(bus.handlerFailures() - failures);
+    failures = bus.handlerFailures();
+    guarded(node, &Node::process);
+    const auto now = std::chrono::steady_clock::now();
+    node.health().setQuiet(quiet.seconds(node.health().inputs(), now));
+    const bool due = now >= next_health;
+    if (node.health().takeChange() || due) bus.publish(health_channel, node.health().nextMessage());
+    if (due) next_health = now + kHealthPeriod;
+  }
+  guarded(node, &Node::finish);
+  node.health().setState(HealthState::kStopping);
+  bus.publish(health_channel, node.health().nextMessage());
+}
+
+const std::atomic<bool>& stopOnSignals() {
+  struct sigaction action {};
+  action.sa_handler = requestStop;
+  sigemptyset(&action.sa_mask);
+  // Without SA_RESTART a signal ends the wait for messages at once.
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  return stop_requested;
+}
+
+}  // namespace redbee

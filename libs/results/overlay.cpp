@@ -1,0 +1,87 @@
+#include "redbee/results/overlay.hpp"
+
+#include <array>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+namespace {
+
+const cv::Scalar kMaskColour(60, 60, 255);
+const cv::Scalar kCarriedColour(170, 170, 170);
+
+/// Neighbouring identities get colours that are far apart.
+cv::Scalar identityColour(int id) {
+  static const std::array<cv::Scalar, 8> kColours = {cv::Scalar(0, 230, 255),   cv::Scalar(255, 190, 0),
+                                                     cv::Scalar(90, 255, 90),   cv::Scalar(255, 90, 255),
+                                                     cv::Scalar(0, 150, 255),   cv::Scalar(255, 255, 90),
+                                                     cv::Scalar(180, 120, 255), cv::Scalar(120, 220, 180)};
+  return kColours[static_cast<size_t>(id < 0 ? -id : id) % kColours.size()];
+}
+
+/// White on a dark rim reads on any ground.
+void putLabel(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Scalar& colour) {
+  constexpr double kScale = 0.45;
+  cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, kScale, cv::Scalar::all(0), 3, cv::LINE_AA);
+  cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, kScale, colour, 1, cv::LINE_AA);
+}
+
+cv::Vec3b tinted(const cv::Vec3b& pixel) {
+  cv::Vec3b mixed;
+  for (int i = 0; i < 3; ++i) mixed[i] = cv::saturate_cast<uint8_t>(0.6 * pixel[i] + 0.4 * kMaskColour[i]);
+  return mixed;
+}
+
+void drawMask(cv::Mat& canvas, const cv::Mat& mask) {
+  if (mask.empty() || mask.size() != canvas.size()) return;
+  // By hand: OpenCV would tint the whole picture first, and a mask covers little of it.
+  for (int y = 0; y < canvas.rows; ++y) {
+    const uint8_t* marked = mask.ptr(y);
+    auto* pixels = canvas.ptr<cv::Vec3b>(y);
+    for (int x = 0; x < canvas.cols; ++x) {
+      if (marked[x] != 0) pixels[x] = tinted(pixels[x]);
+    }
+  }
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(mask, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  cv::drawContours(canvas, outlines, -1, kMaskColour, 1);
+}
+
+void drawDetection(cv::Mat& canvas, const Detection& detection) {
+  const cv::Scalar colour = detection.seen ? identityColour(detection.id) : kCarriedColour;
+  cv::rectangle(canvas, detection.box, colour, detection.seen ? 2 : 1);
+  const bool room_above = detection.box.y > 30;
+  const cv::Point at(std::max(0, detection.box.x),
+                     room_above ? detection.box.y - 4 : detection.box.y + detection.box.height + 13);
+  putLabel(canvas, std::to_string(detection.id), at, colour);
+}
+
+std::string statusLine(const OverlayStatus& status) {
+  char text[160];
+  int used = std::snprintf(text, sizeof text, "%.3f s", static_cast<double>(status.utime) / 1e6);
+  if (status.fps > 0)
+    used += std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %.1f fps", status.fps);
+  if (!status.source.empty()) {
+    std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %s  epoch %d",
+                  status.source.c_str(), status.epoch);
+  }
+  return std::string(text) + (status.message.empty() ? "" : "  " + status.message);
+}
+
+}  // namespace
+
+cv::Mat drawOverlay(const cv::Mat& picture, const cv::Mat& mask, const std::vector<Detection>& detections,
+                    const OverlayStatus& status) {
+  cv::Mat canvas;
+  if (picture.channels() == 1) {
+    cv::cvtColor(picture, canvas, cv::COLOR_GRAY2BGR);
+  } else {
+    canvas = picture.clone();
+  }
+  drawMask(canvas, mask);
+  for (const Detection& detection : detections) drawDetection(canvas, detection);
+  putLabel(canvas, statusLine(status), {8, 18}, cv::Scalar::all(255));
+  return canvas;
+}
+
+}  // namespace redbee

@@ -1,0 +1,27 @@
+// A picture with what was found drawn on it.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "redbee/detection/motion_segmenter.hpp"
+
+namespace redbee {
+
+struct OverlayStatus {
+  int64_t utime = 0;   ///< us
+  double fps = 0;      ///< frames a second; 0: not shown
+  std::string source;  ///< of the homography: "fused", "inertial", ...
+  int32_t epoch = 0;
+  std::string message;  ///< anything else, "learning" say
+};
+
+/// `picture`: 8-bit grey or BGR. `mask`: 0/255 of the same size, or empty. A new BGR picture with the mask's
+/// tint and outline, a box with the identity per detection (grey where the tracker carried it through a frame
+/// in which it was not seen), and the status in the top line.
+cv::Mat drawOverlay(const cv::Mat& picture, const cv::Mat& mask, const std::vector<Detection>& detections,
+                    const OverlayStatus& status);
+
+}  // namespace redbee

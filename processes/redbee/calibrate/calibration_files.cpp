@@ -1,0 +1,204 @@
+#include "processes/redbee/calibrate/calibration_files.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "redbee/geometry/angle.hpp"
+
+namespace redbee {
+namespace {
+
+using calibration::CalibrationInput;
+using calibration::CalibrationResult;
+using calibration::ParameterReport;
+using calibration::Verdict;
+
+/// Enough digits to read back the same number.
+std::string exact(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string brief(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+template <typename Numbers>
+std::string list(const Numbers& numbers) {
+  std::string text = "[";
+  for (const double number : numbers) text += (text.size() > 1 ? ", " : "") + exact(number);
+  return text + "]";
+}
+
+std::string list(const Eigen::Vector3d& v) { return list(std::vector<double>(v.data(), v.data() + 3)); }
+
+std::string rowMajor(const Eigen::Matrix3d& M) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = M;
+  return list(std::vector<double>(rows.data(), rows.data() + 9));
+}
+
+/// Rows of a homogeneous transform as YAML's list of lists.
+std::string transformRows(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const std::string& indent) {
+  std::string text;
+  for (int row = 0; row < 3; ++row) {
+    text += indent + "- " + list(std::vector<double>{R(row, 0), R(row, 1), R(row, 2), t(row)}) + "\n";
+  }
+  return text + indent + "- [0.0, 0.0, 0.0, 1.0]\n";
+}
+
+std::string origin(const CalibrationSubject& subject) {
+  return "# redbee calibrate, vehicle " + subject.vehicle + ", from " + subject.source + "\n";
+}
+
+bool isKept(const CalibrationResult& result, const char* name) {
+  const Verdict verdict = result.parameter(name).verdict;
+  return verdict == Verdict::kFound || verdict == Verdict::kWeak;
+}
+
+std::string verdictComment(const CalibrationResult& result, const char* name) {
+  const ParameterReport& report = result.parameter(name);
+  return std::string("# ") + name + ": " + toString(report.verdict) + ", " + report.words + "\n";
+}
+
+double imuRate(const CalibrationInput& input) {
+  if (input.imu.size() < 2) return 0;
+  const auto [first, last] = std::minmax_element(
+      input.imu.begin(), input.imu.end(), [](const auto& a, const auto& b) { return a.utime < b.utime; });
+  return 1e6 * static_cast<double>(input.imu.size() - 1) / static_cast<double>(last->utime - first->utime);
+}
+
+std::string cameraSection(const CalibrationResult& result) {
+  const InertialExtrinsics& kept = result.values.kept;
+  std::string text;
+  if (isKept(result, "camera.R_CI")) text += "  R_CI: " + rowMajor(kept.R_CI) + "\n";
+  if (isKept(result, "camera.p_IC")) text += "  p_IC: " + list(kept.p_IC) + "  # m\n";
+  if (isKept(result, "camera.timeshift_s")) text += "  timeshift_s: " + exact(kept.timeshift_s) + "\n";
+  return text.empty() ? "" : "camera:\n" + text;
+}
+
+/// The turn-on bias that the online filter expects, where the one found is far beyond it.
+std::string imuSection(const CalibrationInput& input, const CalibrationResult& result) {
+  std::string text;
+  const double gyro = result.values.gyro_bias.cwiseAbs().maxCoeff();
+  const double accel = result.values.accel_bias.cwiseAbs().maxCoeff();
+  if (isKept(result, "gyro_bias") && gyro > 2 * input.gyro_bias_sigma) {
+    text += "  gyro_bias_sigma: " + exact(gyro) + "  # rad/s, as large as the bias found\n";
+  }
+  if (isKept(result, "accel_bias") && accel > 2 * input.accel_bias_sigma) {
+    text += "  accel_bias_sigma: " + exact(accel) + "  # m/s^2, as large as the bias found\n";
+  }
+  return text.empty() ? "" : "imu:\n" + text;
+}
+
+}  // namespace
+
+std::string kalibrCamchain(const CalibrationInput& input, const CalibrationResult& result,
+                           const CalibrationSubject& subject) {
+  const CameraIntrinsics& camera = input.camera;
+  const InertialExtrinsics& kept = result.values.kept;
+  const Eigen::Matrix3d R_IC = kept.R_CI.transpose();
+  std::ostringstream text;
+  text << origin(subject) << verdictComment(result, "camera.R_CI") << verdictComment(result, "camera.p_IC")
+       << verdictComment(result, "camera.timeshift_s") << "cam0:\n"
+       << "  cam_overlaps: []\n  camera_model: pinhole\n"
+       << "  distortion_coeffs: "
+       << list(std::vector<double>(camera.distortion.begin(), camera.distortion.begin() + 4)) << "\n"
+       << "  distortion_model: radtan\n";
+  if (camera.distortion[4] != 0)
+    text << "  # Kalibr's model has no k3; this camera's is " << exact(camera.distortion[4]) << "\n";
+  text << "  intrinsics: " << list(std::vector<double>{camera.fx, camera.fy, camera.cx, camera.cy}) << "\n"
+       << "  resolution: [" << camera.width << ", " << camera.height << "]\n"
+       << "  rostopic: /cam0/image_raw\n"
+       << "  # x_cam = T_cam_imu x_imu\n  T_cam_imu:\n"
+       << transformRows(kept.R_CI, -kept.R_CI * kept.p_IC, "  ")
+       << "  # The other way, x_imu = T_imu_cam x_cam:\n"
+       << transformRows(R_IC, kept.p_IC, "  #   ") << "  # t_imu = t_cam + timeshift_cam_imu [s]\n"
+       << "  timeshift_cam_imu: " << exact(kept.timeshift_s) << "\n";
+  return text.str();
+}
+
+std::string kalibrImu(const CalibrationInput& input, const CalibrationResult& result,
+                      const CalibrationSubject& subject) {
+  std::ostringstream text;
+  text << origin(subject) << "# Noise densities as configured; the residuals ask for "
+       << brief(result.imu_sigma_scale) << " times as much.\n"
+       << "accelerometer_noise_density: " << exact(input.noise.accel_noise_density) << "  # m/s^2/sqrt(Hz)\n"
+       << "accelerometer_random_walk: " << exact(input.noise.accel_random_walk) << "  # m/s^3/sqrt(Hz)\n"
+       << "gyroscope_noise_density: " << exact(input.noise.gyro_noise_density) << "  # rad/s/sqrt(Hz)\n"
+       << "gyroscope_random_walk: " << exact(input.noise.gyro_random_walk) << "  # rad/s^2/sqrt(Hz)\n"
+       << "rostopic: /imu0\nupdate_rate: " << brief(imuRate(input)) << "  # Hz\n"
+       << "# At the start of the recording (they change from one power-up to the next):\n"
+       << "#   gyro bias [rad/s]: " << list(result.values.gyro_bias) << "\n"
+       << "#   accelerometer bias [m/s^2]: " << list(result.values.accel_bias) << "\n";
+  return text.str();
+}
+
+std::string onlineCalibration(const CalibrationInput& input, const CalibrationResult& result,
+                              const CalibrationSubject& subject) {
+  std::ostringstream text;
+  text << origin(subject)
+       << "# Include it after the vehicle's own file:  include: [vehicle.yaml, calibration.yaml]\n#\n";
+  for (const ParameterReport& report : result.parameters) text << verdictComment(result, report.name.c_str());
+  text << "# What was refused is not here, so that the vehicle's own value stays.\n";
+  text << cameraSection(result);
+  if (isKept(result, "plane.height_m")) {
+    text << "plane:  # of this recording's first frame; remove it for flights that start elsewhere\n  "
+            "height_m: "
+         << exact(result.values.kept.start_height_m)
+         << "\n  height_sigma_m: " << exact(std::max(result.values.kept.start_height_sigma_m, 1e-3)) << "\n";
+  }
+  // No estimate is better than what vibration and the model leave open.
+  constexpr double kRotationFloor_deg = 0.02;
+  text << "inertial:\n  extrinsic_rotation_sigma_deg: "
+       << exact(std::max(result.values.rotation_sigma_rad / kDegree, kRotationFloor_deg)) << "\n";
+  text << imuSection(input, result);
+  return text.str();
+}
+
+std::string verdictJson(const CalibrationResult& result, const CalibrationSubject& subject) {
+  nlohmann::ordered_json json;
+  json["vehicle"] = subject.vehicle;
+  json["source"] = subject.source;
+  json["frames"] = result.frames;
+  json["frames_given"] = result.frames_given;
+  json["measurements"] = result.measurements;
+  json["duration_s"] = result.duration_s;
+  json["points_rms_px"] = result.points_rms_px;
+  json["vision_sigma_scale"] = result.vision_sigma_scale;
+  json["imu_sigma_scale"] = result.imu_sigma_scale;
+  json["misfit_sigma_scale"] = result.misfit_sigma_scale;
+  json["halves_sigma_scale"] = result.halves_sigma_scale;
+  json["frames_spanned"] = result.frames_spanned;
+  for (const ParameterReport& report : result.parameters) {
+    auto& entry = json["parameters"][report.name];
+    entry["status"] = toString(report.verdict);
+    entry["words"] = report.words;
+    entry["unit"] = report.unit;
+    entry["value"] = report.value;
+    entry["sigma"] = report.sigma;
+    entry["nominal"] = report.nominal;
+  }
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = result.values.estimated.R_CI;
+  json["R_CI"] = std::vector<double>(R.data(), R.data() + 9);
+  const calibration::Excitation& excitation = result.excitation;
+  json["excitation"]["rotation_rad_s"] =
+      std::vector<double>(excitation.rotation.data(), excitation.rotation.data() + 3);
+  json["excitation"]["rate_correlation"] = excitation.rotation_correlation;
+  json["excitation"]["acceleration_m_s2"] = excitation.acceleration;
+  std::vector<double> singular_values;
+  for (int i = 2; i >= 0; --i) singular_values.push_back(1.0 / excitation.rotation_sigmas(i));
+  json["R_CI_singular_values_1_rad"] = singular_values;
+  for (const calibration::SplitHalfEntry& entry : result.split_half) {
+    json["split_half"][entry.name] = {
+        {"difference", entry.difference}, {"sigma", entry.sigma}, {"unit", entry.unit}};
+  }
+  json["warnings"] = result.warnings;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace redbee

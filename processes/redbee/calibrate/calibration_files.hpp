@@ -1,0 +1,30 @@
+// What `redbee calibrate` writes besides its report.
+#pragma once
+
+#include <string>
+
+#include "redbee/calibration/calibration.hpp"
+
+namespace redbee {
+
+/// Of what and from what.
+struct CalibrationSubject {
+  std::string vehicle;
+  std::string source;  ///< the recording
+};
+
+/// Kalibr's camchain-imucam.yaml: T_cam_imu and timeshift_cam_imu; the inverse transform in comments.
+std::string kalibrCamchain(const calibration::CalibrationInput& input,
+                           const calibration::CalibrationResult& result, const CalibrationSubject& subject);
+/// Kalibr's imu.yaml; the biases found in comments.
+std::string kalibrImu(const calibration::CalibrationInput& input,
+                      const calibration::CalibrationResult& result, const CalibrationSubject& subject);
+/// The keys of a vehicle's configuration that were found, to be included after the vehicle's own file. What
+/// was refused is left out.
+std::string onlineCalibration(const calibration::CalibrationInput& input,
+                              const calibration::CalibrationResult& result,
+                              const CalibrationSubject& subject);
+/// Values, standard deviations and verdicts for machines.
+std::string verdictJson(const calibration::CalibrationResult& result, const CalibrationSubject& subject);
+
+}  // namespace redbee

@@ -1,0 +1,184 @@
+#include "processes/redbee/calibrate/calibration_log.hpp"
+
+#include <cstdio>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "redbee/altimeter_t.hpp"
+#include "redbee/bus/codec.hpp"
+#include "redbee/bus/picture.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
+#include "redbee/files/progress.hpp"
+#include "redbee/image_t.hpp"
+#include "redbee/imaging/rectifier.hpp"
+#include "redbee/ins_t.hpp"
+#include "redbee/visual/homography_estimation.hpp"
+#include "redbee/visual/point_tracker.hpp"
+
+namespace redbee {
+namespace {
+
+template <typename Message>
+bool decodes(const LogEvent& event, Message& message) {
+  return decodeMessage(event.data.data(), static_cast<int>(event.data.size()), message);
+}
+
+/// Follows points over several frames at once, where the picture moves slowly: a facade's parallax then
+/// outgrows the tracking noise, and the rotation too. Frames in between only carry the starting guess along.
+class LongBaseline {
+ public:
+  /// `delay`: frames to let pass before the first match begins.
+  LongBaseline(const Configuration& configuration, int delay)
+      : configuration_(configuration), tracker_(configuration.visual.tracker), delay_(delay) {}
+
+  /// `step`: from the previous frame to this one. The match that ends at this frame, where one does.
+  std::optional<calibration::GroundMatch> advance(int64_t utime, const cv::Mat& ideal,
+                                                  const std::optional<HomographyEstimate>& step) {
+    if (delay_-- > 0) return std::nullopt;
+    ++frames_;
+    if (!step || begin_utime_ == 0) {
+      tracker_.advance(ideal, std::nullopt);
+      begin(utime);
+      return std::nullopt;
+    }
+    chain_ = normaliseHomography(step->H * chain_);
+    if (motion() < kEnoughMotion_px && frames_ < kMostFrames) return std::nullopt;
+    const int64_t from = begin_utime_;
+    const bool worthwhile = frames_ >= kFewestFrames;
+    PointTracks tracks = tracker_.advance(ideal, chain_);
+    begin(utime);
+    if (!worthwhile || tracks.current.empty()) return std::nullopt;
+    return calibration::GroundMatch{from, utime, std::move(tracks)};
+  }
+
+ private:
+  static constexpr double kEnoughMotion_px = 40;
+  static constexpr int kMostFrames = 12;
+  static constexpr int kFewestFrames = 3;
+
+  void begin(int64_t utime) {
+    begin_utime_ = utime;
+    chain_.setIdentity();
+    frames_ = 0;
+  }
+  /// Mean over points half-way to the corners [px].
+  double motion() const {
+    const double w = configuration_.camera.width, h = configuration_.camera.height;
+    double sum = 0;
+    for (const Eigen::Vector2d& p :
+         {Eigen::Vector2d(0.25 * w, 0.25 * h), Eigen::Vector2d(0.75 * w, 0.25 * h),
+          Eigen::Vector2d(0.25 * w, 0.75 * h), Eigen::Vector2d(0.75 * w, 0.75 * h)}) {
+      sum += (transfer(chain_, p) - p).norm() / 4;
+    }
+    return sum;
+  }
+
+  const Configuration& configuration_;
+  PointTracker tracker_;
+  Eigen::Matrix3d chain_ = Eigen::Matrix3d::Identity();  ///< from the frame that the match begins at
+  int64_t begin_utime_ = 0;
+  int frames_ = 0;
+  int delay_;
+};
+
+class LogIntake {
+ public:
+  LogIntake(const std::filesystem::path& log, const Configuration& configuration,
+            calibration::CalibrationInput& input)
+      : log_(log),
+        configuration_(configuration),
+        input_(input),
+        rectifier_(Camera(configuration.camera)),
+        tracker_(configuration.visual.tracker) {
+    for (const int delay : {0, 3, 6, 9}) long_baselines_.emplace_back(configuration, delay);
+  }
+
+  void take(const LogEvent& event) {
+    const Channels& channels = configuration_.channels;
+    if (event.channel == channels.imu) return takeImu(event);
+    if (event.channel == channels.altimeter && configuration_.has_altimeter) return takeAltitude(event);
+    if (event.channel == channels.camera) return takePicture(event);
+  }
+
+  void finish() const {
+    if (input_.frames.empty())
+      throw InputError(log_, "holds no picture on " + configuration_.channels.camera);
+    if (input_.imu.empty()) throw InputError(log_, "holds no IMU sample on " + configuration_.channels.imu);
+    if (damaged_ > 0)
+      std::fprintf(stderr, "warning: %s: %d damaged messages skipped\n", log_.c_str(), damaged_);
+  }
+
+ private:
+  void takeImu(const LogEvent& event) {
+    ins_t message;
+    if (!decodes(event, message)) return noteDamaged();
+    input_.imu.push_back({message.utime,
+                          {message.gyro[0], message.gyro[1], message.gyro[2]},
+                          {message.accel[0], message.accel[1], message.accel[2]}});
+  }
+
+  void takeAltitude(const LogEvent& event) {
+    altimeter_t message;
+    if (!decodes(event, message)) return noteDamaged();
+    input_.altimeter.push_back({message.utime, message.height, message.sigma});
+  }
+
+  void takePicture(const LogEvent& event) {
+    image_t message;
+    if (!decodes(event, message)) return noteDamaged();
+    const auto grey = decodeGrey(message);
+    if (!grey) return noteDamaged();
+    if (grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
+      throw InputError(log_, "event " + std::to_string(event.number) + ": picture of " +
+                                 std::to_string(grey->cols) + "x" + std::to_string(grey->rows) +
+                                 ", configured are " + std::to_string(configuration_.camera.width) + "x" +
+                                 std::to_string(configuration_.camera.height));
+    }
+    const int64_t previous = input_.frames.empty() ? message.utime : input_.frames.back();
+    // A picture that comes twice or late would be tracked backwards.
+    if (!input_.frames.empty() && message.utime <= previous) return;
+    const cv::Mat ideal = rectifier_.toIdeal(*grey);
+    PointTracks points = tracker_.advance(ideal, std::nullopt);
+    const CameraIntrinsics& camera = configuration_.camera;
+    const auto step = estimateHomography(points, camera.width, camera.height, configuration_.visual.ransac);
+    for (LongBaseline& baseline : long_baselines_) {
+      if (auto match = baseline.advance(message.utime, ideal, step))
+        input_.ground.push_back(std::move(*match));
+    }
+    input_.frames.push_back(message.utime);
+    const double gap_s = static_cast<double>(message.utime - previous) * 1e-6;
+    if (points.current.empty() || gap_s > configuration_.visual.max_frame_gap_s) return;
+    input_.ground.push_back({previous, message.utime, std::move(points)});
+  }
+
+  void noteDamaged() { ++damaged_; }
+
+  std::filesystem::path log_;
+  const Configuration& configuration_;
+  calibration::CalibrationInput& input_;
+  Rectifier rectifier_;
+  PointTracker tracker_;
+  std::deque<LongBaseline> long_baselines_;  ///< staggered, so that their matches overlap
+  int damaged_ = 0;
+};
+
+}  // namespace
+
+void readCalibrationLog(const std::filesystem::path& log, const Configuration& configuration, bool quiet,
+                        calibration::CalibrationInput& input) {
+  LogReader reader(log);
+  LogIntake intake(log, configuration, input);
+  Progress progress("tracking in " + log.filename().string(), "MB", quiet);
+  while (const auto event = reader.next()) {
+    intake.take(*event);
+    progress.update(reader.position() >> 20, reader.size() >> 20);
+  }
+  progress.finish();
+  if (!reader.complaint().empty()) std::fprintf(stderr, "warning: %s\n", reader.complaint().c_str());
+  intake.finish();
+}
+
+}  // namespace redbee

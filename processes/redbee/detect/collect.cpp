@@ -1,0 +1,24 @@
+#include "processes/redbee/detect/collect.hpp"
+
+#include <chrono>
+
+#include "processes/redbee/detect/collector.hpp"
+#include "redbee/node/node.hpp"
+#include "redbee/node/work_timer.hpp"
+
+namespace redbee {
+
+int64_t runCollect(const CollectOptions& options) {
+  const Configuration configuration = loadConfiguration(options.configuration);
+  const auto bus = makeLcmBus(options.url);
+  ResultCollector collector(*bus, configuration.channels, options.out);
+  const std::atomic<bool>& stop = stopOnSignals();
+  const WorkTimer timer;
+  while (!stop) bus->handle(std::chrono::milliseconds(50));
+  while (bus->handle(std::chrono::milliseconds(50)) > 0) {
+  }
+  collector.writeTables(timer.milliseconds() / 1000, std::nullopt);
+  return collector.frames();
+}
+
+}  // namespace redbee

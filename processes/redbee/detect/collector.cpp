@@ -1,0 +1,171 @@
+#include "processes/redbee/detect/collector.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "processes/conversions.hpp"
+#include "redbee/bus/build_version.hpp"
+#include "redbee/files/atomic_file.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/results/results.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int kQueue = 256;
+
+std::string pictureName(int64_t utime) { return std::to_string(utime) + ".png"; }
+
+std::string_view bytesOf(const std::vector<uint8_t>& data) {
+  return {reinterpret_cast<const char*>(data.data()), data.size()};
+}
+
+/// A run of another flight, or with frames that this one skips, must not be taken for this one's.
+void removeMaps(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".png") old.push_back(entry.path());
+  }
+  for (const auto& file : old) std::filesystem::remove(file);
+}
+
+Detection detectionOf(const detection_t& message) {
+  Detection detection;
+  detection.id = message.id;
+  detection.box = {message.x, message.y, message.width, message.height};
+  detection.area_px = message.area;
+  detection.score = message.score;
+  detection.seen = message.seen != 0;
+  return detection;
+}
+
+nlohmann::json stageJson(const process_health_t& health) {
+  return {{"median_ms", health.work_median}, {"p99_ms", health.work_p99}, {"mean_ms", health.work_mean},
+          {"frames", health.published},      {"skipped", health.skipped}, {"lost", health.lost},
+          {"damaged", health.damaged},       {"given_up", health.late},   {"resident_bytes", health.resident},
+          {"state", health.state},           {"message", health.message}};
+}
+
+/// Per frame of the run [ms], the stages' own figures added to `stages`.
+nlohmann::json cpuJson(const ProcessUsage& usage, int64_t frames, nlohmann::json& stages) {
+  const auto per_frame = [&](double milliseconds) { return milliseconds / static_cast<double>(frames); };
+  CpuShare sum;
+  for (const auto& [stage, share] : usage.stages) {
+    sum.work += share.work;
+    sum.publishing += share.publishing;
+    stages[stage]["cpu_ms_per_frame"] = per_frame(share.work);
+    stages[stage]["cpu_publishing_ms_per_frame"] = per_frame(share.publishing);
+  }
+  return {{"work", per_frame(sum.work)},
+          {"publishing", per_frame(sum.publishing)},
+          {"process", per_frame(1000 * usage.cpu_s)}};
+}
+
+}  // namespace
+
+ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesystem::path folder)
+    : folder_(std::move(folder)) {
+  for (const char* kind : {"probability", "mask"}) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_ / kind, error);
+    if (error) throw InputError(folder_ / kind, error.message());
+    removeMaps(folder_ / kind);
+  }
+  const auto damaged = [this] { ++damaged_; };
+  bus.subscribe<foreground_t>(
+      channels.foreground, kQueue, [this](const foreground_t& m) { takeForeground(m); }, damaged);
+  bus.subscribe<detections_t>(
+      channels.detections, kQueue, [this](const detections_t& m) { detections_[m.utime] = m; }, damaged);
+  bus.subscribe<fused_homography_t>(
+      channels.fused_homography, kQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged);
+  bus.subscribe<process_health_t>(
+      channels.health, kQueue, [this](const process_health_t& m) { health_[m.process] = m; }, damaged);
+}
+
+void ResultCollector::takeForeground(const foreground_t& message) {
+  foreground_sequence_.note(message.sequence);
+  status_[message.utime] = message.status;
+  try {
+    writeAtomically(folder_ / "probability" / pictureName(message.utime), bytesOf(message.probability));
+    writeAtomically(folder_ / "mask" / pictureName(message.utime), bytesOf(message.mask));
+  } catch (const InputError& error) {
+    if (first_failure_.empty()) first_failure_ = error.what();
+  }
+}
+
+void ResultCollector::takeFused(const fused_homography_t& message) {
+  fused_sequence_.note(message.sequence);
+  fused_homography_t& kept = homographies_[message.utime] = message;
+  kept.n = 0;
+  for (auto* array : {&kept.x_previous, &kept.y_previous, &kept.x, &kept.y})
+    std::vector<float>().swap(*array);
+}
+
+void ResultCollector::writeDetections() const {
+  DetectionsCsv csv(folder_ / "detections.csv");
+  int64_t frame = 0;
+  for (const auto& [utime, status] : status_) {
+    const auto found = detections_.find(utime);
+    if (found != detections_.end()) {
+      for (const detection_t& detection : found->second.detections)
+        csv.write(frame, utime, detectionOf(detection));
+    }
+    ++frame;
+  }
+  csv.close();
+}
+
+void ResultCollector::writeHomographies() const {
+  HomographyCsv csv(folder_ / "homography.csv");
+  for (const auto& [utime, fused] : homographies_) {
+    std::optional<Eigen::Matrix3d> ground;
+    std::optional<Eigen::Matrix3d> front;
+    if (fused.source != 0) ground = matrix3(fused.H);
+    if (fused.has_front != 0) front = matrix3(fused.H_front);
+    csv.write(utime, fused.epoch, ground, front, toString(static_cast<FusionSource>(fused.source)));
+  }
+  csv.close();
+}
+
+void ResultCollector::writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const {
+  if (!first_failure_.empty()) throw InputError(first_failure_);
+  writeDetections();
+  writeHomographies();
+  nlohmann::json stages;
+  double slowest_ms = 0;
+  int64_t lost = foreground_sequence_.lost() + fused_sequence_.lost() + damaged_;
+  int64_t skipped = 0;
+  int64_t given_up = 0;
+  int64_t resident = 0;
+  for (const auto& [process, health] : health_) {
+    stages[process] = stageJson(health);
+    slowest_ms = std::max(slowest_ms, health.work_mean);
+    lost += health.lost + health.damaged;
+    skipped += health.skipped;
+    given_up += health.late;
+    resident += health.resident;
+  }
+  const int64_t good =
+      std::count_if(status_.begin(), status_.end(), [](const auto& s) { return s.second == 0; });
+  const nlohmann::json cpu =
+      usage && frames() > 0 ? cpuJson(*usage, frames(), stages) : nlohmann::json::object();
+  const auto per_second = [](double milliseconds) { return milliseconds > 0 ? 1000 / milliseconds : 0; };
+  writeJson(
+      folder_ / "summary.json",
+      {{"version", buildVersion()},
+       {"frames", frames()},
+       {"frames_good", good},
+       {"fps", per_second(slowest_ms)},  // frames over wall time of the slowest stage, decoding included
+       {"wall_s", wall_s},
+       {"lost", lost},
+       {"skipped", skipped},
+       {"given_up", given_up},
+       {"stages", stages},
+       {"cpu_ms_per_frame", cpu.value("work", nlohmann::json())},  // decoding and algorithm, all stages
+       {"cpu_publishing_ms_per_frame", cpu.value("publishing", nlohmann::json())},
+       {"cpu_process_ms_per_frame", cpu.value("process", nlohmann::json())},  // log and results included
+       {"peak_rss_bytes", usage ? usage->peak_resident_bytes : resident}});
+}
+
+}  // namespace redbee

@@ -1,0 +1,54 @@
+// What a run leaves behind (contract.md): maps as PNG, detections.csv, homography.csv, summary.json. The same
+// for a run in one process and for one over LCM.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "processes/redbee/detect/process_usage.hpp"
+#include "redbee/bus/bus.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/detections_t.hpp"
+#include "redbee/foreground_t.hpp"
+#include "redbee/fused_homography_t.hpp"
+#include "redbee/node/health.hpp"
+#include "redbee/process_health_t.hpp"
+
+namespace redbee {
+
+/// Maps that an earlier run left in the folder are removed. Throws InputError where the folder cannot be
+/// written.
+class ResultCollector {
+ public:
+  ResultCollector(Bus& bus, const Channels& channels, std::filesystem::path folder);
+
+  /// Frames whose FOREGROUND has come.
+  int64_t frames() const { return static_cast<int64_t>(status_.size()); }
+  /// The latest word of each process.
+  const std::map<std::string, process_health_t>& health() const { return health_; }
+
+  /// `wall_s`: how long the run took. `usage`: of the process that ran it; nothing where several did:
+  /// resident memory is then the sum over the processes heard.
+  void writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const;
+
+ private:
+  void takeForeground(const foreground_t& message);
+  void takeFused(const fused_homography_t& message);
+  void writeDetections() const;
+  void writeHomographies() const;
+
+  std::filesystem::path folder_;
+  std::map<int64_t, int8_t> status_;  ///< of each frame's foreground
+  std::map<int64_t, detections_t> detections_;
+  std::map<int64_t, fused_homography_t> homographies_;  ///< without their sample points
+  std::map<std::string, process_health_t> health_;
+  SequenceCounter foreground_sequence_;
+  SequenceCounter fused_sequence_;
+  int64_t damaged_ = 0;
+  std::string first_failure_;  ///< of writing a map: told by writeTables(), since a handler cannot
+};
+
+}  // namespace redbee

@@ -1,0 +1,119 @@
+#include "processes/redbee/detect/detect.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "processes/redbee/detect/collector.hpp"
+#include "processes/redbee/detect/process_usage.hpp"
+#include "processes/rival/node.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
+#include "redbee/files/progress.hpp"
+
+namespace redbee {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Holds events back to the log's own pace, `rate` times as fast.
+class Pace {
+ public:
+  explicit Pace(double rate) : rate_(rate) {}
+
+  void wait(int64_t utime) {
+    if (rate_ <= 0) return;
+    if (!started_) first_utime_ = utime;
+    started_ = true;
+    std::this_thread::sleep_until(start_ + std::chrono::microseconds(static_cast<int64_t>(
+                                               static_cast<double>(utime - first_utime_) / rate_)));
+  }
+
+ private:
+  double rate_;
+  bool started_ = false;
+  int64_t first_utime_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+bool isRival(const std::string& method) {
+  const std::vector<std::string> rivals = rivalNames();
+  return std::find(rivals.begin(), rivals.end(), method) != rivals.end();
+}
+
+Configuration configurationFor(const DetectOptions& options) {
+  Configuration configuration = loadConfiguration(options.configuration);
+  const std::vector<std::string> known = methodNames();
+  if (std::find(known.begin(), known.end(), options.method) == known.end()) {
+    throw InputError("--method " + options.method + ": unknown; known are " + methodList());
+  }
+  applyPreset(configuration, options.method);
+  for (const std::string& assignment : options.settings) {
+    const size_t equals = assignment.find('=');
+    if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected key=value");
+    applySetting(configuration, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  return configuration;
+}
+
+bool isInput(const Channels& channels, const std::string& channel) {
+  return channel == channels.camera || channel == channels.imu || channel == channels.altimeter;
+}
+
+}  // namespace
+
+InProcessStack makeStack(Bus& bus, const Configuration& configuration, const std::string& method) {
+  if (!isRival(method)) return {bus, configuration};
+  Nodes nodes;
+  // Vision and fusion come with it, since they keep the inertial filter right.
+  if (configuration.has_imu && makeRival(method)->wantsMotion()) nodes = motionNodes(bus, configuration);
+  nodes.push_back(std::make_unique<RivalNode>(bus, configuration, method));
+  return {bus, configuration.channels.health, std::move(nodes)};
+}
+
+std::vector<std::string> methodNames() {
+  std::vector<std::string> names{"redbee", "default", "paper"};
+  for (const std::string& rival : rivalNames()) names.push_back(rival);
+  return names;
+}
+
+std::string methodList() {
+  std::string list;
+  for (const std::string& name : methodNames()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+int64_t runDetect(const DetectOptions& options) {
+  const Configuration configuration = configurationFor(options);
+  LogReader log(options.log);
+  const auto bus = makeLcmBus("memq://");
+  ResultCollector collector(*bus, configuration.channels, options.out);
+  InProcessStack stack = makeStack(*bus, configuration, options.method);
+  Progress progress("detecting in " + options.log.filename().string(), "MB", options.quiet);
+  Pace pace(options.rate);
+  const auto start = Clock::now();
+  int64_t pictures = 0;
+  const auto enough = [&] { return options.frames > 0 && pictures >= options.frames; };
+  while (const auto event = enough() ? std::nullopt : log.next()) {
+    if (!isInput(configuration.channels, event->channel)) continue;
+    pace.wait(event->utime);
+    bus->publish(event->channel, event->data);
+    stack.settle();
+    pictures += event->channel == configuration.channels.camera ? 1 : 0;
+    progress.update(log.position() >> 20, log.size() >> 20);
+  }
+  if (pictures == 0) {
+    throw InputError(options.log, "holds no message on " + configuration.channels.camera);
+  }
+  stack.finish();
+  const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+  stack.publishHealth();
+  progress.finish();
+  if (!log.complaint().empty()) std::fprintf(stderr, "warning: %s\n", log.complaint().c_str());
+  ProcessUsage usage = processUsage();
+  usage.stages = stack.cpu();
+  collector.writeTables(wall_s, usage);
+  return collector.frames();
+}
+
+}  // namespace redbee

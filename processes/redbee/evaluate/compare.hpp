@@ -1,0 +1,30 @@
+// redbee compare: the tables and the page of scripts/evaluate.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "processes/redbee/evaluate/comparison.hpp"
+#include "processes/redbee/pages/table.hpp"
+
+namespace redbee {
+
+struct CompareOptions {
+  std::filesystem::path cells;
+  std::filesystem::path clips;    ///< clips file
+  std::filesystem::path methods;  ///< methods file
+  std::vector<std::string> extrinsics;
+  std::filesystem::path out;
+};
+
+std::vector<Table> comparisonTables(const Comparison& comparison);
+/// One line per clip, row of extrinsics, method and measure that was taken.
+std::string comparisonCsv(const Comparison& comparison);
+/// The tables, the curves of each clip, and pictures of hits and misses, on one page that stands alone.
+std::string comparisonPage(const Comparison& comparison, const std::vector<Table>& tables);
+
+/// Prints the tables; leaves tables.txt, tables.md, cells.csv and report.html in the out folder.
+void runCompare(const CompareOptions& options);
+
+}  // namespace redbee

@@ -1,0 +1,31 @@
+#include "processes/redbee/evaluate/flight_pictures.hpp"
+
+#include <algorithm>
+
+#include "redbee/bus/codec.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
+
+namespace redbee {
+
+void forEachPicture(const std::filesystem::path& log_file, const std::string& channel,
+                    const std::function<void(const image_t& message)>& take) {
+  LogReader log(log_file);
+  while (const auto event = log.next()) {
+    image_t message;
+    if (event->channel == channel &&
+        decodeMessage(event->data.data(), static_cast<int>(event->data.size()), message)) {
+      take(message);
+    }
+  }
+}
+
+std::vector<int64_t> pictureTimes(const std::filesystem::path& log, const std::string& channel) {
+  std::vector<int64_t> times;
+  forEachPicture(log, channel, [&](const image_t& message) { times.push_back(message.utime); });
+  if (times.empty()) throw InputError(log, "holds no message on " + channel);
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+}  // namespace redbee

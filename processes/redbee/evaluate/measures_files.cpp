@@ -1,0 +1,110 @@
+#include "processes/redbee/evaluate/measures_files.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "processes/redbee/pages/svg_plot.hpp"
+#include "redbee/files/atomic_file.hpp"
+#include "redbee/files/csv.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/results/results.hpp"
+
+namespace redbee {
+namespace {
+
+nlohmann::json toldOnly(bool told, const nlohmann::json& value) { return told ? value : nlohmann::json(); }
+
+nlohmann::json pixelJson(const ClipMeasures& clip) {
+  const bool told = clip.pixels.movingPixels() > 0;
+  const OperatingPoint decided = clip.decided.at(1);
+  const double sum = decided.precision + decided.recall;
+  return {{"labelled_frames", clip.pixels.frames()},
+          {"moving_pixels", clip.pixels.movingPixels()},
+          {"error_at_half_recall", toldOnly(told, clip.pixels.errorAtHalfRecall())},
+          {"best_f1", toldOnly(told, clip.pixels.bestF1())},
+          {"precision", toldOnly(told, decided.precision)},
+          {"recall", toldOnly(told, decided.recall)},
+          {"f1", toldOnly(told, sum > 0 ? 2 * decided.precision * decided.recall / sum : 0)}};
+}
+
+nlohmann::json objectJson(const ClipMeasures& clip) {
+  const ObjectMeasures& objects = clip.objects;
+  const bool told = objects.counts().present > 0;
+  return {{"labelled_frames", objects.frames()},
+          {"present", objects.counts().present},
+          {"found", objects.counts().found},
+          {"recall", toldOnly(told, objects.recall())},
+          {"false_alarms_per_frame", objects.falseAlarmsPerFrame()},
+          {"false_area_percent", 100 * objects.falseAreaShare()}};
+}
+
+void writeCurve(const std::filesystem::path& results, const ClipMeasures& clip) {
+  std::ostringstream csv;
+  csv << "threshold,precision,recall\n";
+  std::vector<double> recall, precision;
+  for (const OperatingPoint& point : clip.pixels.curve()) {
+    csv << point.threshold << ',' << point.precision << ',' << point.recall << '\n';
+    if (point.recall == 0) continue;  // nothing is found yet: precision means nothing
+    recall.push_back(point.recall);
+    precision.push_back(point.precision);
+  }
+  writeAtomically(results / "pr.csv", csv.str());
+  SvgPlot plot(clip.name, "recall", "precision");
+  plot.makeSquare(0, 1);
+  plot.addLine("", recall, precision, "#1f618d");
+  plot.addMark("half recall", 0.5);
+  writeAtomically(results / "pr.svg", plot.svg());
+}
+
+void writeFrames(const std::filesystem::path& results, const ClipMeasures& clip) {
+  std::ostringstream csv;
+  csv << "utime,hit_px,false_px,missed_px,objects,found,false_alarms,false_area_px\n";
+  for (const FrameOutcome& frame : clip.frames) {
+    csv << frame.utime << ',' << frame.hits << ',' << frame.false_alarms << ',' << frame.misses << ','
+        << frame.objects.present << ',' << frame.objects.found << ',' << frame.objects.false_alarms << ','
+        << frame.objects.false_area << '\n';
+  }
+  writeAtomically(results / "frames.csv", csv.str());
+}
+
+}  // namespace
+
+void writeMeasures(const std::filesystem::path& results, const ClipMeasures& clip) {
+  writeFrames(results, clip);
+  writeJson(results / "measures.json", {{"clip", clip.name},
+                                        {"frames_limit", clip.frames_limit},
+                                        {"truth_without_result", clip.truth_without_result},
+                                        {"pixels", pixelJson(clip)},
+                                        {"objects", objectJson(clip)}});
+  if (clip.pixels.movingPixels() > 0) {
+    writeCurve(results, clip);
+  } else {
+    for (const char* stale : {"pr.csv", "pr.svg"}) std::filesystem::remove(results / stale);
+  }
+}
+
+nlohmann::json readJson(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError(file, "cannot be read");
+  try {
+    return nlohmann::json::parse(stream);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file, error.what());
+  }
+}
+
+RecallPrecision readCurve(const std::filesystem::path& file) {
+  constexpr size_t kColumns = 3;
+  RecallPrecision curve;
+  CsvReader csv(file);
+  csv.next(kColumns);  // the names of the columns
+  while (csv.next(kColumns)) {
+    if (csv.number(2) == 0) continue;
+    curve.precision.push_back(csv.number(1));
+    curve.recall.push_back(csv.number(2));
+  }
+  return curve;
+}
+
+}  // namespace redbee

@@ -1,0 +1,103 @@
+#include "processes/redbee/evaluate/overlay_video.hpp"
+
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+
+#include "redbee/bus/codec.hpp"
+#include "redbee/bus/picture.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/files/csv.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
+#include "redbee/files/progress.hpp"
+#include "redbee/results/overlay.hpp"
+#include "redbee/results/results.hpp"
+#include "redbee/results/video_writer.hpp"
+
+namespace redbee {
+namespace {
+
+using DetectionsByTime = std::multimap<int64_t, Detection>;
+
+DetectionsByTime readDetections(const std::filesystem::path& file) {
+  constexpr size_t kColumns = 11;
+  DetectionsByTime detections;
+  CsvReader csv(file);
+  csv.next(kColumns);  // the names of the columns
+  while (csv.next(kColumns)) {
+    Detection detection;
+    detection.id = static_cast<int>(csv.integer(1));
+    detection.box = {static_cast<int>(csv.number(2)), static_cast<int>(csv.number(3)),
+                     static_cast<int>(csv.number(4)), static_cast<int>(csv.number(5))};
+    detection.score = csv.number(6);
+    detections.emplace(csv.integer(10), detection);
+  }
+  return detections;
+}
+
+std::vector<Detection> at(const DetectionsByTime& detections, int64_t utime) {
+  std::vector<Detection> found;
+  const auto [begin, end] = detections.equal_range(utime);
+  for (auto it = begin; it != end; ++it) found.push_back(it->second);
+  return found;
+}
+
+}  // namespace
+
+void forEachOverlay(const std::filesystem::path& log_file, const std::filesystem::path& configuration_file,
+                    const std::filesystem::path& results,
+                    const std::function<void(int64_t utime, const cv::Mat& drawn)>& draw) {
+  const Configuration configuration = loadConfiguration(configuration_file);
+  const DetectionsByTime detections = readDetections(results / "detections.csv");
+  LogReader log(log_file);
+  Progress progress("drawing " + log_file.filename().string(), "MB");
+  while (const auto event = log.next()) {
+    if (event->channel != configuration.channels.camera) continue;
+    progress.update(log.position() >> 20, log.size() >> 20);
+    image_t message;
+    if (!decodeMessage(event->data.data(), static_cast<int>(event->data.size()), message)) continue;
+    const auto picture = decodeColour(message);
+    const auto mask_file = results / "mask" / (std::to_string(message.utime) + ".png");
+    if (!picture || !std::filesystem::exists(mask_file)) continue;
+    const cv::Mat mask = cv::imread(mask_file.string(), cv::IMREAD_GRAYSCALE);
+    if (mask.size() != picture->size()) throw InputError(mask_file, "does not fit the flight's pictures");
+    OverlayStatus status;
+    status.utime = message.utime;
+    draw(message.utime, drawOverlay(*picture, mask, at(detections, message.utime), status));
+  }
+}
+
+void renderOverlay(const OverlayOptions& options) {
+  constexpr double kDefaultFps = 24;
+  std::unique_ptr<VideoWriter> writer;
+  cv::Mat first;
+  int64_t first_utime = 0;
+  int64_t count = 0;
+  if (!options.stills.empty()) std::filesystem::create_directories(options.stills);
+  const auto take = [&](int64_t utime, const cv::Mat& drawn) {
+    const cv::Mat even = drawn(cv::Rect(0, 0, drawn.cols & ~1, drawn.rows & ~1));
+    if (!options.stills.empty() && count % OverlayOptions::kStillPeriod == 0) {
+      writePng(options.stills / (std::to_string(utime) + ".png"), drawn);
+    }
+    if (count++ == 0) {
+      first = even.clone();
+      first_utime = utime;
+      return;
+    }
+    if (!writer) {  // the second frame tells the pace of the video
+      const double fps = 1e6 / static_cast<double>(utime - first_utime);
+      writer = std::make_unique<VideoWriter>(options.video, even.size(),
+                                             fps > 0 && fps < 1000 ? fps : kDefaultFps);
+      writer->write(first);
+    }
+    writer->write(even);
+  };
+  forEachOverlay(options.log, options.configuration, options.results, take);
+  if (!writer) throw InputError(options.results, "fewer than two frames of the flight have a mask");
+  writer->close();
+  std::printf("%s: %lld frames\n", options.video.c_str(), static_cast<long long>(count));
+}
+
+}  // namespace redbee

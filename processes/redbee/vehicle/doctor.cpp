@@ -1,0 +1,107 @@
+#include "processes/redbee/vehicle/doctor.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "redbee/altimeter_t.hpp"
+#include "redbee/bus/bus.hpp"
+#include "redbee/bus/receive_buffer.hpp"
+
+namespace redbee {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kPoll = std::chrono::milliseconds(20);
+constexpr const char* kProbeChannel = "REDBEE_DOCTOR";
+
+template <typename Done>
+void handleUntil(Bus& bus, double seconds, const Done& done) {
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  while (!done() && Clock::now() < end) bus.handle(kPoll);
+}
+
+bool onPath(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (std::filesystem::exists(std::filesystem::path(folder) / program)) return true;
+  }
+  return false;
+}
+
+Finding sensorFinding(const std::string& channel, int count, double seconds) {
+  char rate[96];
+  std::snprintf(rate, sizeof rate, "%s: %.1f messages a second", channel.c_str(), count / seconds);
+  if (count > 0) return {true, rate, ""};
+  return {false, channel + ": nothing heard",
+          "start the driver that publishes " + channel +
+              " (or lcm-logplayer with a recorded flight) on the same URL"};
+}
+
+}  // namespace
+
+Finding findReceiveBuffer(const std::string& url) {
+  const UdpBufferCheck check = checkReceiveBuffer(url);
+  if (check.enough) return {true, "receive buffer: the kernel grants what the URL asks for", ""};
+  return {false, "receive buffer: too small for pictures", check.advice};
+}
+
+Finding findMulticast(const std::string& url) {
+  const std::string mend = "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo";
+  try {
+    const auto sender = makeLcmBus(url);
+    const auto receiver = makeLcmBus(url);
+    bool heard = false;
+    receiver->subscribe<altimeter_t>(
+        kProbeChannel, 4, [&](const altimeter_t&) { heard = true; }, nullptr);
+    altimeter_t probe{};
+    handleUntil(*receiver, 0.05, [] { return false; });
+    sender->publish(kProbeChannel, probe);
+    handleUntil(*receiver, 1.0, [&] { return heard; });
+    if (heard) return {true, "multicast: a message to ourselves arrives", ""};
+  } catch (const std::exception& error) {
+    return {false, std::string("multicast: ") + error.what(), mend};
+  }
+  return {false, "multicast: a message to ourselves does not arrive", mend};
+}
+
+Finding findSpy() {
+  std::string missing;
+  if (!onPath("java")) missing += " default-jre";
+  if (!std::filesystem::exists("/usr/share/java/lcm.jar")) missing += " liblcm-java";
+  if (!std::filesystem::exists("/usr/share/java/jchart2d.jar")) missing += " libjchart2d-java";
+  if (missing.empty()) return {true, "lcm-spy: Java and its libraries are here", ""};
+  return {false, "lcm-spy: missing" + missing, "apt-get install" + missing};
+}
+
+std::vector<Finding> findSensors(const DoctorOptions& options) {
+  int camera = 0;
+  int imu = 0;
+  try {
+    const auto bus = makeLcmBus(options.url);
+    bus->subscribe(options.camera_channel, 100, [&](const uint8_t*, int) { ++camera; });
+    bus->subscribe(options.imu_channel, 4000, [&](const uint8_t*, int) { ++imu; });
+    handleUntil(*bus, options.listen_s, [] { return false; });
+  } catch (const std::exception& error) {
+    return {{false, std::string("sensors: ") + error.what(), "see multicast"}};
+  }
+  return {sensorFinding(options.camera_channel, camera, options.listen_s),
+          sensorFinding(options.imu_channel, imu, options.listen_s)};
+}
+
+int runDoctor(const DoctorOptions& options) {
+  std::vector<Finding> findings = {findReceiveBuffer(options.url), findMulticast(options.url), findSpy()};
+  for (Finding& finding : findSensors(options)) findings.push_back(std::move(finding));
+  int wrong = 0;
+  for (const Finding& finding : findings) {
+    std::printf("[%s] %s\n", finding.good ? " ok " : "MEND", finding.what.c_str());
+    if (!finding.good) std::printf("       %s\n", finding.mend.c_str());
+    wrong += finding.good ? 0 : 1;
+  }
+  return wrong;
+}
+
+}  // namespace redbee

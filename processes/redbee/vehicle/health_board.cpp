@@ -1,0 +1,183 @@
+#include "processes/redbee/vehicle/health_board.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "redbee/node/health.hpp"
+
+namespace redbee {
+namespace {
+
+/// The order of the work; others follow by name.
+constexpr const char* kPipeline[] = {"redbee-imu-integration", "redbee-visual-homography",
+                                     "redbee-homography-fusion", "redbee-motion-segmentation"};
+
+std::string shortName(const std::string& process) {
+  const std::string prefix = "redbee-";
+  return process.rfind(prefix, 0) == 0 ? process.substr(prefix.size()) : process;
+}
+
+template <typename... Arguments>
+std::string formatted(const char* format, Arguments... arguments) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, arguments...);
+  return text;
+}
+
+/// At most four characters, whatever the count.
+std::string brief(int64_t count) {
+  const auto number = static_cast<long long>(count);
+  if (number < 10000) return std::to_string(number);
+  if (number < 1000000) return formatted("%lldk", number / 1000);
+  return formatted("%lldM", std::min(number / 1000000, 999LL));
+}
+
+/// At most five characters.
+std::string brief(double value) {
+  if (value < 1000) return formatted("%.1f", value);
+  return value < 99999 ? formatted("%.0f", value) : ">99 s";
+}
+
+long long secondsBetween(HealthBoard::Time from, HealthBoard::Time to) {
+  return std::chrono::duration_cast<std::chrono::seconds>(to - from).count();
+}
+
+Tone toneOf(HealthState state) {
+  switch (state) {
+    case HealthState::kGood:
+      return Tone::kGood;
+    case HealthState::kStarting:
+    case HealthState::kDegraded:
+    case HealthState::kStopping:
+      return Tone::kWarning;
+    case HealthState::kDead:
+      return Tone::kBad;
+  }
+  return Tone::kBad;
+}
+
+/// The four of the stack, heard or not, and who else is heard.
+template <typename Entries>
+std::vector<std::string> inOrderOfWork(const Entries& entries) {
+  std::vector<std::string> names(std::begin(kPipeline), std::end(kPipeline));
+  for (const auto& [name, entry] : entries) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+/// Control characters that came over the network must not reach a terminal.
+std::string printable(std::string text, int columns) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text.substr(0, static_cast<size_t>(columns));
+}
+
+}  // namespace
+
+void HealthBoard::hear(const process_health_t& health, Time now) {
+  const auto [it, is_new] = entries_.try_emplace(health.process);
+  Entry& entry = it->second;
+  if (!is_new && health.pid != entry.last.pid) {
+    ++entry.restarts;
+    entry.restarted = now;
+  }
+  entry.last = health;
+  entry.heard = now;
+}
+
+bool HealthBoard::isSilent(const Entry& entry, Time now) {
+  const bool is_over = entry.last.state == static_cast<int8_t>(HealthState::kDead) ||
+                       entry.last.state == static_cast<int8_t>(HealthState::kStopping);
+  const bool is_script = entry.last.configuration.empty();  // speaks when it has something to say
+  return !is_over && !is_script && now - entry.heard > kSilence;
+}
+
+int HealthBoard::good(Time now) const {
+  return static_cast<int>(std::count_if(entries_.begin(), entries_.end(), [&](const auto& named) {
+    return !isSilent(named.second, now) && named.second.last.state == static_cast<int8_t>(HealthState::kGood);
+  }));
+}
+
+BoardLine HealthBoard::row(const Entry& entry, Time now) {
+  const process_health_t& h = entry.last;
+  const auto state = static_cast<HealthState>(h.state);
+  const bool silent = isSilent(entry, now);
+  const std::string said = silent
+                               ? "mute " + brief(static_cast<int64_t>(secondsBetween(entry.heard, now))) + "s"
+                               : toString(state);
+  // A column is parted from the next by a space even where it is full.
+  return {formatted("%-19.19s %-9.9s%7d %5s %5s %5s %5s %4s %4s %4s %4s", shortName(h.process).c_str(),
+                    said.c_str(), h.pid, brief(h.rate_in).c_str(), brief(h.rate_out).c_str(),
+                    brief(h.latency_median).c_str(), brief(h.latency_p99).c_str(), brief(h.skipped).c_str(),
+                    brief(h.lost).c_str(), brief(h.damaged).c_str(), brief(h.resident >> 20).c_str()),
+          silent ? Tone::kBad : toneOf(state)};
+}
+
+void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
+  for (const std::string& name : inOrderOfWork(entries_)) {
+    const auto it = entries_.find(name);
+    if (it == entries_.end()) continue;
+    const Entry& entry = it->second;
+    const std::string who = shortName(name) + ": ";
+    if (isSilent(entry, now)) {
+      lines.push_back({who + formatted("silent since %lld s", secondsBetween(entry.heard, now)), Tone::kBad});
+    }
+    if (!entry.last.message.empty()) {
+      lines.push_back({who + entry.last.message, toneOf(static_cast<HealthState>(entry.last.state))});
+    }
+    if (entry.last.calibration.rfind("does not", 0) == 0) {
+      lines.push_back({who + "calibration: " + entry.last.calibration, Tone::kWarning});
+    }
+    if (entry.last.late > 0) {
+      lines.push_back(
+          {who + formatted("%lld inputs given up waiting for", static_cast<long long>(entry.last.late)),
+           Tone::kPlain});
+    }
+    if (entry.restarts > 0) {
+      lines.push_back({who + formatted("restarts seen: %d, the last %lld s ago", entry.restarts,
+                                       secondsBetween(entry.restarted, now)),
+                       Tone::kPlain});
+    }
+  }
+}
+
+/// Processes of two builds or two configurations must not fly together unnoticed.
+void HealthBoard::appendBuilds(std::vector<BoardLine>& lines) const {
+  std::map<std::string, std::set<std::string>> processes_of;
+  for (const auto& [name, entry] : entries_) {
+    if (entry.last.configuration.empty()) continue;
+    processes_of["version " + entry.last.version + ", configuration " + entry.last.configuration].insert(
+        shortName(name));
+  }
+  for (const auto& [build, processes] : processes_of) {
+    std::string line = build;
+    if (processes_of.size() > 1) {
+      line += ":";
+      for (const std::string& process : processes) line += " " + process;
+    }
+    lines.push_back({line, processes_of.size() > 1 ? Tone::kWarning : Tone::kPlain});
+  }
+}
+
+std::vector<BoardLine> HealthBoard::table(Time now, int columns) const {
+  std::vector<BoardLine> lines;
+  lines.push_back({formatted("%-19s %-9s%7s %5s %5s %5s %5s %4s %4s %4s %4s", "PROCESS", "STATE", "PID",
+                             "IN/s", "OUT/s", "MED", "P99ms", "SKIP", "LOST", "DMGD", "MiB"),
+                   Tone::kHeading});
+  for (const std::string& name : inOrderOfWork(entries_)) {
+    const auto it = entries_.find(name);
+    lines.push_back(it == entries_.end()
+                        ? BoardLine{formatted("%-19s unheard", shortName(name).c_str()), Tone::kBad}
+                        : row(it->second, now));
+  }
+  lines.push_back({"", Tone::kPlain});
+  appendRemarks(lines, now);
+  appendBuilds(lines);
+  for (BoardLine& line : lines) line.text = printable(line.text, columns);
+  return lines;
+}
+
+}  // namespace redbee

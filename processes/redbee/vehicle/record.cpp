@@ -1,0 +1,174 @@
+#include "processes/redbee/vehicle/record.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <lcm/lcm-cpp.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "processes/redbee/vehicle/recording_queue.hpp"
+#include "redbee/bus/bus.hpp"
+#include "redbee/bus/socket_drops.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/split_log.hpp"
+#include "redbee/node/health.hpp"
+#include "redbee/node/node.hpp"
+
+namespace redbee {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr const char* kName = "redbee-record";
+constexpr double kMegabyte = 1 << 20;
+constexpr int64_t kQueueBytes = int64_t{100} << 20;
+constexpr std::chrono::milliseconds kSyncPeriod{100};
+constexpr std::chrono::milliseconds kHealthPeriod{1000};
+constexpr std::chrono::seconds kStopPatience{5};
+constexpr int kPatience_ms = 50;
+constexpr int kBatch = 1000;  ///< messages, between two looks at the clock
+
+std::filesystem::path prefixNow(const std::filesystem::path& folder) {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char name[32];
+  std::strftime(name, sizeof name, "%Y%m%d_%H%M%S.lcm", &local);
+  return folder / name;
+}
+
+double freeMegabytes(const std::filesystem::path& folder) {
+  return static_cast<double>(std::filesystem::space(folder).available) / kMegabyte;
+}
+
+/// Empty while there is room.
+std::string shortageOfDisk(const RecordOptions& options) {
+  const double free = freeMegabytes(options.out);
+  if (free > options.min_free_mb) return "";
+  char text[96];
+  std::snprintf(text, sizeof text, "%.0f MB free, %.0f MB are kept free", free, options.min_free_mb);
+  return text;
+}
+
+class Recorder {
+ public:
+  explicit Recorder(const RecordOptions& options)
+      : options_(options),
+        log_(prefixNow(options.out), static_cast<int64_t>(options.split_mb * kMegabyte)),
+        queue_([this](const HeardMessage& message) { write(message); }, kQueueBytes),
+        lcm_(options.url) {
+    if (!lcm_.good()) throw std::runtime_error("LCM cannot open " + options.url);
+    // No limit here: what is heard is taken at once, and the queue behind it counts what it cannot hold.
+    // By a function and not by a member: there GCC 12's -fsanitize=vptr looks at a register that nothing has
+    // set.
+    lcm_.subscribeFunction(".*", &Recorder::heard, this)->setQueueCapacity(0);
+    health_.setState(HealthState::kGood, "recording to " + log_.file().string());
+    std::fprintf(stderr, "record: recording to %s\n", log_.file().c_str());
+  }
+
+  /// Until `stop`, or until the disk ends it: why, else nothing.
+  std::string run(const std::atomic<bool>& stop) {
+    auto next_health = Clock::now();
+    while (!stop) {
+      handle();
+      if (Clock::now() < next_health) continue;
+      next_health += kHealthPeriod;
+      if (std::string failure = queue_.failure(); !failure.empty()) return failure;
+      if (std::string shortage = shortageOfDisk(options_); !shortage.empty()) return shortage;
+      tellLosses();
+      say();
+    }
+    return "";
+  }
+
+  /// Everything that was sent before this call is written when it returns: it lies in the socket before our
+  /// own last word, which comes back to us.
+  void finish(HealthState state, const std::string& message) {
+    std::fprintf(stderr, "record: %s\n", message.c_str());
+    health_.setState(state, message);
+    last_word_ = say();
+    const auto patience_ends = Clock::now() + kStopPatience;
+    while (!last_word_heard_ && Clock::now() < patience_ends) handle();
+    queue_.close();
+    if (queue_.failure().empty()) log_.sync();
+    if (lost() > 0) std::fprintf(stderr, "record: %lld messages lost\n", static_cast<long long>(lost()));
+  }
+
+ private:
+  static void heard(const lcm::ReceiveBuffer* received, const std::string& channel, Recorder* recorder) {
+    recorder->hear(received, channel);
+  }
+
+  void hear(const lcm::ReceiveBuffer* received, const std::string& channel) {
+    const auto* first = static_cast<const uint8_t*>(received->data);
+    HeardMessage message{received->recv_utime, channel, {first, first + received->data_size}};
+    health_.noteInput(message.utime);
+    if (!last_word_.empty() && channel == options_.channel && message.data == last_word_)
+      last_word_heard_ = true;
+    if (!queue_.push(std::move(message))) ++refused_;
+  }
+
+  /// In the queue's thread.
+  void write(const HeardMessage& message) {
+    log_.write(message);
+    if (Clock::now() - last_sync_ < kSyncPeriod) return;
+    log_.sync();
+    last_sync_ = Clock::now();
+  }
+
+  void handle() {
+    for (int i = 0; i < kBatch && lcm_.handleTimeout(i == 0 ? kPatience_ms : 0) > 0; ++i) {
+    }
+  }
+
+  int64_t lost() const { return refused_ + droppedPackets(); }
+
+  void tellLosses() {
+    if (lost() == lost_told_) return;
+    health_.noteLost(lost() - lost_told_);
+    lost_told_ = lost();
+    health_.setState(HealthState::kDegraded, "lost, of what was sent: " + std::to_string(lost_told_));
+  }
+
+  std::vector<uint8_t> say() {
+    std::vector<uint8_t> word = encodeMessage(health_.nextMessage());
+    lcm_.publish(options_.channel, word.data(), static_cast<unsigned>(word.size()));
+    return word;
+  }
+
+  RecordOptions options_;
+  HealthMonitor health_{kName, ""};
+  SplitLog log_;
+  Clock::time_point last_sync_ = Clock::now();
+  int64_t refused_ = 0;
+  int64_t lost_told_ = 0;
+  std::vector<uint8_t> last_word_;
+  bool last_word_heard_ = false;
+  RecordingQueue queue_;
+  lcm::LCM lcm_;
+};
+
+}  // namespace
+
+bool runRecord(const RecordOptions& options) {
+  checkLcmUrl(options.url);
+  std::filesystem::create_directories(options.out);
+  if (const std::string shortage = shortageOfDisk(options); !shortage.empty()) {
+    std::fprintf(stderr, "record: not recording: %s\n", shortage.c_str());
+    HealthMonitor health(kName, "");
+    health.setState(HealthState::kDegraded, "not recording: " + shortage);
+    makeLcmBus(options.url)->publish(options.channel, health.nextMessage());
+    return false;
+  }
+  const std::atomic<bool>& stop = stopOnSignals();
+  Recorder recorder(options);
+  const std::string failure = recorder.run(stop);
+  if (failure.empty()) {
+    recorder.finish(HealthState::kStopping, "recording ends");
+  } else {
+    recorder.finish(HealthState::kDegraded, "recording ended: " + failure);
+  }
+  return failure.empty();
+}
+
+}  // namespace redbee

@@ -1,0 +1,51 @@
+// Between hearing and the disk: a disk that stalls for a while must cost no message, one that stalls for good
+// no memory without end.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "redbee/files/split_log.hpp"
+
+namespace redbee {
+
+/// Writes in a thread of its own, in the order of arrival. push(), failure() and close() are one other
+/// thread's.
+class RecordingQueue {
+ public:
+  using Write = std::function<void(const HeardMessage&)>;
+
+  /// `limit_bytes`: of messages that wait. What `write` throws ends the writing.
+  RecordingQueue(Write write, int64_t limit_bytes);
+  ~RecordingQueue();
+  RecordingQueue(const RecordingQueue&) = delete;
+  RecordingQueue& operator=(const RecordingQueue&) = delete;
+
+  /// False where there is no room, or the writing has ended: the message is lost.
+  bool push(HeardMessage message);
+  /// What ended the writing; empty while all is well.
+  std::string failure() const;
+  /// Returns when all that was pushed is written.
+  void close();
+
+ private:
+  void run();
+  void writeAll();
+
+  Write write_;
+  int64_t limit_bytes_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<HeardMessage> waiting_;
+  int64_t waiting_bytes_ = 0;
+  bool closing_ = false;
+  std::string failure_;
+  std::thread thread_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,207 @@
+#include "redbee/bus/codec.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <random>
+
+#include "tests/bus/sample_messages.hpp"
+
+namespace {
+
+std::atomic<size_t> largest_allocation{0};
+
+void note(size_t size) {
+  size_t largest = largest_allocation;
+  while (size > largest && !largest_allocation.compare_exchange_weak(largest, size)) {
+  }
+}
+
+}  // namespace
+
+// Every allocation of this program is seen, so that a test can tell what a lying length cost. Inlined, they
+// would make GCC take malloc and delete for a mismatch.
+[[gnu::noinline]] void* operator new(size_t size) {
+  note(size);
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+
+namespace redbee {
+namespace {
+
+using testing::sample;
+
+/// A decoder may allocate a small multiple of the bytes it was given.
+size_t allowedAllocation(size_t bytes) { return 16 * bytes + 256; }
+
+template <typename Message>
+class CodecTest : public ::testing::Test {
+ protected:
+  static bool decodes(const std::vector<uint8_t>& data) {
+    Message message;
+    return decodeMessage(data.data(), static_cast<int>(data.size()), message);
+  }
+  /// Decodes bytes that may lie, and fails the test where that throws or costs much.
+  static bool decodesCheaply(const std::vector<uint8_t>& data) {
+    bool decoded = false;
+    largest_allocation = 0;
+    EXPECT_NO_THROW(decoded = decodes(data));
+    EXPECT_LE(largest_allocation, allowedAllocation(data.size()));
+    return decoded;
+  }
+};
+
+using AllTypes = ::testing::Types<image_t, image_metadata_t, ins_t, altimeter_t, detection_t, detections_t,
+                                  foreground_t, inertial_homography_t, inertial_state_t, visual_homography_t,
+                                  fused_homography_t, process_health_t>;
+
+struct MessageName {
+  template <typename Message>
+  static std::string GetName(int) {
+    return Message::getTypeName();
+  }
+};
+TYPED_TEST_SUITE(CodecTest, AllTypes, MessageName);
+
+void overwrite(std::vector<uint8_t>& data, size_t at, int32_t value) {
+  for (size_t i = 0; i < 4; ++i)
+    data[at + i] = static_cast<uint8_t>(static_cast<uint32_t>(value) >> (24 - 8 * i));
+}
+
+TYPED_TEST(CodecTest, whatIsEncodedDecodesToTheSame) {
+  const auto data = encodeMessage(sample<TypeParam>());
+  TypeParam decoded;
+  ASSERT_TRUE(decodeMessage(data.data(), static_cast<int>(data.size()), decoded));
+  EXPECT_EQ(encodeMessage(decoded), data);
+  EXPECT_NE(encodeMessage(TypeParam{}), data) << "the sample says nothing";
+}
+
+TYPED_TEST(CodecTest, emptyMessageDecodes) { EXPECT_TRUE(this->decodes(encodeMessage(TypeParam{}))); }
+
+TYPED_TEST(CodecTest, everyTruncationIsRefused) {
+  const auto data = encodeMessage(sample<TypeParam>());
+  for (size_t size = 0; size < data.size(); ++size) {
+    // A copy of just this size, so that a sanitizer sees a read beyond it.
+    EXPECT_FALSE(
+        this->decodesCheaply(std::vector<uint8_t>(data.begin(), data.begin() + static_cast<long>(size))))
+        << "cut to " << size << " of " << data.size();
+  }
+}
+
+TYPED_TEST(CodecTest, surplusByteIsRefused) {
+  auto data = encodeMessage(sample<TypeParam>());
+  data.push_back(0);
+  EXPECT_FALSE(this->decodesCheaply(data));
+}
+
+TYPED_TEST(CodecTest, otherHashIsRefused) {
+  for (size_t i = 0; i < 8; ++i) {
+    auto data = encodeMessage(sample<TypeParam>());
+    data[i] ^= 1;
+    EXPECT_FALSE(this->decodesCheaply(data));
+  }
+}
+
+// Wherever a length may stand: what decodes must encode to the same bytes, all else is refused, and neither
+// costs much.
+TYPED_TEST(CodecTest, lyingLengthAnywhereCostsNothing) {
+  const auto data = encodeMessage(sample<TypeParam>());
+  const int32_t lies[] = {-1,
+                          std::numeric_limits<int32_t>::min(),
+                          std::numeric_limits<int32_t>::max(),
+                          0x10000000,
+                          1 << 20,
+                          255,
+                          1,
+                          0};
+  for (size_t at = 8; at + 4 <= data.size(); ++at) {
+    for (const int32_t lie : lies) {
+      auto damaged = data;
+      overwrite(damaged, at, lie);
+      if (!this->decodesCheaply(damaged)) continue;
+      TypeParam decoded;
+      ASSERT_TRUE(decodeMessage(damaged.data(), static_cast<int>(damaged.size()), decoded));
+      EXPECT_EQ(encodeMessage(decoded).size(), damaged.size());
+    }
+  }
+}
+
+TYPED_TEST(CodecTest, randomBytesBehindTheHashCostNothing) {
+  std::mt19937 random(7);
+  const auto data = encodeMessage(sample<TypeParam>());
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<uint8_t> noise(data.begin(), data.begin() + 8);
+    noise.resize(8 + random() % 400);
+    for (size_t i = 8; i < noise.size(); ++i) noise[i] = static_cast<uint8_t>(random());
+    this->decodesCheaply(noise);
+  }
+}
+
+/// Offsets of the lengths in sample messages, found by hand from the wire order of the .lcm files.
+struct Lengths {
+  std::vector<size_t> at;
+};
+template <typename Message>
+void expectRefusedLengths(const Lengths& lengths) {
+  const auto data = encodeMessage(sample<Message>());
+  for (const size_t at : lengths.at) {
+    for (const int32_t change : {-1, 1, -1000, 1000000, 2000000000}) {
+      auto damaged = data;
+      const auto old = static_cast<int32_t>(static_cast<uint32_t>(data[at]) << 24 |
+                                            static_cast<uint32_t>(data[at + 1]) << 16 |
+                                            static_cast<uint32_t>(data[at + 2]) << 8 | data[at + 3]);
+      overwrite(damaged, at, old + change);
+      Message message;
+      largest_allocation = 0;
+      EXPECT_FALSE(decodeMessage(damaged.data(), static_cast<int>(damaged.size()), message))
+          << Message::getTypeName() << ": length at " << at << " changed by " << change;
+      EXPECT_LE(largest_allocation, allowedAllocation(damaged.size()));
+    }
+  }
+}
+
+TEST(Codec, everyCorruptedLengthIsRefused) {
+  // Sizes in bytes: hash 8, then the members in the order of the .lcm file.
+  expectRefusedLengths<image_t>({{8 + 24, 8 + 28 + 12, 8 + 28 + 12 + 4, 8 + 28 + 12 + 4 + 4 + 9}});
+  expectRefusedLengths<image_metadata_t>({{8, 8 + 4 + 9}});
+  expectRefusedLengths<detections_t>({{8 + 13}});
+  expectRefusedLengths<foreground_t>({{8 + 29, 8 + 29 + 4 + 9, 8 + 29 + 4 + 9 + 4 + 4}});
+  const auto tracksAt = [](size_t total, size_t per_point, size_t n) { return total - n * per_point - 4; };
+  expectRefusedLengths<visual_homography_t>(
+      {{tracksAt(encodeMessage(sample<visual_homography_t>()).size(), 17, 6)}});
+  expectRefusedLengths<fused_homography_t>(
+      {{tracksAt(encodeMessage(sample<fused_homography_t>()).size(), 16, 3)}});
+  expectRefusedLengths<process_health_t>({{8 + 8, 8 + 8 + 4 + 12 + 9}});
+}
+
+TEST(Codec, countThatDisagreesWithItsArrayIsNotEncoded) {
+  auto image = sample<image_t>();
+  image.size += 1;
+  EXPECT_THROW(encodeMessage(image), std::invalid_argument);
+  image = sample<image_t>();
+  image.metadata[1].n = 1000;
+  EXPECT_THROW(encodeMessage(image), std::invalid_argument);
+  auto visual = sample<visual_homography_t>();
+  visual.inlier.pop_back();
+  EXPECT_THROW(encodeMessage(visual), std::invalid_argument);
+}
+
+TEST(Codec, stringWithANulIsNotEncoded) {
+  auto health = sample<process_health_t>();
+  health.message = std::string("a\0b", 3);
+  EXPECT_THROW(encodeMessage(health), std::invalid_argument);
+}
+
+TEST(Codec, hashesOfTypesSharedWithOtherVehiclesStayFixed) {
+  EXPECT_EQ(static_cast<uint64_t>(image_t::getHash()), 0x14739ffe13d5f5f0U);
+  EXPECT_EQ(static_cast<uint64_t>(ins_t::getHash()), 0x88a7df61422b0840U);
+}
+
+}  // namespace
+}  // namespace redbee

@@ -1,0 +1,116 @@
+#include "redbee/bus/picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+namespace {
+
+cv::Mat ramp() {
+  cv::Mat grey(48, 64, CV_8U);
+  for (int v = 0; v < grey.rows; ++v) {
+    for (int u = 0; u < grey.cols; ++u) grey.at<uint8_t>(v, u) = static_cast<uint8_t>(2 * u + v);
+  }
+  return grey;
+}
+
+TEST(Picture, RawGreyComesBackUnchanged) {
+  const auto decoded = decodeGrey(rawGreyMessage(7, ramp()));
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(cv::norm(*decoded, ramp(), cv::NORM_INF), 0);
+}
+
+TEST(Picture, RowsMayBePadded) {
+  image_t message = rawGreyMessage(7, ramp());
+  cv::Mat padded(48, 80, CV_8U, cv::Scalar(1));
+  ramp().copyTo(padded(cv::Rect(0, 0, 64, 48)));
+  message.row_stride = 80;
+  message.data.assign(padded.data, padded.data + padded.total());
+  message.size = static_cast<int32_t>(message.data.size());
+  const auto decoded = decodeGrey(message);
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(cv::norm(*decoded, ramp(), cv::NORM_INF), 0);
+}
+
+TEST(Picture, JpegComesBackNearly) {
+  const auto decoded = decodeGrey(jpegMessage(7, ramp(), 95));
+  ASSERT_TRUE(decoded);
+  EXPECT_LT(cv::norm(*decoded, ramp(), cv::NORM_L1) / ramp().total(), 2.0);
+}
+
+TEST(Picture, LiesAboutTheSizeAreRefused) {
+  const auto refused = [](image_t message, auto&& lie) {
+    lie(message);
+    return !decodeGrey(message) && !decodeColour(message);
+  };
+  const image_t raw = rawGreyMessage(7, ramp());
+  const image_t jpeg = jpegMessage(7, ramp(), 90);
+  EXPECT_TRUE(refused(raw, [](image_t& m) { m.height = 4800; }));
+  EXPECT_TRUE(refused(raw, [](image_t& m) { m.width = -1; }));
+  EXPECT_TRUE(refused(raw, [](image_t& m) { m.row_stride = 63; }));
+  EXPECT_TRUE(refused(raw, [](image_t& m) { m.pixelformat = 42; }));
+  EXPECT_TRUE(refused(raw, [](image_t& m) { m.size -= 1; }));
+  EXPECT_TRUE(refused(jpeg, [](image_t& m) { m.width = 6400; }));
+  EXPECT_TRUE(refused(jpeg, [](image_t& m) { m.data.assign(m.data.size(), 0); }));
+}
+
+TEST(Picture, AJpegThatIsCutShortIsRefused) {
+  const image_t whole = jpegMessage(7, ramp(), 90);
+  for (const size_t size : {whole.data.size() / 3, whole.data.size() / 2, whole.data.size() - 2}) {
+    image_t cut = whole;
+    cut.data.resize(size);
+    cut.size = static_cast<int32_t>(size);
+    EXPECT_FALSE(decodeGrey(cut)) << size << " of " << whole.data.size() << " bytes";
+    EXPECT_FALSE(decodeColour(cut));
+  }
+  image_t padded = whole;
+  padded.data.resize(whole.data.size() + 100);
+  padded.size = static_cast<int32_t>(padded.data.size());
+  EXPECT_TRUE(decodeGrey(padded)) << "cameras pad";
+}
+
+TEST(Picture, SmallerOnesAreTheMeanOfBlocks) {
+  // Smooth, so that a JPEG's own way of shrinking, which leaves out the finest waves, finds nothing to leave
+  // out.
+  for (const int downscale : {2, 4}) {
+    cv::Mat expected;
+    cv::resize(ramp(), expected, ramp().size() / downscale, 0, 0, cv::INTER_AREA);
+    const auto raw = decodeGrey(rawGreyMessage(7, ramp()), downscale);
+    ASSERT_TRUE(raw);
+    EXPECT_EQ(cv::norm(*raw, expected, cv::NORM_INF), 0);
+    const image_t jpeg = jpegMessage(7, ramp(), 95);
+    const auto grey = decodeGrey(jpeg, downscale);
+    const auto colour = decodeColour(jpeg, downscale);
+    ASSERT_TRUE(grey && colour);
+    ASSERT_EQ(grey->size(), expected.size());
+    EXPECT_LT(cv::norm(*grey, expected, cv::NORM_L1) / static_cast<double>(expected.total()), 2.0);
+    cv::Mat of_colour;
+    cv::cvtColor(*colour, of_colour, cv::COLOR_BGR2GRAY);
+    ASSERT_EQ(of_colour.size(), expected.size());
+    EXPECT_LT(cv::norm(of_colour, expected, cv::NORM_L1) / static_cast<double>(expected.total()), 2.0);
+  }
+}
+
+TEST(Picture, ASizeThatDoesNotDivideIsRefused) {
+  EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()(cv::Rect(0, 0, 63, 48))), 2));
+  EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()(cv::Rect(0, 0, 64, 46))), 4));
+  EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()), 3));
+}
+
+TEST(Picture, OneBitAPixelIsEnoughForAMask) {
+  const cv::Mat mask = ramp() > 90;
+  const std::vector<uint8_t> png = encodeBilevelPng(mask);
+  EXPECT_EQ(cv::norm(cv::imdecode(png, cv::IMREAD_GRAYSCALE), mask, cv::NORM_INF), 0);
+  EXPECT_LT(png.size(), encodePng(mask).size());
+}
+
+TEST(Picture, HeaderOfAJpegTellsItsSize) {
+  const image_t jpeg = jpegMessage(7, ramp(), 90);
+  EXPECT_EQ(jpegSize(jpeg.data.data(), jpeg.data.size()), cv::Size(64, 48));
+  for (size_t cut = 0; cut < 40; ++cut) EXPECT_FALSE(jpegSize(jpeg.data.data(), cut).has_value()) << cut;
+}
+
+}  // namespace
+}  // namespace redbee

@@ -1,0 +1,165 @@
+// The background models of mcd and aurora against values worked out by hand or directly.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "redbee/detection/rivals/aurora.hpp"
+#include "redbee/detection/rivals/mcd.hpp"
+
+namespace redbee {
+namespace {
+
+TEST(McdModel, MatchingBlockIsAveragedByAge) {
+  DualModel model{GreyGaussian{100, 200, 3}, GreyGaussian{0, 400, 0}};
+  updateDualModel(model, 104, 100, 108);
+  EXPECT_FLOAT_EQ(model[0].mean, 101);  // 3/4 100 + 1/4 104
+  EXPECT_FLOAT_EQ(model[0].variance, 0.75F * 200 + 0.25F * 49) << "greatest (I - mean)^2 is (108 - 101)^2";
+  EXPECT_FLOAT_EQ(model[0].age, 4);
+  EXPECT_FLOAT_EQ(model[1].age, 0);
+}
+
+TEST(McdModel, MatchIsWithinTwoVariances) {
+  DualModel model{GreyGaussian{100, 50, 5}, GreyGaussian{0, 400, 0}};
+  updateDualModel(model, 109, 109, 109);
+  EXPECT_FLOAT_EQ(model[0].age, 6) << "81 < 2 * 50";
+  model = {GreyGaussian{100, 50, 5}, GreyGaussian{0, 400, 0}};
+  updateDualModel(model, 110, 110, 110);
+  EXPECT_FLOAT_EQ(model[0].age, 5) << "100 is not less than 2 * 50";
+  EXPECT_FLOAT_EQ(model[1].mean, 110);
+  EXPECT_FLOAT_EQ(model[1].age, 1);
+}
+
+TEST(McdModel, ANewCandidateStartsWide) {
+  DualModel model{GreyGaussian{100, 50, 5}, GreyGaussian{150, 50, 2}};
+  updateDualModel(model, 200, 198, 203);
+  EXPECT_FLOAT_EQ(model[1].mean, 200);
+  EXPECT_FLOAT_EQ(model[1].variance, 400) << "observed 9, but the first is at least 400";
+  EXPECT_FLOAT_EQ(model[1].age, 1);
+  EXPECT_FLOAT_EQ(model[0].mean, 100) << "the background keeps what it knows";
+}
+
+TEST(McdModel, TheOlderCandidateReplacesTheBackground) {
+  DualModel model{GreyGaussian{100, 50, 3}, GreyGaussian{200, 60, 4}};
+  updateDualModel(model, 200, 200, 200);
+  EXPECT_FLOAT_EQ(model[0].mean, 200);
+  EXPECT_FLOAT_EQ(model[0].age, 5);
+  EXPECT_FLOAT_EQ(model[1].age, 0);
+}
+
+TEST(McdModel, ACandidateAsOldReplacesTheBackground) {
+  DualModel model{GreyGaussian{100, 50, 4}, GreyGaussian{200, 60, 4}};
+  const BlockBackground background = updateDualModel(model, 200, 200, 200);
+  EXPECT_FLOAT_EQ(model[0].mean, 200);
+  EXPECT_FLOAT_EQ(background.mean, 200) << "and this frame is judged against it already";
+  EXPECT_FLOAT_EQ(background.variance, 60);
+}
+
+TEST(McdModel, PixelsAreJudgedByTheMeanWithThemAndTheVarianceWithoutThem) {
+  DualModel model{GreyGaussian{100, 100, 3}, GreyGaussian{0, 400, 0}};
+  const BlockBackground background = updateDualModel(model, 104, 100, 108);
+  EXPECT_FLOAT_EQ(background.mean, 101);
+  EXPECT_FLOAT_EQ(background.variance, 100);
+  EXPECT_TRUE(background.judges);
+}
+
+TEST(McdModel, AYoungBackgroundDoesNotJudge) {
+  for (const float age : {0.5F, 1.0F, 1.5F}) {
+    DualModel model{GreyGaussian{100, 100, age}, GreyGaussian{0, 400, 0}};
+    EXPECT_EQ(updateDualModel(model, 104, 100, 108).judges, age > 1) << age;
+  }
+}
+
+TEST(McdModel, VarianceStartsAnewOnlyWhereNothingIsKnown) {
+  DualModel model{GreyGaussian{100, 900, 0.5F}, GreyGaussian{0, 400, 0}};
+  updateDualModel(model, 103, 103, 103);
+  EXPECT_FLOAT_EQ(model[0].mean, 103) << "less than one frame old";
+  EXPECT_NEAR(model[0].variance, 300, 1e-3) << "1/3 of 900 and 2/3 of 0";
+}
+
+TEST(McdModel, AgeAndVarianceAreBounded) {
+  DualModel model{GreyGaussian{100, 100, 10}, GreyGaussian{0, 400, 0}};
+  updateDualModel(model, 100, 100, 100);
+  EXPECT_FLOAT_EQ(model[0].age, 10);
+  EXPECT_FLOAT_EQ(model[0].variance, 100);
+}
+
+TEST(McdModel, BlendCountsTheSpreadOfTheMeans) {
+  const GreyGaussian a{100, 40, 4};
+  const GreyGaussian b{120, 60, 8};
+  const GreyGaussian blend = blendGaussians({a, b, {}, {}}, {0.25F, 0.75F, 0, 0});
+  EXPECT_FLOAT_EQ(blend.mean, 115);
+  EXPECT_FLOAT_EQ(blend.variance, 0.25F * (40 + 225) + 0.75F * (60 + 25));
+  EXPECT_FLOAT_EQ(blend.age, 7);
+}
+
+TEST(McdModel, BlendForgetsWhereTheVarianceIsLarge) {
+  const GreyGaussian wild{100, 3500, 20};
+  const GreyGaussian blend = blendGaussians({wild, {}, {}, {}}, {1, 0, 0, 0});
+  EXPECT_NEAR(blend.age, 20 * std::exp(-1.0), 1e-4) << "exp(-0.001 (3500 - 2500))";
+}
+
+TEST(McdModel, NothingIsKnownOutside) {
+  const GreyGaussian blend = blendGaussians({}, {0, 0, 0, 0});
+  EXPECT_FLOAT_EQ(blend.age, 0);
+  EXPECT_FLOAT_EQ(blend.variance, 400);
+  const GreyGaussian edge = blendGaussians({GreyGaussian{80, 30, 9}, {}, {}, {}}, {0.5F, 0, 0, 0});
+  EXPECT_FLOAT_EQ(edge.mean, 80) << "what lies inside counts alone";
+  EXPECT_FLOAT_EQ(edge.age, 9);
+}
+
+/// 1 / (1 + |x - mean|^2 + variance) over all values so far.
+double batchDensity(const std::vector<cv::Vec3d>& values) {
+  cv::Vec3d mean;
+  double squares = 0;
+  for (const cv::Vec3d& value : values) {
+    mean += value;
+    squares += value.dot(value);
+  }
+  const auto count = static_cast<double>(values.size());
+  mean /= count;
+  const cv::Vec3d off = values.back() - mean;
+  return 1 / (1 + off.dot(off) + squares / count - mean.dot(mean));
+}
+
+TEST(RecursiveDensity, EqualsTheDensityOfAllValues) {
+  RecursiveDensity::Parameters parameters;
+  parameters.longest = 1000;
+  RecursiveDensity density(cv::Size(1, 1), parameters);
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> grey(60, 140);
+  std::vector<cv::Vec3d> values;
+  std::vector<double> past;
+  for (int k = 0; k < 50; ++k) {
+    const cv::Vec3b colour(static_cast<uint8_t>(grey(random)), static_cast<uint8_t>(grey(random)),
+                           static_cast<uint8_t>(grey(random)));
+    values.push_back(cv::Vec3d(colour) / parameters.unit);
+    const cv::Mat below = density.update(cv::Mat(1, 1, CV_8UC3, cv::Scalar(colour)));
+    const double expected = batchDensity(values);
+    EXPECT_NEAR(density.density().at<float>(0, 0), expected, 1e-4 * expected) << k;
+    if (k >= parameters.learning_frames) {
+      double mean = 0, squares = 0;
+      for (const double d : past) {
+        mean += d / static_cast<double>(past.size());
+        squares += d * d / static_cast<double>(past.size());
+      }
+      const double deviation = std::max<double>(parameters.least_deviation, std::sqrt(squares - mean * mean));
+      EXPECT_NEAR(below.at<float>(0, 0), std::max(0.0, (mean - expected) / deviation), 1e-2);
+    }
+    if (k + 1 >= parameters.learning_frames) past.push_back(expected);
+  }
+}
+
+TEST(RecursiveDensity, WhatComesIntoViewIsNotJudged) {
+  RecursiveDensity density({40, 30}, {});
+  cv::Mat picture(30, 40, CV_8UC3, cv::Scalar(100, 100, 100));
+  for (int k = 0; k < 10; ++k) density.update(picture);
+  density.carry(cv::Matx33d(1, 0, -10, 0, 1, 0, 0, 0, 1));
+  picture.setTo(cv::Scalar(200, 200, 200));
+  const cv::Mat below = density.update(picture);
+  EXPECT_GT(below.at<float>(15, 10), 1);
+  EXPECT_EQ(below.at<float>(15, 35), 0);
+}
+
+}  // namespace
+}  // namespace redbee

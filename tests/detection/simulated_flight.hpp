@@ -1,0 +1,107 @@
+// Feeds a simulated flight, with its exact homographies, to the segmentation and compares with the truth.
+#pragma once
+
+#include <functional>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/simulation/flight_simulator.hpp"
+#include "redbee/simulation/imu_simulator.hpp"
+#include "redbee/visual/point_tracker.hpp"
+
+namespace redbee::testing {
+
+/// The same flight seen by a camera of half the size: for tests of order and statuses, which need no detail.
+inline simulation::Scenario halfSize(simulation::Scenario scenario) {
+  CameraIntrinsics& camera = scenario.intrinsics;
+  camera = {camera.width / 2,
+            camera.height / 2,
+            camera.fx / 2,
+            camera.fy / 2,
+            (camera.cx - 0.5) / 2,
+            (camera.cy - 0.5) / 2,
+            {}};
+  return scenario;
+}
+
+/// A flight with what the segmentation is given of it and the truth, rendered once.
+struct RecordedFlight {
+  std::vector<SegmentationInput> inputs;
+  std::vector<simulation::RenderedPicture> truths;
+
+  /// `front_patch`: the surface whose homography is given as the front plane's; nothing gives none.
+  RecordedFlight(const simulation::Scenario& scenario, int frames, std::optional<size_t> front_patch = {}) {
+    const simulation::FlightSimulator simulator(scenario);
+    TrackerParameters dense;
+    dense.grid_px = paperSegmentation().sample_grid_px;
+    PointTracker tracker{dense};
+    for (int k = 0; k < frames; ++k) {
+      const simulation::SimulatedFrame frame = simulator.frame(k);
+      SegmentationInput input;
+      input.utime = frame.utime;
+      input.grey = frame.picture.grey;
+      input.K = simulator.camera().K();
+      if (k > 0) {
+        input.utime_previous = simulator.frameUtime(k - 1);
+        input.ground = simulator.homography(k);
+        if (front_patch) input.front = simulator.frontHomography(k, *front_patch);
+        input.motion = simulation::exactMotion(scenario.trajectory, scenario.extrinsics,
+                                               simulator.exposureTime(k - 1), simulator.exposureTime(k));
+      }
+      input.tracks = tracker.advance(input.grey, input.ground);
+      inputs.push_back(input);
+      truths.push_back(frame.picture);
+    }
+  }
+};
+
+/// Pixels, pooled over frames.
+struct PixelCounts {
+  double mover = 0, found = 0;        ///< of the movers, and of these in the mask
+  double static_ = 0, false_ = 0;     ///< of everything else, and of these in the mask
+  double patch = 0, false_patch = 0;  ///< of one surface, and of these in the mask
+
+  double mover_probability = 0, patch_probability = 0;  ///< summed P_FG, 0..255
+
+  double moverProbability() const { return mover > 0 ? mover_probability / mover : 0; }
+  double patchProbability() const { return patch > 0 ? patch_probability / patch : 0; }
+  double recall() const { return mover > 0 ? found / mover : 0; }
+  double falseShare() const { return static_ > 0 ? false_ / static_ : 0; }
+  double falsePatchShare() const { return patch > 0 ? false_patch / patch : 0; }
+
+  void add(const simulation::RenderedPicture& truth, const SegmentationOutput& output, size_t patch_index) {
+    const cv::Mat& mask = output.mask;
+    const cv::Mat moving = truth.mask == simulation::kMaskMoving;
+    const cv::Mat still = truth.mask == 0;
+    const cv::Mat surface = truth.surface == static_cast<int>(patch_index + 1);
+    mover += cv::countNonZero(moving);
+    found += cv::countNonZero(moving & mask);
+    static_ += cv::countNonZero(still);
+    false_ += cv::countNonZero(still & mask);
+    patch += cv::countNonZero(surface);
+    false_patch += cv::countNonZero(surface & mask);
+    mover_probability += cv::mean(output.probability, moving)[0] * cv::countNonZero(moving);
+    patch_probability += cv::mean(output.probability, surface)[0] * cv::countNonZero(surface);
+  }
+};
+
+/// `change` may alter an input before it is used (drop the motion). The first frames, while things settle, do
+/// not count.
+inline PixelCounts fly(const RecordedFlight& flight, const SegmentationParameters& parameters, size_t patch,
+                       const std::function<void(SegmentationInput&)>& change = {}) {
+  MotionSegmenter segmenter(parameters);
+  PixelCounts counts;
+  const size_t settled = 2 * static_cast<size_t>(parameters.learning_frames);
+  for (size_t k = 0; k < flight.inputs.size(); ++k) {
+    SegmentationInput input = flight.inputs[k];
+    if (change) change(input);
+    const SegmentationOutput output = segmenter.step(input);
+    if (k >= settled) counts.add(flight.truths[k], output, patch);
+  }
+  return counts;
+}
+
+}  // namespace redbee::testing

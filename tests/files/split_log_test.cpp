@@ -1,0 +1,62 @@
+#include "redbee/files/split_log.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace redbee {
+namespace {
+
+HeardMessage messageOf(int64_t utime, size_t size) {
+  return {utime, "CAMERA", std::vector<uint8_t>(size, static_cast<uint8_t>(utime))};
+}
+
+std::vector<int64_t> timesIn(const std::filesystem::path& file) {
+  std::vector<int64_t> times;
+  LogReader reader(file);
+  while (const auto event = reader.next()) {
+    EXPECT_EQ(event->channel, "CAMERA");
+    EXPECT_EQ(event->data.front(), static_cast<uint8_t>(event->utime));
+    times.push_back(event->utime);
+  }
+  EXPECT_EQ(reader.damaged(), 0);
+  return times;
+}
+
+TEST(SplitLog, EveryMessageIsInOneFileInOrder) {
+  const testing::ScratchFolder folder;
+  SplitLog log(folder.path() / "f.lcm", 2500);
+  for (int k = 0; k < 10; ++k) log.write(messageOf(k, 1000));
+  log.sync();
+  std::vector<int64_t> all;
+  int files = 0;
+  for (const char* name : {"f.lcm.00", "f.lcm.01", "f.lcm.02", "f.lcm.03"}) {
+    const auto times = timesIn(folder.path() / name);
+    EXPECT_LE(times.size(), 3u) << "three of a little over 1000 bytes exceed 2500";
+    all.insert(all.end(), times.begin(), times.end());
+    ++files;
+  }
+  EXPECT_EQ(all, (std::vector<int64_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(log.file(), folder.path() / "f.lcm.03");
+}
+
+TEST(SplitLog, NeverTouchesAFileThatIsThere) {
+  const testing::ScratchFolder folder;
+  std::ofstream(folder.path() / "f.lcm.00") << "earlier";
+  SplitLog log(folder.path() / "f.lcm", 1000000);
+  log.write(messageOf(1, 10));
+  log.sync();
+  EXPECT_EQ(std::filesystem::file_size(folder.path() / "f.lcm.00"), 7u);
+  EXPECT_EQ(timesIn(folder.path() / "f.lcm.01"), std::vector<int64_t>{1});
+}
+
+TEST(SplitLog, WhatTheDiskDoesNotTakeIsAnError) {
+  EXPECT_THROW(SplitLog("/no such folder/f.lcm", 1000), InputError);
+}
+
+}  // namespace
+}  // namespace redbee

@@ -1,0 +1,37 @@
+#include "redbee/inertial/calibration_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace redbee {
+namespace {
+
+TEST(CalibrationMonitor, whenInnovationsStaySmallThenTheCalibrationFits) {
+  CalibrationMonitor monitor;
+  for (int i = 0; i < 47; ++i) monitor.note(0.3, 0.2);
+  EXPECT_EQ(monitor.verdict(), "unknown");
+  monitor.note(0.3, 0.2);
+  EXPECT_EQ(monitor.verdict(), "fits");
+}
+
+TEST(CalibrationMonitor, whenPredictionsAreOffForSecondsThenItSaysByHowMuch) {
+  CalibrationMonitor monitor;
+  for (int i = 0; i < 100; ++i) monitor.note(0.3, 0.2);
+  for (int i = 0; i < 300; ++i) monitor.note(4.0, 3.1);
+  EXPECT_EQ(monitor.verdict(), "does not fit: predicted homography off by 3 px");
+  for (int i = 0; i < 600; ++i) monitor.note(0.3, 0.2);
+  EXPECT_EQ(monitor.verdict(), "fits");
+}
+
+TEST(CalibrationMonitor, aFewBadFramesOrNumbersDoNotCount) {
+  CalibrationMonitor monitor;
+  for (int i = 0; i < 100; ++i) monitor.note(0.3, 0.2);
+  for (int i = 0; i < 3; ++i) monitor.note(1e6, 50);
+  monitor.note(std::numeric_limits<double>::quiet_NaN(), 1);
+  monitor.note(1, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(monitor.verdict(), "fits");
+}
+
+}  // namespace
+}  // namespace redbee

@@ -1,0 +1,179 @@
+// The offline commands, one after the other, on a simulated flight.
+#include "processes/redbee/detect/detect.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "processes/redbee/commands/simulate.hpp"
+#include "processes/redbee/evaluate/evaluate.hpp"
+#include "processes/redbee/evaluate/overlay_video.hpp"
+#include "processes/redbee/evaluate/report.hpp"
+#include "redbee/files/input_error.hpp"
+
+namespace redbee {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kFrames = 24;
+
+class Commands : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("redbee-commands-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    SimulateOptions simulate;
+    simulate.scenario = "walkers";
+    simulate.seconds = 1;
+    simulate.log = folder_ / "sim.lcm";
+    simulate.truth = folder_ / "truth";
+    runSimulate(simulate);
+    options_.log = simulate.log;
+    options_.configuration = folder_ / "sim.yaml";
+    options_.out = folder_ / "results";
+    options_.quiet = true;
+    frames_ = runDetect(options_);
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static std::string text(const fs::path& file) {
+    std::ostringstream content;
+    content << std::ifstream(file).rdbuf();
+    return content.str();
+  }
+
+  static inline fs::path folder_;
+  static inline DetectOptions options_;
+  static inline int64_t frames_ = 0;
+};
+
+TEST_F(Commands, DetectLeavesAMapAndAMaskForEveryFrame) {
+  EXPECT_EQ(frames_, kFrames);
+  for (const char* kind : {"probability", "mask"}) {
+    const auto count = std::distance(fs::directory_iterator(options_.out / kind), fs::directory_iterator());
+    EXPECT_EQ(count, kFrames) << kind;
+  }
+}
+
+TEST_F(Commands, DetectLeavesTheTablesOfTheContract) {
+  EXPECT_EQ(text(options_.out / "detections.csv")
+                .rfind("frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z,utime", 0),
+            0u);
+  const std::string homographies = text(options_.out / "homography.csv");
+  EXPECT_EQ(std::count(homographies.begin(), homographies.end(), '\n'), kFrames + 1);
+  const auto summary = nlohmann::json::parse(text(options_.out / "summary.json"));
+  EXPECT_EQ(summary.at("frames"), kFrames);
+  EXPECT_EQ(summary.at("lost"), 0);
+  EXPECT_EQ(summary.at("stages").size(), 4u);
+  EXPECT_GT(summary.at("fps").get<double>(), 0);
+  EXPECT_GT(summary.at("peak_rss_bytes").get<double>(), 0);
+}
+
+TEST_F(Commands, ProcessorTimeAddsUpAndStaysBelowTheProcesss) {
+  const auto summary = nlohmann::json::parse(text(options_.out / "summary.json"));
+  double work = 0, publishing = 0;
+  for (const auto& stage : summary.at("stages")) {
+    EXPECT_GT(stage.at("cpu_ms_per_frame"), 0);
+    work += stage.at("cpu_ms_per_frame").get<double>();
+    publishing += stage.at("cpu_publishing_ms_per_frame").get<double>();
+  }
+  EXPECT_NEAR(summary.at("cpu_ms_per_frame"), work, 1e-9);
+  EXPECT_NEAR(summary.at("cpu_publishing_ms_per_frame"), publishing, 1e-9);
+  EXPECT_LT(work + publishing, summary.at("cpu_process_ms_per_frame").get<double>());
+}
+
+TEST_F(Commands, SettingsFromTheCommandLineReachTheStack) {
+  DetectOptions options = options_;
+  options.out = folder_ / "late";
+  options.settings = {"segmentation.learning_frames=1000"};
+  runDetect(options);
+  const auto summary = nlohmann::json::parse(text(options.out / "summary.json"));
+  EXPECT_EQ(summary.at("frames_good"), 0);
+  options.settings = {"segmentation.no_such_key=1"};
+  EXPECT_THROW(runDetect(options), ConfigurationError);
+  options.settings = {"nonsense"};
+  EXPECT_THROW(runDetect(options), InputError);
+}
+
+TEST_F(Commands, ARivalTakesThePlaceOfTheSegmentation) {
+  for (const auto& [method, stages] : {std::pair<std::string, size_t>{"mcd", 1}, {"datmo", 4}}) {
+    DetectOptions options = options_;
+    options.method = method;
+    options.out = folder_ / method;
+    EXPECT_EQ(runDetect(options), kFrames);
+    const auto summary = nlohmann::json::parse(text(options.out / "summary.json"));
+    EXPECT_EQ(summary.at("stages").size(), stages)
+        << method << ": those that want the IMU's motion need more";
+    EXPECT_EQ(summary.at("skipped").get<int>() + summary.at("lost").get<int>(), 0) << method;
+    EXPECT_GE(summary.at("frames_good").get<int>(), kFrames - 2) << method;
+    EXPECT_TRUE(summary.at("stages").contains("rival-" + method));
+    EvaluateOptions truth;
+    truth.truth = folder_ / "truth";
+    truth.results = options.out;
+    EXPECT_EQ(measureClip(truth).truth_without_result, 0);
+  }
+}
+
+TEST_F(Commands, AnUnknownMethodIsToldWhichThereAre) {
+  DetectOptions options = options_;
+  options.method = "nobody";
+  try {
+    runDetect(options);
+    FAIL() << "an unknown method runs";
+  } catch (const InputError& error) {
+    const std::string told = error.what();
+    for (const std::string& name : methodNames()) EXPECT_NE(told.find(name), std::string::npos) << name;
+    EXPECT_EQ(told.find('\n'), std::string::npos);
+  }
+}
+
+TEST_F(Commands, MapsOfAnEarlierRunAreNotLeftAmongThose) {
+  DetectOptions options = options_;
+  options.out = folder_ / "again";
+  fs::create_directories(options.out / "mask");
+  std::ofstream(options.out / "mask" / "7.png") << "stale";
+  runDetect(options);
+  EXPECT_FALSE(fs::exists(options.out / "mask" / "7.png"));
+}
+
+TEST_F(Commands, EvaluateMeasuresAgainstTheTruth) {
+  const ClipMeasures clip = measureClip({folder_ / "truth", options_.out, {}});
+  EXPECT_EQ(clip.pixels.frames(), kFrames);
+  EXPECT_EQ(clip.truth_without_result, 0);
+  EXPECT_GT(clip.pixels.movingPixels(), 0);
+  EXPECT_THROW(measureClip({folder_ / "nowhere", options_.out, {}}), InputError);
+}
+
+TEST_F(Commands, OverlayAndReportAreWritten) {
+  OverlayOptions overlay;
+  overlay.log = options_.log;
+  overlay.configuration = options_.configuration;
+  overlay.results = options_.out;
+  overlay.video = folder_ / "overlay.mp4";
+  renderOverlay(overlay);
+  EXPECT_GT(fs::file_size(overlay.video), 1000u);
+  ReportOptions report{options_.log, options_.configuration, options_.out, folder_ / "truth",
+                       folder_ / "report.html"};
+  writeReport(report);
+  const std::string page = text(report.page);
+  EXPECT_NE(page.find("redbee-motion-segmentation"), std::string::npos);
+  EXPECT_NE(page.find("data:image/jpeg;base64,"), std::string::npos);
+  EXPECT_NE(page.find("Error@50%"), std::string::npos);
+}
+
+TEST_F(Commands, ALogWithoutPicturesIsRefused) {
+  DetectOptions options = options_;
+  options.log = folder_ / "empty.lcm";
+  std::ofstream(options.log) << "";
+  options.out = folder_ / "none";
+  EXPECT_THROW(runDetect(options), InputError);
+}
+
+}  // namespace
+}  // namespace redbee

@@ -1,0 +1,202 @@
+#include "processes/redbee/evaluate/clip_truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "processes/redbee/evaluate/evaluate.hpp"
+#include "processes/redbee/evaluate/hits_and_misses.hpp"
+#include "redbee/files/input_error.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace redbee {
+namespace {
+
+using namespace testing;  // NOLINT: the test's own helpers
+
+const cv::Size kSize(32, 24);
+const std::vector<int64_t> kUtimes = {0, 40'000, 80'000, 120'000};
+
+cv::Mat maskWith(const cv::Rect& box, int value = 255) {
+  cv::Mat mask = cv::Mat::zeros(kSize, CV_8U);
+  mask(box).setTo(value);
+  return mask;
+}
+
+void write(const fs::path& file, const cv::Mat& picture) {
+  fs::create_directories(file.parent_path());
+  cv::imwrite(file.string(), picture);
+}
+
+class ClipTruthTest : public ::testing::Test {
+ protected:
+  /// A run whose every map and mask is `map`.
+  void writeRun(const cv::Mat& map) {
+    for (const int64_t utime : kUtimes) {
+      for (const char* kind : {"probability", "mask"}) {
+        write(folder_ / "run" / kind / (std::to_string(utime) + ".png"), map);
+      }
+    }
+  }
+  fs::path truth() const { return folder_ / "truth"; }
+  ScratchFolder folder_;
+};
+
+TEST_F(ClipTruthTest, MasksNamedByTimeMeetTheFramesOfTheseTimes) {
+  write(truth() / "labels" / "mask" / "40000400.png",
+        maskWith({0, 0, 4, 4}));  // ns, a fraction of a microsecond off
+  const auto frames = ClipTruth(truth()).frames(kUtimes);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].utime, 40'000);
+  EXPECT_EQ(frames[0].index, 1);
+}
+
+TEST_F(ClipTruthTest, MasksNumberedWithZerosMeetTheFramesInThisPlace) {
+  for (const char* name : {"00000.png", "00002.png"}) write(truth() / "mask" / name, maskWith({0, 0, 4, 4}));
+  const auto frames = ClipTruth(truth()).frames(kUtimes);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].utime, 0);
+  EXPECT_EQ(frames[1].utime, 80'000);
+  EXPECT_THROW(ClipTruth(truth()).frames({0, 40'000}), InputError);
+}
+
+TEST_F(ClipTruthTest, MasksNamedAfterPicturesMeetTheFramesOfThesePictures) {
+  for (const char* name : {"img000001", "img000002", "img000003", "img000004"}) {
+    write(truth() / "frames" / (std::string(name) + ".jpg"), maskWith({0, 0, 4, 4}));
+  }
+  write(truth() / "mask" / "img000003.png", maskWith({0, 0, 4, 4}));
+  const auto frames = ClipTruth(truth()).frames(kUtimes);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].utime, 80'000);
+  EXPECT_EQ(frames[0].index, 2);
+  write(truth() / "mask" / "img000009.png", maskWith({0, 0, 4, 4}));
+  EXPECT_THROW(ClipTruth{truth()}, InputError);
+}
+
+TEST_F(ClipTruthTest, IdentitiesTellTheObjectsAndTheirStates) {
+  write(truth() / "mask" / "40000000.png", maskWith({0, 0, 16, 4}));
+  cv::Mat ids = maskWith({0, 0, 8, 4}, 1);
+  ids(cv::Rect(8, 0, 8, 4)).setTo(2);
+  ids(cv::Rect(0, 10, 8, 4)).setTo(3);
+  write(truth() / "id" / "40000000.png", ids);
+  writeText(
+      truth() / "objects.csv",
+      "#timestamp [ns],frame,object_id,kind,state\n40000000,1,1,person,moving\n40000000,1,2,person,moving\n"
+      "40000000,1,3,person,stopped\n80000000,2,1,person,moving\n");
+  const ClipTruth clip(truth());
+  const auto labels = clip.read(clip.frames(kUtimes).at(0), kSize);
+  EXPECT_EQ(labels.objects.objects.size(), 3u);
+  // The two movers touch and yet are two; who stands still is neither missed nor a false alarm.
+  const ObjectCounts counts = countObjects(maskWith({0, 0, 8, 24}), labels.objects);
+  EXPECT_EQ(counts.present, 2);
+  EXPECT_EQ(counts.found, 1);
+  EXPECT_EQ(counts.false_alarms, 0);
+}
+
+TEST_F(ClipTruthTest, BoxesLabelEveryFrameAndIgnoredAreasGiveWayToThem) {
+  write(truth() / "mask" / "00000.png", maskWith({0, 0, 4, 4}));
+  writeText(truth() / "boxes.csv",
+            "frame_index,frame_file,object_id,class,state,x,y,w,h\n1,f,1,car,moving,2,2,6,6\n1,f,2,car,"
+            "occluded,20,2,6,6\n");
+  writeText(truth() / "ignore.csv", "frame_index,x,y,w,h\n1,0,0,16,16\n");
+  const ClipTruth clip(truth());
+  const auto frames = clip.frames(kUtimes);
+  ASSERT_EQ(frames.size(), kUtimes.size());
+  EXPECT_FALSE(frames[0].mask.empty());
+  EXPECT_TRUE(frames[1].mask.empty());
+  const auto labels = clip.read(frames[1], kSize);
+  EXPECT_TRUE(labels.mask.empty());
+  EXPECT_EQ(countObjects(maskWith({2, 2, 6, 6}), labels.objects).found, 1);
+  EXPECT_EQ(countObjects(maskWith({2, 2, 6, 6}), labels.objects).present, 1);  // not the hidden one
+  EXPECT_EQ(labels.objects.ignored.at<uint8_t>(4, 4), 0);
+  EXPECT_NE(labels.objects.ignored.at<uint8_t>(12, 12), 0);
+}
+
+TEST_F(ClipTruthTest, WithoutTruthAllThatIsDetectedIsFalse) {
+  writeRun(maskWith({0, 0, 16, 12}));
+  const ClipMeasures clip = measureClip({"none", folder_ / "run", {}});
+  EXPECT_FALSE(clip.has_movers);
+  EXPECT_DOUBLE_EQ(clip.objects.falseAreaShare(), 0.25);
+  EXPECT_DOUBLE_EQ(clip.objects.falseAlarmsPerFrame(), 1);
+}
+
+TEST_F(ClipTruthTest, ARunIsMeasuredAgainstNumberedMasks) {
+  writeRun(maskWith({0, 0, 4, 4}));
+  write(truth() / "mask" / "00001.png", maskWith({0, 0, 4, 4}));
+  write(truth() / "mask" / "00002.png", maskWith({8, 8, 4, 4}));
+  const ClipMeasures clip = measureClip({truth(), folder_ / "run", {}});
+  EXPECT_EQ(clip.truth_without_result, 0);
+  EXPECT_DOUBLE_EQ(clip.decided.at(1).precision, 0.5);
+  EXPECT_DOUBLE_EQ(clip.decided.at(1).recall, 0.5);
+  EXPECT_EQ(clip.objects.counts().false_alarms, 1);
+  EXPECT_EQ(clip.frames[0].hits, 16);
+  EXPECT_EQ(clip.frames[1].misses, 16);
+}
+
+TEST_F(ClipTruthTest, FramesThatTheRunLostAreAnsweredForByEmptyMaps) {
+  writeRun(maskWith({0, 0, 4, 4}));
+  for (const char* name : {"40000000.png", "50000000.png"})
+    write(truth() / "mask" / name, maskWith({0, 0, 4, 4}));
+  const ClipMeasures clip = measureClip({truth(), folder_ / "run", {}});
+  EXPECT_EQ(clip.truth_without_result, 1);
+  EXPECT_DOUBLE_EQ(clip.decided.at(1).recall, 0.5);
+}
+
+TEST_F(ClipTruthTest, WhatIsNoTruthIsRefusedWithItsName) {
+  fs::create_directories(truth());
+  EXPECT_NE(complaintOf([&] { ClipTruth clip(truth()); }).find("holds no truth masks"), std::string::npos);
+  write(truth() / "mask" / "00000.png", cv::Mat::zeros(8, 8, CV_8U));
+  const ClipTruth clip(truth());
+  EXPECT_NE(complaintOf([&] { clip.read(clip.frames(kUtimes)[0], kSize); }).find("00000.png: has 8x8 px"),
+            std::string::npos);
+}
+
+FrameOutcome outcome(int64_t hits, int64_t false_alarms, int64_t misses) {
+  FrameOutcome frame;
+  frame.hits = hits;
+  frame.false_alarms = false_alarms;
+  frame.misses = misses;
+  return frame;
+}
+
+TEST(TellingFrames, AreTheBestAndTheWorstAndNotNeighbours) {
+  std::vector<FrameOutcome> frames(40, outcome(50, 25, 25));
+  frames[10] = outcome(100, 0, 0);
+  frames[11] = outcome(99, 0, 1);
+  frames[20] = outcome(90, 5, 5);
+  frames[30] = outcome(0, 10, 100);
+  frames[0] = outcome(0, 0, 5);
+  const TellingFrames telling = chooseTellingFrames(frames, 2);
+  EXPECT_EQ(telling.best, (std::vector<size_t>{10, 20}));
+  EXPECT_EQ(telling.worst, (std::vector<size_t>{0, 30}));
+}
+
+TEST(TellingFrames, WhereNothingMovesTheMostFalseOnesAreTheWorst) {
+  std::vector<FrameOutcome> frames(30, outcome(0, 1, 0));
+  frames[25] = outcome(0, 50, 0);
+  const TellingFrames telling = chooseTellingFrames(frames, 1);
+  EXPECT_TRUE(telling.best.empty());
+  EXPECT_EQ(telling.worst, std::vector<size_t>{25});
+  EXPECT_TRUE(chooseTellingFrames({}, 2).worst.empty());
+}
+
+TEST(HitsAndMisses, EveryKindHasItsColour) {
+  ClipTruth::Labels labels;
+  labels.mask = maskWith({0, 0, 8, 8});
+  labels.mask(cv::Rect(20, 0, 8, 8)).setTo(170);
+  const cv::Mat drawn =
+      drawHitsAndMisses(cv::Mat(kSize, CV_8U, cv::Scalar(100)), maskWith({4, 0, 8, 8}), labels);
+  const auto strongest = [&](int x, int y) {
+    const auto& pixel = drawn.at<cv::Vec3b>(y, x);
+    return std::max_element(pixel.val, pixel.val + 3) - pixel.val;  // 0 blue, 1 green, 2 red
+  };
+  EXPECT_EQ(strongest(5, 2), 1);
+  EXPECT_EQ(strongest(10, 2), 2);
+  EXPECT_EQ(strongest(1, 2), 0);
+  EXPECT_EQ(drawn.at<cv::Vec3b>(20, 5), cv::Vec3b(100, 100, 100));
+  EXPECT_EQ(cv::countNonZero(drawn(cv::Rect(20, 0, 8, 8)).reshape(1) != 100), 3 * 8);  // hatched
+}
+
+}  // namespace
+}  // namespace redbee

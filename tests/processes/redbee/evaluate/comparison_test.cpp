@@ -1,0 +1,146 @@
+#include "processes/redbee/evaluate/comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "processes/redbee/evaluate/compare.hpp"
+#include "processes/redbee/pages/svg_plot.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace redbee {
+namespace {
+
+using namespace testing;  // NOLINT: the test's own helpers
+
+class ComparisonTest : public ::testing::Test {
+ protected:
+  ComparisonTest() {
+    writeText(folder_ / "clips.txt",
+              "# set name import recording truth configuration\nflown a asl r t extrinsics\nflown b asl r t "
+              "extrinsics\n"
+              "still  c log r none config/c.yaml\n");
+    writeText(folder_ / "methods.txt", "ours redbee\nold  paper  a.b=1\n");
+  }
+  void writeCell(const std::string& cell, const std::string& error, const std::string& f1) {
+    writeText(folder_ / "cells" / cell / "measures.json",
+              R"({"pixels": {"error_at_half_recall": )" + error + R"(, "best_f1": )" + f1 +
+                  R"(}, "objects": {"false_area_percent": 0.5, "false_alarms_per_frame": 2}})");
+    writeText(folder_ / "cells" / cell / "summary.json", R"({"frames": 100, "fps": 20})");
+  }
+  Comparison comparison() const {
+    return {folder_ / "cells",
+            readClipList(folder_ / "clips.txt"),
+            readMethodList(folder_ / "methods.txt"),
+            {"calibrated", "nominal"}};
+  }
+  std::string text() const {
+    std::string all;
+    for (const Table& table : comparisonTables(comparison())) all += asText(table) + "\n";
+    return all;
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(ComparisonTest, TablesHoldTheCellsAndTheirMeans) {
+  writeCell("flown/a/calibrated/ours", "0.2", "0.8");
+  writeCell("flown/b/calibrated/ours", "0.4", "0.6");
+  writeCell("flown/a/nominal/ours", "0.9", "0.1");
+  writeCell("flown/a/calibrated/old", "1.0", "0.0");
+  const std::string tables = text();
+  EXPECT_NE(tables.find("ours    0.200 / 0.800  0.400 / 0.600  0.300 / 0.700"), std::string::npos) << tables;
+  EXPECT_NE(tables.find("old     1.000 / 0.000              -  1.000 / 0.000"), std::string::npos) << tables;
+  EXPECT_NE(tables.find("ours    0.300 / 0.700  0.900 / 0.100"), std::string::npos)
+      << tables;  // by extrinsics
+  EXPECT_NE(tables.find("1 runs have no result"), std::string::npos) << tables;
+}
+
+TEST_F(ComparisonTest, WhatTheTruthDoesNotTellIsLeftOut) {
+  writeCell("still/c/given/ours", "null", "null");
+  const std::string tables = text();
+  EXPECT_NE(tables.find("- / 2.00 / 0.500"), std::string::npos) << tables;
+  EXPECT_EQ(tables.find("still: Error@50%"), std::string::npos) << tables;
+}
+
+TEST_F(ComparisonTest, FramerateIsAllFramesOverAllTime) {
+  writeCell("flown/a/calibrated/ours", "0.2", "0.8");
+  writeCell("flown/b/calibrated/ours", "0.2", "0.8");
+  writeText(folder_ / "cells/flown/b/calibrated/ours/summary.json", R"({"frames": 300, "fps": 30})");
+  EXPECT_NE(text().find("ours        26.7"), std::string::npos) << text();  // 400 frames in 15 s
+}
+
+TEST_F(ComparisonTest, AMethodThatSawLessOfTheClipsIsTold) {
+  writeCell("flown/a/calibrated/ours", "0.2", "0.8");
+  writeCell("flown/a/calibrated/old", "0.2", "0.8");
+  writeText(folder_ / "cells/flown/a/calibrated/old/measures.json",
+            R"({"frames_limit": 40, "pixels": {"error_at_half_recall": 0.2, "best_f1": 0.8}})");
+  EXPECT_NE(text().find("old: only the first 40 frames of each clip"), std::string::npos) << text();
+  EXPECT_EQ(text().find("ours: only"), std::string::npos) << text();
+}
+
+TEST_F(ComparisonTest, EveryMeasureIsInTheCsv) {
+  writeCell("flown/a/calibrated/ours", "0.25", "0.5");
+  EXPECT_NE(comparisonCsv(comparison()).find("flown,a,calibrated,ours,error_at_half_recall,0.25\n"),
+            std::string::npos);
+}
+
+TEST_F(ComparisonTest, ThePageHoldsTablesCurvesAndPictures) {
+  writeCell("flown/a/calibrated/ours", "0.2", "0.8");
+  writeText(folder_ / "cells/flown/a/calibrated/ours/pr.csv",
+            "threshold,precision,recall\n255,1,0\n1,0.5,1\n");
+  writeText(folder_ / "cells/flown/a/calibrated/ours/pictures/best-7.jpg", "jpeg");
+  const std::string page = comparisonPage(comparison(), comparisonTables(comparison()));
+  EXPECT_NE(page.find("0.200 / 0.800"), std::string::npos);
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_NE(page.find("data:image/jpeg;base64,anBlZw=="), std::string::npos);
+  EXPECT_EQ(page.find("src=\"/"), std::string::npos);
+}
+
+TEST_F(ComparisonTest, BadListsAreToldWithTheirLine) {
+  writeText(folder_ / "short.txt", "# comment\nflown a asl\n");
+  EXPECT_NE(complaintOf([&] { readClipList(folder_ / "short.txt"); }).find("short.txt:2: has 3 words"),
+            std::string::npos);
+  writeText(folder_ / "empty.txt", "# nothing\n");
+  EXPECT_NE(complaintOf([&] { readMethodList(folder_ / "empty.txt"); }).find("lists nothing"),
+            std::string::npos);
+}
+
+TEST(Tables, AreAlignedInTextAndMarkedInMarkdownAndEscapedInHtml) {
+  const Table table{"T", {"method", "x"}, {{"a", "1.0"}, {"a<b", "10.0"}}, {"note"}};
+  EXPECT_EQ(asText(table), "T\nmethod     x\na        1.0\na<b     10.0\n  note\n");
+  EXPECT_EQ(asMarkdown(table),
+            "**T**\n\n| method |    x |\n| --- | ---: |\n| a      |  1.0 |\n| a<b    | 10.0 |\n\nnote\n");
+  EXPECT_NE(asHtml(table).find("<td>a&lt;b</td><td>10.0</td>"), std::string::npos);
+}
+
+TEST(SvgPlot, DrawsLinesPointsAndMarks) {
+  SvgPlot plot("it's a title", "x, s", "y, px");
+  plot.addLine("curve", {0, 1, 2}, {0, 1, 4}, "#c0392b");
+  plot.addPoints("dots", {{0.5, 0.5}, {1.5, 2}}, "#1e8449");
+  plot.addMark("here", 1);
+  const std::string svg = plot.svg();
+  EXPECT_EQ(svg.rfind("<svg", 0), 0u);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  for (const char* text : {"it's a title", "curve", "dots", "here", "y, px"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
+}
+
+TEST(SvgPlot, WhatIsNotFiniteBreaksALineAndNothingAtAllIsAnEmptyFrame) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  SvgPlot broken("", "", "");
+  broken.addLine("", {0, 1, 2, 3, 4}, {0, 1, nan, 1, 0}, "#123456");
+  const std::string svg = broken.svg();
+  const size_t start = svg.find("rgb( 18,  52,  86)'  d=");
+  ASSERT_NE(start, std::string::npos);
+  const std::string path = svg.substr(start, svg.find("/>", start) - start);
+  EXPECT_EQ(std::count(path.begin(), path.end(), 'M'), 2) << path;
+  SvgPlot empty("", "", "");
+  empty.addLine("", {}, {}, "#000000");
+  empty.addLine("", {1}, {nan}, "#000000");
+  EXPECT_NE(empty.svg().find("</svg>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace redbee

@@ -1,0 +1,116 @@
+#include "processes/redbee/vehicle/health_board.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "redbee/node/health.hpp"
+
+namespace redbee {
+namespace {
+
+using ::testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+using std::chrono::seconds;
+
+const Clock::time_point kNow = Clock::time_point(std::chrono::hours(1));
+
+process_health_t word(const std::string& process, HealthState state, int pid = 100) {
+  process_health_t health{};
+  health.process = process;
+  health.pid = pid;
+  health.state = static_cast<int8_t>(state);
+  health.rate_in = 24;
+  health.rate_out = 23.5;
+  health.latency_median = 11.2;
+  health.latency_p99 = 16.9;
+  health.skipped = 3;
+  health.lost = 12345;
+  health.damaged = 7;
+  health.resident = 42 << 20;
+  health.version = "1.2";
+  health.configuration = "cafe";
+  health.calibration = "fits";
+  return health;
+}
+
+std::string textOf(const HealthBoard& board, Clock::time_point now, int columns = 80) {
+  std::string text;
+  for (const BoardLine& line : board.table(now, columns)) text += line.text + "\n";
+  return text;
+}
+
+TEST(HealthBoard, OneLineAProcessInTheOrderOfTheWork) {
+  HealthBoard board;
+  board.hear(word("redbee-motion-segmentation", HealthState::kGood, 4), kNow);
+  board.hear(word("redbee-imu-integration", HealthState::kGood, 1), kNow);
+  board.hear(word("a-camera-driver", HealthState::kGood, 5), kNow);
+  const auto lines = board.table(kNow);
+  EXPECT_THAT(lines[1].text, HasSubstr("imu-integration"));
+  EXPECT_THAT(lines[2].text, HasSubstr("visual-homography   unheard"));
+  EXPECT_EQ(lines[2].tone, Tone::kBad);
+  EXPECT_THAT(lines[4].text, HasSubstr("motion-segmentation"));
+  EXPECT_THAT(lines[5].text, HasSubstr("a-camera-driver"));
+  for (const char* part : {"good", "24.0", "23.5", "11.2", "16.9", " 3 ", "12k", " 7 ", " 42"}) {
+    EXPECT_THAT(lines[1].text, HasSubstr(part));
+  }
+  EXPECT_THAT(textOf(board, kNow), HasSubstr("version 1.2, configuration cafe"));
+}
+
+TEST(HealthBoard, WhoStopsSpeakingIsSilentSince) {
+  HealthBoard board;
+  board.hear(word("redbee-visual-homography", HealthState::kGood), kNow);
+  EXPECT_EQ(board.good(kNow + seconds(2)), 1) << "one missed word is no silence";
+  EXPECT_EQ(board.good(kNow + seconds(7)), 0);
+  EXPECT_THAT(textOf(board, kNow + seconds(7)), HasSubstr("visual-homography: silent since 7 s"));
+  EXPECT_EQ(board.table(kNow + seconds(7))[2].tone, Tone::kBad);
+}
+
+TEST(HealthBoard, WhoSaidThatItStopsOrIsDeadIsNotSilent) {
+  HealthBoard board;
+  board.hear(word("redbee-a", HealthState::kStopping), kNow);
+  board.hear(word("redbee-b", HealthState::kDead), kNow);
+  auto script = word("redbee-record", HealthState::kGood);
+  script.configuration.clear();
+  board.hear(script, kNow);
+  EXPECT_THAT(textOf(board, kNow + seconds(60)), ::testing::Not(HasSubstr("silent")));
+  EXPECT_EQ(board.table(kNow)[6].tone, Tone::kBad);
+}
+
+TEST(HealthBoard, ANewProcessNumberIsARestart) {
+  HealthBoard board;
+  board.hear(word("redbee-a", HealthState::kGood, 10), kNow);
+  board.hear(word("redbee-a", HealthState::kDead, 10), kNow + seconds(1));
+  board.hear(word("redbee-a", HealthState::kStarting, 11), kNow + seconds(2));
+  board.hear(word("redbee-a", HealthState::kGood, 11), kNow + seconds(3));
+  EXPECT_THAT(textOf(board, kNow + seconds(4)), HasSubstr("a: restarts seen: 1, the last 2 s ago"));
+}
+
+TEST(HealthBoard, TwoBuildsOrConfigurationsTogetherStandOut) {
+  HealthBoard board;
+  board.hear(word("redbee-a", HealthState::kGood), kNow);
+  auto other = word("redbee-b", HealthState::kGood);
+  other.configuration = "beef";
+  board.hear(other, kNow);
+  const auto lines = board.table(kNow);
+  EXPECT_EQ(lines.back().tone, Tone::kWarning);
+  EXPECT_THAT(textOf(board, kNow), HasSubstr("configuration beef"));
+}
+
+TEST(HealthBoard, NothingIsWiderThanTheTerminalNorReachesItUnfiltered) {
+  HealthBoard board;
+  auto wild = word(std::string(200, 'x'), HealthState::kDegraded, 2147483647);
+  wild.message = std::string(500, 'm') + "\x1b[2J";
+  wild.rate_in = 1e300;
+  wild.latency_p99 = -1e300;
+  wild.skipped = wild.lost = wild.damaged = std::numeric_limits<int64_t>::max();
+  wild.state = 99;
+  wild.calibration = "does not fit\x1b]0;owned\x07";
+  board.hear(wild, kNow);
+  for (const BoardLine& line : board.table(kNow)) {
+    EXPECT_LE(line.text.size(), 80u);
+    EXPECT_EQ(line.text.find('\x1b'), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace redbee

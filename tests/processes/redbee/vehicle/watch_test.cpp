@@ -1,0 +1,140 @@
+#include "processes/redbee/vehicle/watch.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "redbee/node/health.hpp"
+
+namespace redbee {
+namespace {
+
+using Clock = ProcessWatch::Clock;
+using std::chrono::seconds;
+
+/// A child that does nothing, so that a test may end it.
+class Child {
+ public:
+  Child() : pid_(fork()) {
+    if (pid_ == 0) {
+      while (true) pause();
+    }
+  }
+  ~Child() {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  int pid() const { return pid_; }
+  bool isZombie() const {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == pid_;
+  }
+  void awaitDeath() const {
+    siginfo_t info{};
+    waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT);
+  }
+
+ private:
+  int pid_;
+};
+
+process_health_t word(const std::string& process, int pid, HealthState state = HealthState::kGood) {
+  process_health_t health{};
+  health.process = process;
+  health.pid = pid;
+  health.state = static_cast<int8_t>(state);
+  health.configuration = "cafe";
+  health.rate_in = 24;
+  return health;
+}
+
+TEST(ProcessWatch, ADeathIsToldOnceAndInTheNameOfTheDead) {
+  Child child;
+  ProcessWatch watch;
+  watch.hear(word("redbee-a", child.pid()), Clock::now());
+  EXPECT_TRUE(watch.takeDeaths().empty());
+  kill(child.pid(), SIGKILL);
+  child.awaitDeath();
+  const auto deaths = watch.takeDeaths();
+  ASSERT_EQ(deaths.size(), 1u);
+  EXPECT_EQ(deaths[0].process, "redbee-a");
+  EXPECT_EQ(deaths[0].pid, child.pid());
+  EXPECT_EQ(deaths[0].state, static_cast<int8_t>(HealthState::kDead));
+  EXPECT_EQ(deaths[0].rate_in, 0);
+  EXPECT_THAT(deaths[0].message, ::testing::HasSubstr("died"));
+  EXPECT_TRUE(watch.takeDeaths().empty());
+}
+
+TEST(ProcessWatch, WhoSaidThatItStopsHasNotDied) {
+  Child child;
+  ProcessWatch watch;
+  watch.hear(word("redbee-a", child.pid(), HealthState::kStopping), Clock::now());
+  kill(child.pid(), SIGTERM);
+  child.awaitDeath();
+  const auto deaths = watch.takeDeaths();
+  ASSERT_EQ(deaths.size(), 1u);
+  EXPECT_THAT(deaths[0].message, ::testing::HasSubstr("stopped"));
+}
+
+TEST(ProcessWatch, AProcessThatCameBackIsWatchedAgain) {
+  Child first;
+  Child second;
+  ProcessWatch watch;
+  watch.hear(word("redbee-a", first.pid()), Clock::now());
+  watch.hear(word("redbee-a", second.pid()), Clock::now());
+  kill(first.pid(), SIGKILL);
+  first.awaitDeath();
+  EXPECT_TRUE(watch.takeDeaths().empty()) << "the first is no longer the process of this name";
+  kill(second.pid(), SIGKILL);
+  second.awaitDeath();
+  EXPECT_EQ(watch.takeDeaths().size(), 1u);
+}
+
+TEST(ProcessWatch, OneThatHangsWhileOthersSpeakIsEnded) {
+  Child hanging;
+  Child speaking;
+  ProcessWatch watch;
+  const auto start = Clock::now();
+  watch.hear(word("redbee-hanging", hanging.pid()), start);
+  watch.hear(word("redbee-speaking", speaking.pid()), start + ProcessWatch::kHangs - seconds(1));
+  EXPECT_TRUE(watch.endHanging(start + ProcessWatch::kHangs - seconds(1)).empty());
+  EXPECT_THAT(watch.endHanging(start + ProcessWatch::kHangs), ::testing::ElementsAre("redbee-hanging"));
+  hanging.awaitDeath();
+  EXPECT_FALSE(speaking.isZombie());
+}
+
+TEST(ProcessWatch, WhereNobodySpeaksNobodyIsEnded) {
+  Child a;
+  ProcessWatch watch;
+  const auto start = Clock::now();
+  watch.hear(word("redbee-a", a.pid()), start);
+  EXPECT_TRUE(watch.endHanging(start + seconds(60)).empty()) << "the network is gone, not the process";
+  EXPECT_FALSE(a.isZombie());
+}
+
+TEST(ProcessWatch, AScriptSpeaksWhenItHasSomethingToSay) {
+  Child script;
+  Child other;
+  ProcessWatch watch;
+  const auto start = Clock::now();
+  auto recording = word("redbee-record", script.pid());
+  recording.configuration.clear();
+  watch.hear(recording, start);
+  watch.hear(word("redbee-other", other.pid()), start + seconds(60));
+  EXPECT_TRUE(watch.endHanging(start + seconds(60)).empty());
+}
+
+TEST(ProcessWatch, AProcessOfAnotherHostIsLeftAlone) {
+  ProcessWatch watch;
+  constexpr int kNobody = 0x3ffffff;  // above any pid_max
+  watch.hear(word("redbee-elsewhere", kNobody), Clock::now());
+  EXPECT_TRUE(watch.takeDeaths().empty());
+}
+
+}  // namespace
+}  // namespace redbee
