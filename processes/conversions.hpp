@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "redbee/filter_snapshot_t.hpp"
+#include "redbee/inertial/filter_snapshot.hpp"
 #include "redbee/inertial/imu_buffer.hpp"
-#include "redbee/inertial/inertial_knowledge.hpp"
-#include "redbee/inertial_state_t.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
@@ -42,8 +42,8 @@ inline void fill(double (&entries)[8], const Eigen::Matrix<double, 8, 1>& v) {
   rows = v;
 }
 
-inline inertial_state_t messageOf(const InertialKnowledge& known, const std::string& configuration) {
-  inertial_state_t message{};
+inline filter_snapshot_t messageOf(const FilterSnapshot& known, const std::string& configuration) {
+  filter_snapshot_t message{};
   message.utime = known.utime;
   message.configuration = configuration;
   message.height = known.height_m;
@@ -61,8 +61,8 @@ inline inertial_state_t messageOf(const InertialKnowledge& known, const std::str
   return message;
 }
 
-inline InertialKnowledge knowledgeOf(const inertial_state_t& message) {
-  InertialKnowledge known;
+inline FilterSnapshot snapshotOf(const filter_snapshot_t& message) {
+  FilterSnapshot known;
   known.utime = message.utime;
   known.height_m = message.height;
   known.height_sigma_m = message.height_sigma;
@@ -94,10 +94,10 @@ void fillTracks(Message& message, const PointTracks& tracks) {
   }
 }
 
-/// px: no picture is larger; what lies beyond is damage, and would not fit an int.
+/// px: no image is larger; what lies beyond is damage, and would not fit an int.
 constexpr float kMaxCoordinate = 1e5F;
 
-/// The points that lie where points can; damaged ones (not a number, far beyond any picture) are left out.
+/// The points that lie where points can; damaged ones (not a number, far beyond any image) are left out.
 template <typename Message>
 PointTracks tracksOf(const Message& message) {
   PointTracks tracks;

@@ -1,6 +1,6 @@
 #include "processes/foreground_publisher.hpp"
 
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/results/overlay.hpp"
@@ -32,8 +32,8 @@ detections_t detectionsMessage(const SegmentationOutput& output) {
 
 /// Box on the raw grid around a box on the ideal grid.
 cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
-  const cv::Rect picture(0, 0, camera.intrinsics().width, camera.intrinsics().height);
-  Eigen::Vector2d low(picture.width, picture.height);
+  const cv::Rect image(0, 0, camera.intrinsics().width, camera.intrinsics().height);
+  Eigen::Vector2d low(image.width, image.height);
   Eigen::Vector2d high(0, 0);
   for (int i = 0; i <= 4; ++i) {
     for (const Eigen::Vector2d& edge : {Eigen::Vector2d(i / 4.0, 0), Eigen::Vector2d(i / 4.0, 1),
@@ -47,12 +47,12 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
   const cv::Point top_left(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
   const cv::Point bottom_right(static_cast<int>(std::ceil(high.x())) + 1,
                                static_cast<int>(std::ceil(high.y())) + 1);
-  return cv::Rect(top_left, bottom_right) & picture;
+  return cv::Rect(top_left, bottom_right) & image;
 }
 
 }  // namespace
 
-void ForegroundPublisher::publish(const image_t& picture, int64_t utime_previous, SegmentationOutput output) {
+void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, SegmentationOutput output) {
   output.probability = camera_.rectifier().toRaw(output.probability);
   output.mask = camera_.rectifier().toRaw(output.mask);
   output.unknown = camera_.rectifier().toRaw(output.unknown);
@@ -77,19 +77,19 @@ void ForegroundPublisher::publish(const image_t& picture, int64_t utime_previous
   detections_t detections = detectionsMessage(output);
   detections.sequence = sequence_++;
   bus_.publish(configuration_.channels.detections, detections);
-  publishOverlay(picture, output);
+  publishOverlay(image, output);
 }
 
-void ForegroundPublisher::publishOverlay(const image_t& picture, const SegmentationOutput& output) {
+void ForegroundPublisher::publishOverlay(const image_t& image, const SegmentationOutput& output) {
   const int period = configuration_.overlay_period_frames;
   if (period == 0 || ++frames_since_overlay_ < period) return;
   frames_since_overlay_ = 0;
-  if (const auto colour = decodeColour(picture); colour && colour->size() == output.mask.size()) {
+  if (const auto colour = decodeColour(image); colour && colour->size() == output.mask.size()) {
     OverlayStatus status;
-    status.utime = picture.utime;
+    status.utime = image.utime;
     status.message = output.status == SegmentationStatus::kGood ? "" : toString(output.status);
     const cv::Mat drawn = drawOverlay(*colour, output.mask, output.detections, status);
-    bus_.publish(configuration_.channels.overlay, jpegMessage(picture.utime, drawn, kOverlayQuality));
+    bus_.publish(configuration_.channels.overlay, jpegMessage(image.utime, drawn, kOverlayQuality));
   }
 }
 

@@ -1,4 +1,4 @@
-// What a detector says of a frame, as FOREGROUND, DETECTIONS and OVERLAY on the raw picture's grid.
+// What a detector says of a frame, as FOREGROUND, DETECTIONS and OVERLAY on the raw image's grid.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ class ForegroundPublisher {
   ForegroundPublisher(Bus& bus, const Configuration& configuration, const RectifiedCamera& camera)
       : bus_(bus), configuration_(configuration), camera_(camera) {}
 
-  /// `picture`: the frame as it came. `output`: on the ideal grid. One message of each kind, and an overlay
+  /// `image`: the frame as it came. `output`: on the ideal grid. One message of each kind, and an overlay
   /// every so often.
-  void publish(const image_t& picture, int64_t utime_previous, SegmentationOutput output);
+  void publish(const image_t& image, int64_t utime_previous, SegmentationOutput output);
 
  private:
-  void publishOverlay(const image_t& picture, const SegmentationOutput& output);
+  void publishOverlay(const image_t& image, const SegmentationOutput& output);
 
   Bus& bus_;
   const Configuration& configuration_;

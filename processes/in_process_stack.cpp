@@ -52,8 +52,8 @@ void InProcessStack::publishHealth() {
   settle();
 }
 
-std::map<std::string, CpuShare> InProcessStack::cpu() const {
-  std::map<std::string, CpuShare> stages;
+std::map<std::string, CpuTime> InProcessStack::cpu() const {
+  std::map<std::string, CpuTime> stages;
   for (const auto& node : nodes_) stages[node->health().process()] = node->health().cpu();
   return stages;
 }

@@ -30,7 +30,7 @@ class InProcessStack {
   /// Each node tells its health once.
   void publishHealth();
   /// Processor time of each node, by its name.
-  std::map<std::string, CpuShare> cpu() const;
+  std::map<std::string, CpuTime> cpu() const;
 
  private:
   Bus& bus_;

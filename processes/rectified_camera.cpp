@@ -2,12 +2,12 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 
 namespace redbee {
 namespace {
 
-/// The camera that takes pictures so much smaller.
+/// The camera that takes images so much smaller.
 CameraIntrinsics shrunk(CameraIntrinsics camera, int downscale) {
   camera.width /= downscale;
   camera.height /= downscale;
@@ -24,20 +24,20 @@ RectifiedCamera::RectifiedCamera(const CameraIntrinsics& intrinsics, int downsca
     : camera_(intrinsics),
       rectifier_(camera_),
       downscale_(downscale),
-      picture_rectifier_(Camera(shrunk(intrinsics, downscale))) {}
+      image_rectifier_(Camera(shrunk(intrinsics, downscale))) {}
 
-IdealPicture RectifiedCamera::ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const {
-  const cv::Mat picture = (wants_colour ? decodeColour(message, downscale_) : decodeGrey(message, downscale_))
-                              .value_or(cv::Mat());
-  if (picture.empty()) health.noteDamaged();
+IdealImage RectifiedCamera::ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const {
+  const cv::Mat image = (wants_colour ? decodeColour(message, downscale_) : decodeGrey(message, downscale_))
+                            .value_or(cv::Mat());
+  if (image.empty()) health.noteDamaged();
   const cv::Size wanted(camera_.intrinsics().width / downscale_, camera_.intrinsics().height / downscale_);
-  if (picture.size() != wanted) return {};
-  IdealPicture ideal;
+  if (image.size() != wanted) return {};
+  IdealImage ideal;
   if (wants_colour) {
-    ideal.colour = picture_rectifier_.toIdeal(picture);
+    ideal.colour = image_rectifier_.toIdeal(image);
     cv::cvtColor(ideal.colour, ideal.grey, cv::COLOR_BGR2GRAY);
   } else {
-    ideal.grey = picture_rectifier_.toIdeal(picture);
+    ideal.grey = image_rectifier_.toIdeal(image);
   }
   return ideal;
 }

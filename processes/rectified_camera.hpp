@@ -1,4 +1,4 @@
-// The camera of a node: raw pictures made ideal.
+// The camera of a node: raw images made ideal.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,28 +10,28 @@
 
 namespace redbee {
 
-/// Undistorted; both empty where there is no picture. As much smaller than the camera's as was asked for.
-struct IdealPicture {
+/// Undistorted; both empty where there is no image. As much smaller than the camera's as was asked for.
+struct IdealImage {
   cv::Mat grey;    ///< CV_8U
   cv::Mat colour;  ///< CV_8UC3, BGR; empty unless asked for
 };
 
 class RectifiedCamera {
  public:
-  /// `downscale`: 1, 2 or 4, how much smaller ideal() makes pictures; it divides the camera's sides.
+  /// `downscale`: 1, 2 or 4, how much smaller ideal() makes images; it divides the camera's sides.
   explicit RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale = 1);
 
   const Camera& camera() const { return camera_; }
   const Rectifier& rectifier() const { return rectifier_; }
   int downscale() const { return downscale_; }
-  /// Empty for a picture that is damaged (`health` is told) or not of the camera's size.
-  IdealPicture ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const;
+  /// Empty for a image that is damaged (`health` is told) or not of the camera's size.
+  IdealImage ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const;
 
  private:
   Camera camera_;
   Rectifier rectifier_;
   int downscale_;
-  Rectifier picture_rectifier_;  ///< of the pictures that ideal() makes
+  Rectifier image_rectifier_;  ///< of the images that ideal() makes
 };
 
 }  // namespace redbee

@@ -50,7 +50,7 @@ class Bus {
 };
 
 /// Throws where the environment has REDBEE_NETWORK_POLICY=none and this is anything but memq://; warns of a
-/// receive buffer in which pictures will be lost.
+/// receive buffer in which images will be lost.
 void checkLcmUrl(const std::string& url);
 
 /// A bus on an LCM URL (udpm://..., memq://). Throws std::runtime_error where LCM cannot open it, or

@@ -15,7 +15,7 @@
 namespace redbee {
 namespace {
 
-/// LCM's receivers refuse from 256 MiB on; no picture comes near this.
+/// LCM's receivers refuse from 256 MiB on; no image comes near this.
 constexpr size_t kMaxMessageBytes = size_t{64} << 20;
 constexpr size_t kMaxChannelName = 63;
 /// A sender that is faster than we are must not keep a process from its work for ever.

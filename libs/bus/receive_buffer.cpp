@@ -38,16 +38,16 @@ UdpBufferCheck checkReceiveBuffer(const std::string& url, std::optional<int64_t>
   const auto wanted = receiveBufferOf(url);
   const std::string recommended = std::to_string(kRecommendedReceiveBuffer);
   if (!wanted) {
-    return {false, "pictures will be lost: the URL " + url +
+    return {false, "images will be lost: the URL " + url +
                        " names no receive buffer; add recv_buf_size=" + recommended};
   }
   if (kernel_limit && *kernel_limit < *wanted) {
-    return {false, "pictures will be lost: the kernel caps receive buffers at " +
+    return {false, "images will be lost: the kernel caps receive buffers at " +
                        std::to_string(*kernel_limit) +
                        " bytes; as root: sysctl -w net.core.rmem_max=" + std::to_string(*wanted)};
   }
   if (*wanted < kRecommendedReceiveBuffer) {
-    return {false, "pictures may be lost: the receive buffer in the URL " + url +
+    return {false, "images may be lost: the receive buffer in the URL " + url +
                        " is small; say recv_buf_size=" + recommended};
   }
   return {};

@@ -1,4 +1,4 @@
-// The kernel's receive buffer decides whether pictures arrive at all: LCM loses a message of which one
+// The kernel's receive buffer decides whether images arrive at all: LCM loses a message of which one
 // fragment is lost, silently.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace redbee {
 
-/// Traffic stays on the host (ttl=0); the buffer holds more than a dozen raw 640x480 pictures.
+/// Traffic stays on the host (ttl=0); the buffer holds more than a dozen raw 640x480 images.
 constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 constexpr int64_t kRecommendedReceiveBuffer = 4194304;  ///< bytes
 

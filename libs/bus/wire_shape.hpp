@@ -6,11 +6,11 @@
 #include <string_view>
 
 #include "redbee/detections_t.hpp"
+#include "redbee/filter_snapshot_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_metadata_t.hpp"
 #include "redbee/image_t.hpp"
-#include "redbee/inertial_state_t.hpp"
 #include "redbee/process_health_t.hpp"
 #include "redbee/visual_homography_t.hpp"
 
@@ -88,9 +88,9 @@ struct WireShape<fused_homography_t> {
 };
 
 template <>
-struct WireShape<inertial_state_t> {
+struct WireShape<filter_snapshot_t> {
   static constexpr std::string_view kLayout = "8 s 304";
-  static bool countsAgree(const inertial_state_t&) { return true; }
+  static bool countsAgree(const filter_snapshot_t&) { return true; }
 };
 
 template <>

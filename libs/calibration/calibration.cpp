@@ -159,7 +159,7 @@ CalibrationResult calibrate(const CalibrationInput& input, const std::function<v
   const FlightSolution solution = solveFlight(recording, input, mounting, priors, input.start_height);
   if (!solution.usable) {
     throw CalibrationError(
-        "the joint problem has no solution: the pictures and the IMU do not belong together");
+        "the joint problem has no solution: the images and the IMU do not belong together");
   }
   done(0.7);
 

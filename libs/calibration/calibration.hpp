@@ -35,7 +35,7 @@ struct GroundMatch {
   PointTracks points;
 };
 
-/// Corners of a known rigid target in one picture.
+/// Corners of a known rigid target in one image.
 struct TargetView {
   int64_t utime = 0;                     ///< us, camera clock
   std::vector<Eigen::Vector2d> pixels;   ///< raw
@@ -96,7 +96,7 @@ struct Excitation {
       Eigen::Vector3d::Zero();  ///< rad, of R_CI along its principal directions, descending
 };
 
-/// Series for the report's pictures.
+/// Series for the report's images.
 struct Diagnostics {
   RotationAlignment alignment;
   std::vector<double> pair_t_s;  ///< camera clock since the first frame

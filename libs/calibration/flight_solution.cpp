@@ -62,10 +62,10 @@ bool solveOnce(FlightSolution& solution) {
 /// of freedom that the fit left to it. Vision's is taken from the median, which homographies of other planes
 /// do not move. The IMU is never believed to be better than its densities say.
 void rescale(JointInput& input, const JointAnalysis& analysis) {
-  const auto freedomShare = [](const GroupFit& group) {
+  const auto freedomFraction = [](const GroupFit& group) {
     return std::max(group.redundancy / std::max(group.measurements, 1), 0.05);
   };
-  const double vision = analysis.vision.median_ratio / freedomShare(analysis.vision);
+  const double vision = analysis.vision.median_ratio / freedomFraction(analysis.vision);
   const double imu = analysis.imu.chi2 / std::max(analysis.imu.redundancy, 1.0);
   input.vision_variance_scale = std::clamp(input.vision_variance_scale * vision, 0.01, 1e4);
   input.imu_variance_scale = std::clamp(input.imu_variance_scale * imu, 1.0, 1e6);

@@ -18,7 +18,7 @@ constexpr double kScales_px[] = {2.0, 1.0, 0.5, 0.35, 0.35};
 constexpr double kReach_px = 0.6;
 constexpr double kSigmaFloor_px = 0.04;
 constexpr int kMinPoints = 40;
-/// Cells of a tenth of the picture's width that must hold ground.
+/// Cells of a tenth of the image's width that must hold ground.
 constexpr size_t kMinCells = 12;
 /// What the prediction leaves open apart from its three deviations, scaled units: keeps P regular.
 constexpr double kFloor = 1e-4;
@@ -62,7 +62,7 @@ std::vector<uint8_t> within(const ScaledPairs& pairs, const Eigen::Matrix3d& H, 
 }
 
 bool spreads(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen) {
-  constexpr double kCell = 0.2;  // scaled units: the picture is two wide
+  constexpr double kCell = 0.2;  // scaled units: the image is two wide
   std::set<std::pair<int, int>> cells;
   for (size_t i = 0; i < pairs.size(); ++i) {
     if (chosen[i] == 0) continue;

@@ -26,7 +26,7 @@ struct GroundPrediction {
 };
 
 /// Frame indices are not filled. Nothing where too few points lie on the predicted plane or they do not
-/// spread over the picture.
+/// spread over the image.
 std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& camera,
                                           const GroundPrediction& prediction);
 

@@ -1,4 +1,4 @@
-// Pose of a known target from its corners in one picture.
+// Pose of a known target from its corners in one image.
 #pragma once
 
 #include <optional>

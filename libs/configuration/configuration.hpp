@@ -20,8 +20,8 @@ struct Channels {
   std::string imu = "IMU";
   std::string altimeter = "ALTIMETER";
   std::string inertial_homography = "INERTIAL_HOMOGRAPHY";
-  std::string inertial_state = "INERTIAL_STATE";
-  std::string kept_state = "KEPT_STATE";
+  std::string filter_snapshot = "FILTER_SNAPSHOT";
+  std::string warm_start = "WARM_START";
   std::string visual_homography = "VISUAL_HOMOGRAPHY";
   std::string fused_homography = "FUSED_HOMOGRAPHY";
   std::string foreground = "FOREGROUND";

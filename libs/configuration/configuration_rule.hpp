@@ -31,7 +31,7 @@ inline const Rule halving{[](int x) { return x == 1 || x == 2 || x == 4; }, "mus
 inline const Rule pyramid{[](int x) { return x >= 1 && x <= 8; }, "must lie from 1 to 8"};
 inline const Rule fourOrMore{[](int x) { return x >= 4; },
                              "must be at least 4: so many points fix a homography"};
-inline const Rule pictureSide{[](int x) { return x >= 16 && x <= 16384; }, "must lie from 16 to 16384"};
+inline const Rule imageSide{[](int x) { return x >= 16 && x <= 16384; }, "must lie from 16 to 16384"};
 inline const Rule notEmpty{[](const std::string& x) { return !x.empty(); }, "must not be empty"};
 inline const Rule rotation{[](const Eigen::Matrix3d& R) { return isRotation(R, 1e-5); },
                            "is no rotation: its rows must be orthonormal to 1e-5, its determinant +1"};

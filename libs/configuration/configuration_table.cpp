@@ -21,8 +21,8 @@ void append(Settings& settings, Settings more) {
 Settings vehicleSettings() {
   return {
       setting("vehicle", MEMBER(vehicle), notEmpty),
-      setting("camera.width", MEMBER(camera.width), pictureSide),
-      setting("camera.height", MEMBER(camera.height), pictureSide),
+      setting("camera.width", MEMBER(camera.width), imageSide),
+      setting("camera.height", MEMBER(camera.height), imageSide),
       setting("camera.fx", MEMBER(camera.fx), positive),
       setting("camera.fy", MEMBER(camera.fy), positive),
       setting("camera.cx", MEMBER(camera.cx), anything),
@@ -76,7 +76,7 @@ Settings ransacSettings(const std::string& section, Access ransac) {
       setting(section + ".max_iterations", member(&P::max_iterations), positive),
       setting(section + ".confidence", member(&P::confidence), probability),
       setting(section + ".min_inliers", member(&P::min_inliers), fourOrMore),
-      setting(section + ".min_inlier_share", member(&P::min_inlier_share), share),
+      setting(section + ".min_inlier_ratio", member(&P::min_inlier_ratio), share),
       setting(section + ".min_spread", member(&P::min_spread), share),
       setting(section + ".seed", member(&P::seed), anything),
   };
@@ -100,7 +100,7 @@ Settings visualSettings() {
   Settings settings{
       setting("visual.max_frame_gap_s", MEMBER(visual.max_frame_gap_s), positive),
       setting("visual.min_sharpness", MEMBER(visual.min_sharpness), notNegative),
-      setting("visual.min_sharpness_share", MEMBER(visual.min_sharpness_share), share),
+      setting("visual.min_sharpness_fraction", MEMBER(visual.min_sharpness_fraction), share),
   };
   append(settings, trackerSettings());
   append(settings, ransacSettings("visual.ransac", MEMBER(visual.ransac)));
@@ -138,7 +138,7 @@ Settings backgroundSettings() {
       setting("segmentation.use_epipolar", MEMBER(segmentation.use_epipolar), anything),
       setting("segmentation.parallax_noise_px", MEMBER(segmentation.parallax_noise_px), positive),
       setting("segmentation.direction_error", MEMBER(segmentation.direction_error), notNegative),
-      setting("segmentation.nearest_depth_share", MEMBER(segmentation.nearest_depth_share), share),
+      setting("segmentation.nearest_depth_fraction", MEMBER(segmentation.nearest_depth_fraction), share),
       setting("segmentation.evidence_sigmas", MEMBER(segmentation.evidence_sigmas), positive),
       setting("segmentation.use_registration", MEMBER(segmentation.use_registration), anything),
       setting("segmentation.border_stretch", MEMBER(segmentation.border_stretch), share),
@@ -191,8 +191,8 @@ Settings messagingSettings() {
       setting("channels.imu", MEMBER(channels.imu), channelName),
       setting("channels.altimeter", MEMBER(channels.altimeter), channelName),
       setting("channels.inertial_homography", MEMBER(channels.inertial_homography), channelName),
-      setting("channels.inertial_state", MEMBER(channels.inertial_state), channelName),
-      setting("channels.kept_state", MEMBER(channels.kept_state), channelName),
+      setting("channels.filter_snapshot", MEMBER(channels.filter_snapshot), channelName),
+      setting("channels.warm_start", MEMBER(channels.warm_start), channelName),
       setting("channels.visual_homography", MEMBER(channels.visual_homography), channelName),
       setting("channels.fused_homography", MEMBER(channels.fused_homography), channelName),
       setting("channels.foreground", MEMBER(channels.foreground), channelName),

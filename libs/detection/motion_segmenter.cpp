@@ -2,9 +2,9 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/detection/image_check.hpp"
 #include "redbee/detection/parallax/foreground_evidence.hpp"
 #include "redbee/detection/parallax/parallax_segment.hpp"
-#include "redbee/detection/picture_check.hpp"
 #include "redbee/detection/two_planes/flow_entropy.hpp"
 #include "redbee/detection/two_planes/foreground_probability.hpp"
 #include "redbee/detection/two_planes/two_plane_background.hpp"
@@ -20,8 +20,8 @@ const char* toString(SegmentationStatus status) {
       return "learning";
     case SegmentationStatus::kNoHomography:
       return "no homography";
-    case SegmentationStatus::kBadPicture:
-      return "bad picture";
+    case SegmentationStatus::kBadImage:
+      return "bad image";
   }
   return "?";
 }
@@ -30,7 +30,7 @@ class MotionSegmenter::Implementation {
  public:
   explicit Implementation(const SegmentationParameters& parameters)
       : parameters_(parameters),
-        picture_check_(parameters),
+        image_check_(parameters),
         planes_(parameters),
         evidence_(parameters),
         probability_(parameters),
@@ -41,7 +41,7 @@ class MotionSegmenter::Implementation {
     const bool is_first = last_utime_ == kNever;
     if (!input.grey.empty() && sizeOf(input) != size_) {
       tracker_.reset();
-      picture_check_.reset();
+      image_check_.reset();
       size_ = sizeOf(input);
     }
     last_utime_ = input.utime;
@@ -51,8 +51,8 @@ class MotionSegmenter::Implementation {
       forget();
     }
     SegmentationOutput output = emptyOutput(input);
-    if (!picture_check_.accepts(input.grey)) {
-      output.status = SegmentationStatus::kBadPicture;
+    if (!image_check_.accepts(input.grey)) {
+      output.status = SegmentationStatus::kBadImage;
       output.detections = tracker_.skip(size_);
       return output;
     }
@@ -95,8 +95,7 @@ class MotionSegmenter::Implementation {
     if (parameters_.method == SegmentationMethod::kTwoPlanes) {
       planes_.carry(*input.ground, input.front);
     } else {
-      const bool structure =
-          input.front && runsOutOfPicture(input.tracks, *input.ground, *input.front, size_);
+      const bool structure = input.front && runsOutOfImage(input.tracks, *input.ground, *input.front, size_);
       evidence_.carry(*input.ground, structure ? input.front : std::nullopt, input.motion, input.K);
     }
     probability_.carry(*input.ground);
@@ -112,7 +111,7 @@ class MotionSegmenter::Implementation {
     return output;
   }
 
-  /// Learns the picture; leaves P_FG in probability_map_.
+  /// Learns the image; leaves P_FG in probability_map_.
   BackgroundVerdict learn(const SegmentationInput& input, SegmentationOutput& output) {
     BackgroundVerdict verdict;
     if (parameters_.method == SegmentationMethod::kTwoPlanes) {
@@ -150,7 +149,7 @@ class MotionSegmenter::Implementation {
   }
 
   SegmentationParameters parameters_;
-  PictureCheck picture_check_;
+  ImageCheck image_check_;
   TwoPlaneBackground planes_;
   ForegroundEvidence evidence_;
   ForegroundProbability probability_;

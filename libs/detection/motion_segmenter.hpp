@@ -20,17 +20,17 @@ enum class SegmentationStatus {
   kGood,
   kLearning,      ///< the background is not known yet: everything is "unknown", the mask is empty
   kNoHomography,  ///< nothing is known of the camera's motion to this frame: the background starts anew
-  kBadPicture,    ///< black, blank or frozen: nothing was learned from it, the mask is empty
+  kBadImage,      ///< black, blank or frozen: nothing was learned from it, the mask is empty
 };
 const char* toString(SegmentationStatus status);
 
-/// What the segmentation needs to know of one frame. Pictures and points are undistorted (ideal pixels).
+/// What the segmentation needs to know of one frame. Images and points are undistorted (ideal pixels).
 struct SegmentationInput {
   int64_t utime_previous = 0;
   int64_t utime = 0;
-  cv::Size size;   ///< of the picture that homographies, points and answer are of; empty: grey's
+  cv::Size size;   ///< of the image that homographies, points and answer are of; empty: grey's
   cv::Mat grey;    ///< CV_8U; kParallax: may be smaller than `size`, as the work and the background are
-  cv::Mat colour;  ///< CV_8UC3 (BGR) of the same picture; may be empty
+  cv::Mat colour;  ///< CV_8UC3 (BGR) of the same image; may be empty
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix, for `motion`
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current
   std::optional<Eigen::Matrix3d> front;             ///< the second plane's; nothing where there is none

@@ -16,35 +16,35 @@ struct SegmentationParameters {
   int mixture_history = 500;  ///< frames that the mixture remembers
   double mixture_threshold =
       16.0;                     ///< squared Mahalanobis distance beyond which a pixel is not its background
-  double canvas_margin = 0.0;   ///< share of the picture's width: border of the canvas that a model is kept
+  double canvas_margin = 0.0;   ///< share of the image's width: border of the canvas that a model is kept
                                 ///< on; 0: the model is carried along, into every new frame
   int learning_frames = 5;      ///< frames before the first mask
   bool use_front_plane = true;  ///< false: Table II's "without front plane"
 
   // Parallax: flow between a frame and an earlier one, after the ground's (and above the horizon the
   // rotation's) motion has been taken out, times how unlike the background a pixel looks.
-  int work_downscale = 2;  ///< 1, 2 or 4: all of it on a picture this much smaller
-  /// 1, 2 or 4: the flow on a picture this much smaller than the camera's, never larger than work_downscale
+  int work_downscale = 2;  ///< 1, 2 or 4: all of it on a image this much smaller
+  /// 1, 2 or 4: the flow on a image this much smaller than the camera's, never larger than work_downscale
   /// makes it: its patches of 8 px are to be no larger than the smallest mover.
   int flow_downscale = 2;
   double baseline_s = 0.083;  ///< s: how much earlier; longer shows slower movers and asks more of the flow
   bool use_short_baseline = true;  ///< false: as long where large things move fast
   bool use_epipolar = true;        ///< false: any flow against the ground homography is foreground
-  double parallax_noise_px = 0.5;  ///< px, one sigma of the flow over good texture, at the full-size picture
-  double min_gradient = 1.6;      ///< grey levels a px, of a picture four times smaller: texture at which the
-                                  ///< flow's variance doubles
-  double direction_error = 0.05;  ///< rad, one sigma of the direction of travel; scales with the parallax
-  double nearest_depth_share = 0.15;  ///< of the height: no static surface is nearer to the camera than this
+  double parallax_noise_px = 0.5;  ///< px, one sigma of the flow over good texture, at the full-size image
+  double min_gradient = 1.6;       ///< grey levels a px, of a image four times smaller: texture at which the
+                                   ///< flow's variance doubles
+  double direction_error = 0.05;   ///< rad, one sigma of the direction of travel; scales with the parallax
+  double nearest_depth_fraction =
+      0.15;                      ///< of the height: no static surface is nearer to the camera than this
   double evidence_sigmas = 2.5;  ///< distance from the parallax segment, in sigmas, that is half the evidence
   double evidence_rate = 0.2;    ///< learning rate of the motion that travels along the flow; 1: none travels
   bool use_registration = true;  ///< false: what the homography leaves everywhere counts as motion
-  /// Of the picture's width: without an IMU, evidence that hangs together with so long a stretch of the
-  /// picture's border is a static structure's; 0: it is not.
+  /// Of the image's width: without an IMU, evidence that hangs together with so long a stretch of the
+  /// image's border is a static structure's; 0: it is not.
   double border_stretch = 0.05;
-  double motion_half = 0.15;   ///< evidence of motion that is half enough
-  bool use_appearance = true;  ///< false: motion alone, without the background's looks
-  int background_downscale =
-      2;  ///< 1, 2 or 4: the background's looks are kept on a picture this much smaller
+  double motion_half = 0.15;     ///< evidence of motion that is half enough
+  bool use_appearance = true;    ///< false: motion alone, without the background's looks
+  int background_downscale = 2;  ///< 1, 2 or 4: the background's looks are kept on a image this much smaller
   double background_span_s = 0.5;  ///< s: over which they are averaged
   double background_noise = 20.0;  ///< grey levels: differences of this size are noise
   double edge_doubt_px = 3;        ///< px: the background's edges may be off by so much
@@ -80,8 +80,8 @@ struct SegmentationParameters {
   int max_missed_frames = 24;     ///< frames an identity survives unseen; as many again that are blind
   int confirm_frames = 2;         ///< frames an object must stand out in before it is told
 
-  // Pictures that nothing can be learned from.
-  double min_contrast = 2.0;  ///< grey levels: standard deviation below which a picture is black or blank
+  // Images that nothing can be learned from.
+  double min_contrast = 2.0;  ///< grey levels: standard deviation below which a image is black or blank
 };
 
 /// The paper's own configuration; the default is ours.

@@ -40,8 +40,9 @@ InertialExtrinsics disturbed(const InertialExtrinsics& truth, const ExtrinsicsDi
   InertialExtrinsics result = truth;
   result.R_CI = nearestRotation(expSO3(amounts.rotation_rad * axis) * truth.R_CI);
   result.timeshift_s += random.sign() * amounts.timeshift_s;
-  result.start_height_m *= 1 + random.sign() * amounts.height_share;
-  if (amounts.height_share > 0) result.start_height_sigma_m = amounts.height_share * truth.start_height_m;
+  result.start_height_m *= 1 + random.sign() * amounts.height_fraction;
+  if (amounts.height_fraction > 0)
+    result.start_height_sigma_m = amounts.height_fraction * truth.start_height_m;
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace redbee {
 struct ExtrinsicsDisturbance {
   double rotation_rad = 0.1 * kDegree;
   double timeshift_s = 0.5e-3;
-  double height_share = 0.02;  ///< of the start height
+  double height_fraction = 0.02;  ///< of the start height
 };
 
 /// `seed`: any text, the clip's name say. Its FNV-1a hash starts a SplitMix64 sequence (Steele, Lea, Flood

@@ -8,7 +8,7 @@
 namespace redbee {
 namespace {
 
-constexpr double kFoundShare = 0.25;
+constexpr double kFoundFraction = 0.25;
 constexpr double kFoundOverlap = 0.2;
 constexpr double kBoxTolerancePx = 2;
 constexpr uint8_t kMoving = 255;
@@ -83,7 +83,7 @@ void countRegions(const cv::Mat& detected, const ObjectTruth& truth, ObjectCount
     const auto [visible, covered] = pixels[object.id];
     if (!object.counts || visible < kLeastVisiblePixels) continue;
     ++counts.present;
-    if (static_cast<double>(covered) >= kFoundShare * static_cast<double>(visible)) ++counts.found;
+    if (static_cast<double>(covered) >= kFoundFraction * static_cast<double>(visible)) ++counts.found;
   }
 }
 
@@ -131,7 +131,7 @@ ObjectCounts ObjectMeasures::add(const cv::Mat& detected, const ObjectTruth& tru
   counts_.found += frame.found;
   counts_.false_alarms += frame.false_alarms;
   counts_.false_area += frame.false_area;
-  area_share_sum_ += static_cast<double>(frame.false_area) / static_cast<double>(detected.total());
+  area_fraction_sum_ += static_cast<double>(frame.false_area) / static_cast<double>(detected.total());
   ++frames_;
   return frame;
 }
@@ -144,8 +144,8 @@ double ObjectMeasures::falseAlarmsPerFrame() const {
   return frames_ > 0 ? static_cast<double>(counts_.false_alarms) / static_cast<double>(frames_) : 0;
 }
 
-double ObjectMeasures::falseAreaShare() const {
-  return frames_ > 0 ? area_share_sum_ / static_cast<double>(frames_) : 0;
+double ObjectMeasures::falseAreaFraction() const {
+  return frames_ > 0 ? area_fraction_sum_ / static_cast<double>(frames_) : 0;
 }
 
 }  // namespace redbee

@@ -54,12 +54,12 @@ class ObjectMeasures {
   /// Found of present, over all frames; 0 where none is present.
   double recall() const;
   double falseAlarmsPerFrame() const;
-  /// Mean over the frames of the false alarms' share of the picture, 0 to 1.
-  double falseAreaShare() const;
+  /// Mean over the frames of the false alarms' share of the image, 0 to 1.
+  double falseAreaFraction() const;
 
  private:
   ObjectCounts counts_;
-  double area_share_sum_ = 0;
+  double area_fraction_sum_ = 0;
   int64_t frames_ = 0;
 };
 

@@ -18,7 +18,7 @@ Matrix8d symmetric(const Matrix8d& P);
 /// J P J'.
 Matrix8d transformed(const Matrix8d& J, const Matrix8d& P);
 
-/// Neither NaN nor a mirror image nor a collapse of the picture.
+/// Neither NaN nor a mirror image nor a collapse of the image.
 bool isUsable(const Eigen::Matrix3d& H);
 bool isCovariance(const Matrix8d& P);
 inline bool isUsable(const Estimate& estimate) { return isUsable(estimate.H) && isCovariance(estimate.P); }

@@ -14,7 +14,7 @@ namespace {
 /// An inertial filter that has not been told its velocity yet is off by ten, one that lost vision a second
 /// ago by tenths.
 constexpr double kMaxStepSigma_px = 2;
-constexpr double kUnknownVariance = 1.0;  // scaled units: half the picture's width
+constexpr double kUnknownVariance = 1.0;  // scaled units: half the image's width
 
 /// The paper's filter runs in its own units, pixels: its Q and P_0 are diagonal there and nowhere else.
 ImageScaling workingUnits(const ImageScaling& scaled, FusionNoise noise) {

@@ -6,7 +6,7 @@
 
 namespace redbee {
 
-/// Pixels have integer coordinates at their centres: the picture spans [-0.5, width - 0.5].
+/// Pixels have integer coordinates at their centres: the image spans [-0.5, width - 0.5].
 struct CameraIntrinsics {
   int width = 0;   ///< px
   int height = 0;  ///< px
@@ -18,7 +18,7 @@ struct CameraIntrinsics {
   std::array<double, 5> distortion{};
 };
 
-/// "Raw" pixels are those of the picture as recorded; "ideal" pixels are those that a camera with the same K
+/// "Raw" pixels are those of the image as recorded; "ideal" pixels are those that a camera with the same K
 /// and no distortion would have recorded. Homographies hold between ideal pixels.
 class Camera {
  public:
@@ -31,7 +31,7 @@ class Camera {
 
   /// Raw pixel of an ideal pixel.
   Eigen::Vector2d distort(const Eigen::Vector2d& ideal) const;
-  /// Ideal pixel of a raw pixel; Newton's method on the model, exact to 1e-9 px inside the picture.
+  /// Ideal pixel of a raw pixel; Newton's method on the model, exact to 1e-9 px inside the image.
   Eigen::Vector2d undistort(const Eigen::Vector2d& raw) const;
 
  private:

@@ -4,7 +4,7 @@
 // 1, and its eight free entries are stacked row by row: h11 h12 h13 h21 h22 h23 h31 h32.
 //
 // In pixels these entries span six orders of magnitude. Covariances are therefore always those of the
-// *scaled* homography T H T^-1 (Hartley), with T = ImageScaling(width, height).T: the picture's centre at the
+// *scaled* homography T H T^-1 (Hartley), with T = ImageScaling(width, height).T: the image's centre at the
 // origin, half its width as the unit. One such unit of h13 or h23 is width / 2 pixels.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace redbee {
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 using Matrix8d = Eigen::Matrix<double, 8, 8>;
 
-/// Hartley's scaling for a picture's size, the same for every frame of one camera.
+/// Hartley's scaling for a image's size, the same for every frame of one camera.
 struct ImageScaling {
   ImageScaling(int width, int height);
 
@@ -82,7 +82,7 @@ struct PlaneHomographyJacobians {
 };
 PlaneHomographyJacobians planeHomographyJacobians(const Eigen::Matrix3d& K, const PlaneMotion& motion);
 
-/// Mean distance [px] between where A and B take the points of a 16-px grid over the picture. Points that
+/// Mean distance [px] between where A and B take the points of a 16-px grid over the image. Points that
 /// either sends to infinity or behind the camera are left out; infinity where none is left.
 double meanTransferError(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B, int width, int height);
 

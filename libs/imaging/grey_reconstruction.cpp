@@ -44,7 +44,7 @@ cv::Mat fillHoles(const cv::Mat& map, int gap_px) {
   const int side = (gap_px + 1) | 1;
   cv::Mat closed;
   cv::morphologyEx(map, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
-  // An outline lies within one component: each is a small picture of its own.
+  // An outline lies within one component: each is a small image of its own.
   cv::Mat labels, boxes, centroids;
   const int components = cv::connectedComponentsWithStats(closed > kOutline, labels, boxes, centroids);
   cv::Mat filled = map.clone();

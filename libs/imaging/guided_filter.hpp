@@ -1,4 +1,4 @@
-// Edge-aware smoothing (He, Sun and Tang, "Guided image filtering", ECCV 2010; on a shrunk picture: He and
+// Edge-aware smoothing (He, Sun and Tang, "Guided image filtering", ECCV 2010; on a shrunk image: He and
 // Sun, "Fast guided filter", 2015).
 #pragma once
 

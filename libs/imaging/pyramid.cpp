@@ -8,13 +8,13 @@
 namespace redbee {
 namespace {
 
-PyramidLevel withMargin(const cv::Mat& picture, int margin) {
+PyramidLevel withMargin(const cv::Mat& image, int margin) {
   PyramidLevel level;
   level.margin = margin;
-  level.width = picture.cols;
-  level.height = picture.rows;
-  // Isolated: a picture that is a part of a larger one ends at its own edge.
-  cv::copyMakeBorder(picture, level.padded, margin, margin, margin, margin,
+  level.width = image.cols;
+  level.height = image.rows;
+  // Isolated: a image that is a part of a larger one ends at its own edge.
+  cv::copyMakeBorder(image, level.padded, margin, margin, margin, margin,
                      cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
   return level;
 }
@@ -36,20 +36,20 @@ double meanDifference(const cv::Mat& from, const cv::Mat& to, cv::Point shift, i
 }  // namespace
 
 Pyramid::Pyramid(const cv::Mat& grey, int levels, int margin, int min_side) {
-  cv::Mat picture = grey;
+  cv::Mat image = grey;
   while (true) {
-    // A mirrored margin cannot be wider than the picture itself.
-    levels_.push_back(withMargin(picture, margin));
-    if (size() >= levels || std::min(picture.cols, picture.rows) / 2 < min_side) return;
+    // A mirrored margin cannot be wider than the image itself.
+    levels_.push_back(withMargin(image, margin));
+    if (size() >= levels || std::min(image.cols, image.rows) / 2 < min_side) return;
     cv::Mat half;
-    cv::pyrDown(picture, half, cv::Size(), cv::BORDER_REFLECT_101);
-    picture = half;
+    cv::pyrDown(image, half, cv::Size(), cv::BORDER_REFLECT_101);
+    image = half;
   }
 }
 
 cv::Point bestShift(const PyramidLevel& from, const PyramidLevel& to, int reach) {
-  const cv::Mat a = from.picture();
-  const cv::Mat b = to.picture();
+  const cv::Mat a = from.image();
+  const cv::Mat b = to.image();
   const int brightness = cvRound(cv::mean(b)[0] - cv::mean(a)[0]);
   const int reach_x = std::min(reach, from.width / 4);
   const int reach_y = std::min(reach, from.height / 4);

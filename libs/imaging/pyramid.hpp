@@ -1,4 +1,4 @@
-// A grey picture at halved sizes, each level with a margin so that a patch may hang over the edge.
+// A grey image at halved sizes, each level with a margin so that a patch may hang over the edge.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace redbee {
 
-/// One level: pixel (x, y) of level l lies at (x, y) * 2^l of the picture.
+/// One level: pixel (x, y) of level l lies at (x, y) * 2^l of the image.
 struct PyramidLevel {
   cv::Mat padded;  ///< 8-bit, margin on all sides (mirrored)
   int margin = 0;  ///< px
@@ -18,7 +18,7 @@ struct PyramidLevel {
   const uint8_t* at(int x, int y) const { return padded.ptr(y + margin) + x + margin; }
   cv::Size size() const { return {width, height}; }
   /// The level without its margin.
-  cv::Mat picture() const { return padded(cv::Rect(margin, margin, width, height)); }
+  cv::Mat image() const { return padded(cv::Rect(margin, margin, width, height)); }
   std::size_t stride() const { return padded.step[0]; }
 };
 
@@ -38,7 +38,7 @@ class Pyramid {
 };
 
 /// Shift [px of this level] that brings `from` onto `to` best as a whole: smallest mean absolute difference
-/// over all whole-pixel shifts up to `reach`, the pictures' mean brightness taken out.
+/// over all whole-pixel shifts up to `reach`, the images' mean brightness taken out.
 cv::Point bestShift(const PyramidLevel& from, const PyramidLevel& to, int reach);
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// Between the raw picture and the ideal one that homographies hold in.
+// Between the raw image and the ideal one that homographies hold in.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,18 +7,18 @@
 
 namespace redbee {
 
-/// Look-up tables for one camera. A camera without distortion costs nothing: pictures pass through uncopied.
+/// Look-up tables for one camera. A camera without distortion costs nothing: images pass through uncopied.
 class Rectifier {
  public:
   explicit Rectifier(const Camera& camera);
 
-  /// Raw picture to ideal picture of the same size and K, bilinear; black where the raw picture does not
+  /// Raw image to ideal image of the same size and K, bilinear; black where the raw image does not
   /// reach.
   cv::Mat toIdeal(const cv::Mat& raw) const;
-  /// Map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; 0 where the ideal picture
+  /// Map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; 0 where the ideal image
   /// does not reach.
   cv::Mat toRaw(const cv::Mat& ideal) const;
-  /// 255 where the ideal picture has been seen by the raw one; empty for a camera without distortion.
+  /// 255 where the ideal image has been seen by the raw one; empty for a camera without distortion.
   const cv::Mat& seen() const { return seen_; }
 
  private:

@@ -1,4 +1,4 @@
-// Pictures and maps moved by homographies.
+// Images and maps moved by homographies.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,19 +15,19 @@ cv::Matx33d toMatx(const Eigen::Matrix3d& H);
 /// not reach. `interpolation` is one of OpenCV's.
 cv::Mat carryMap(const cv::Mat& map, const Eigen::Matrix3d& H, int interpolation);
 
-/// 255 where H^-1 takes a current pixel into the previous picture, else 0.
+/// 255 where H^-1 takes a current pixel into the previous image, else 0.
 cv::Mat overlapMask(const cv::Size& size, const Eigen::Matrix3d& H);
 
 /// True where H is finite and can be inverted.
 bool isUsableHomography(const Eigen::Matrix3d& H);
 
-/// Full-size pixels to those of a picture `downscale` times smaller: a pixel of it is the mean of a block, so
+/// Full-size pixels to those of a image `downscale` times smaller: a pixel of it is the mean of a block, so
 /// its centre lies between theirs.
 Eigen::Matrix3d downscaling(double downscale);
-/// That picture's size.
+/// That image's size.
 cv::Size shrunkSize(cv::Size full, double downscale);
 
-/// How a scene of ground up to the horizon, and of things infinitely far away above it, moves in the picture
+/// How a scene of ground up to the horizon, and of things infinitely far away above it, moves in the image
 /// from an earlier frame to the current one. Without a camera motion all of it is ground.
 struct SceneMotion {
   SceneMotion(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,

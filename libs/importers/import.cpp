@@ -49,7 +49,7 @@ void emitImu(YAML::Emitter& out, const VehicleDescription& vehicle) {
   out << YAML::EndMap;
 }
 
-/// Without an IMU P_FG is lower: the direction of parallax is not known, and what runs out of the picture is
+/// Without an IMU P_FG is lower: the direction of parallax is not known, and what runs out of the image is
 /// muted. Thresholds found on DAVIS and UAVDT; Gull2, where nothing moves, stays clean with them.
 void emitSegmentationWithoutImu(YAML::Emitter& out) {
   out << YAML::Key << "segmentation" << YAML::Value << YAML::BeginMap;
@@ -87,12 +87,12 @@ std::filesystem::path writeVehicleConfiguration(const VehicleDescription& vehicl
 }
 
 void assumeIntrinsics(ImportSummary& summary) {
-  constexpr double kFocalShare = 0.8;
+  constexpr double kFocalFraction = 0.8;
   const VehicleDescription& vehicle = summary.vehicle;
   CameraIntrinsics camera;
   camera.width = vehicle.width;
   camera.height = vehicle.height;
-  camera.fx = camera.fy = kFocalShare * std::max(vehicle.width, vehicle.height);
+  camera.fx = camera.fy = kFocalFraction * std::max(vehicle.width, vehicle.height);
   camera.cx = (vehicle.width - 1) / 2.0;
   camera.cy = (vehicle.height - 1) / 2.0;
   summary.vehicle.intrinsics = camera;

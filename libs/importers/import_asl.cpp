@@ -35,10 +35,10 @@ std::vector<NamedFrame> readFrameList(const fs::path& file) {
   while (csv.next(2)) {
     const int64_t utime = microseconds(csv.integer(0));
     times.check(csv, utime);
-    if (csv.fields()[1].empty()) csv.fail("names no picture");
+    if (csv.fields()[1].empty()) csv.fail("names no image");
     frames.push_back({utime, csv.fields()[1], csv.line()});
   }
-  if (frames.empty()) throw InputError(file, "lists no pictures");
+  if (frames.empty()) throw InputError(file, "lists no images");
   return frames;
 }
 
@@ -112,10 +112,10 @@ void describeVehicle(const fs::path& mav, bool has_imu, ImportSummary& summary) 
   if (camera.pose) describeExtrinsics(*camera.pose, imu.pose.value_or(SensorPose{}), summary.vehicle);
 }
 
-image_t loadListed(const fs::path& list, const NamedFrame& frame, const PictureOptions& options) {
+image_t loadListed(const fs::path& list, const NamedFrame& frame, const ImageOptions& options) {
   const fs::path file = list.parent_path() / "data" / frame.name;
-  if (!fs::exists(file)) throw InputError(list, frame.line, "picture " + file.string() + " is missing");
-  return loadPicture(file, frame.utime, options);
+  if (!fs::exists(file)) throw InputError(list, frame.line, "image " + file.string() + " is missing");
+  return loadImage(file, frame.utime, options);
 }
 
 void checkAgainstCalibration(const fs::path& camera_folder, const image_t& first,
@@ -124,7 +124,7 @@ void checkAgainstCalibration(const fs::path& camera_folder, const image_t& first
   if (vehicle.intrinsics->width != first.width || vehicle.intrinsics->height != first.height) {
     throw InputError(camera_folder / "sensor.yaml",
                      "resolution is " + std::to_string(vehicle.intrinsics->width) + "x" +
-                         std::to_string(vehicle.intrinsics->height) + " px, the pictures have " +
+                         std::to_string(vehicle.intrinsics->height) + " px, the images have " +
                          std::to_string(first.width) + "x" + std::to_string(first.height));
   }
 }
@@ -148,14 +148,14 @@ ImportSummary importAsl(const AslImportOptions& options, Progress& progress) {
   FlightMerger merger(options.log, options.channels, imu, altitudes);
   OneResolution resolution;
   for (const NamedFrame& frame : frames) {
-    const image_t picture = loadListed(list, frame, options.pictures);
-    resolution.check(list.parent_path() / "data" / frame.name, picture);
+    const image_t image = loadListed(list, frame, options.images);
+    resolution.check(list.parent_path() / "data" / frame.name, image);
     if (&frame == &frames.front()) {
-      checkAgainstCalibration(mav / "cam0", picture, summary.vehicle);
-      summary.vehicle.width = picture.width;
-      summary.vehicle.height = picture.height;
+      checkAgainstCalibration(mav / "cam0", image, summary.vehicle);
+      summary.vehicle.width = image.width;
+      summary.vehicle.height = image.height;
     }
-    merger.addFrame(picture);
+    merger.addFrame(image);
     progress.update(&frame - frames.data() + 1, static_cast<int64_t>(frames.size()));
   }
   merger.close(summary);

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "redbee/files/progress.hpp"
+#include "redbee/importers/image_file.hpp"
 #include "redbee/importers/import.hpp"
-#include "redbee/importers/picture_file.hpp"
 
 namespace redbee {
 
@@ -13,7 +13,7 @@ struct AslImportOptions {
   std::filesystem::path folder;  ///< the one that holds mav0, or mav0 itself
   std::filesystem::path log;     ///< to be written
   ImportChannels channels;
-  PictureOptions pictures;
+  ImageOptions images;
 };
 
 /// Camera stamps stay on the camera's clock and IMU stamps on the IMU's, as the folder has them; ns become us

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/importers/flight_merger.hpp"
@@ -31,37 +31,37 @@ std::array<size_t, 7> findColumns(const CsvReader& csv) {
   return columns;
 }
 
-bool isPicture(const fs::path& file) {
+bool isImage(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
 }
 
-std::vector<fs::path> listPictures(const fs::path& folder) {
+std::vector<fs::path> listImages(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && isPicture(entry.path())) files.push_back(entry.path());
+    if (entry.is_regular_file() && isImage(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  if (files.empty()) throw InputError(folder, "holds no JPEG or PNG pictures");
+  if (files.empty()) throw InputError(folder, "holds no JPEG or PNG images");
   return files;
 }
 
-void addPictures(const VideoImportOptions& options, FlightMerger& merger, ImportSummary& summary,
-                 Progress& progress) {
+void addImages(const VideoImportOptions& options, FlightMerger& merger, ImportSummary& summary,
+               Progress& progress) {
   if (!std::isfinite(options.fps) || options.fps <= 0) {
-    throw InputError(options.video, "is a folder of pictures: a frame rate above 0 is needed");
+    throw InputError(options.video, "is a folder of images: a frame rate above 0 is needed");
   }
-  const std::vector<fs::path> files = listPictures(options.video);
+  const std::vector<fs::path> files = listImages(options.video);
   OneResolution resolution;
   for (size_t i = 0; i < files.size(); ++i) {
     const int64_t utime = std::llround(1e6 * static_cast<double>(i) / options.fps);
-    const image_t picture = loadPicture(files[i], utime, {true, options.jpeg_quality});
-    resolution.check(files[i], picture);
-    summary.vehicle.width = picture.width;
-    summary.vehicle.height = picture.height;
-    merger.addFrame(picture);
+    const image_t image = loadImage(files[i], utime, {true, options.jpeg_quality});
+    resolution.check(files[i], image);
+    summary.vehicle.width = image.width;
+    summary.vehicle.height = image.height;
+    merger.addFrame(image);
     progress.update(static_cast<int64_t>(i) + 1, static_cast<int64_t>(files.size()));
   }
 }
@@ -98,10 +98,10 @@ void addVideoFrames(const VideoImportOptions& options, FlightMerger& merger, Imp
   int64_t done = 0;
   while (const auto frame = reader.next()) {
     merger.addFrame(options.format == FrameFormat::kRawGrey
-                        ? rawGreyMessage(frame->utime, frame->picture)
-                        : jpegMessage(frame->utime, frame->picture, options.jpeg_quality));
-    summary.vehicle.width = frame->picture.cols;
-    summary.vehicle.height = frame->picture.rows;
+                        ? rawGreyMessage(frame->utime, frame->image)
+                        : jpegMessage(frame->utime, frame->image, options.jpeg_quality));
+    summary.vehicle.width = frame->image.cols;
+    summary.vehicle.height = frame->image.rows;
     progress.update(++done, reader.expectedFrames());
   }
 }
@@ -112,7 +112,7 @@ ImportSummary importVideo(const VideoImportOptions& options, Progress& progress)
   summary.vehicle.name = options.video.stem().string();
   FlightMerger merger(options.log, options.channels, imu, {});
   if (fs::is_directory(options.video)) {
-    addPictures(options, merger, summary, progress);
+    addImages(options, merger, summary, progress);
   } else {
     addVideoFrames(options, merger, summary, progress);
   }

@@ -1,12 +1,12 @@
-// Any video that ffmpeg reads, or a folder of pictures, with or without an IMU.
+// Any video that ffmpeg reads, or a folder of images, with or without an IMU.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 
 #include "redbee/files/progress.hpp"
+#include "redbee/importers/image_file.hpp"
 #include "redbee/importers/import.hpp"
-#include "redbee/importers/picture_file.hpp"
 
 namespace redbee {
 
@@ -22,7 +22,7 @@ struct VideoImportOptions {
   /// [rad/s], ax ay az [m/s^2, specific force]. Other columns are passed over. The axes are the IMU's; the
   /// vehicle's R_CI says how the camera sits on them.
   std::optional<std::filesystem::path> imu;
-  double fps = 0;  ///< Hz, of a folder of pictures; a file has its own times
+  double fps = 0;  ///< Hz, of a folder of images; a file has its own times
   int width = 0;   ///< px, the height keeps the aspect, both even; 0: as recorded. Files only
   FrameFormat format = FrameFormat::kMjpeg;
   int jpeg_quality = 90;

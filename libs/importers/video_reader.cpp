@@ -124,7 +124,7 @@ class VideoReader::Implementation {
                                   std::to_string(out.utime) + " us after " + std::to_string(last_utime_) +
                                   " us");
     }
-    out.picture = convert();
+    out.image = convert();
     last_utime_ = out.utime;
     ++frames_;
     av_frame_unref(frame_.get());
@@ -146,11 +146,11 @@ class VideoReader::Implementation {
       scaler_format_ = format;
       if (!scaler_) throw InputError(path_, "its pixel format cannot be converted");
     }
-    cv::Mat picture(out_size, options_.grey ? CV_8UC1 : CV_8UC3);
-    uint8_t* planes[4] = {picture.data, nullptr, nullptr, nullptr};
-    const int strides[4] = {static_cast<int>(picture.step), 0, 0, 0};
+    cv::Mat image(out_size, options_.grey ? CV_8UC1 : CV_8UC3);
+    uint8_t* planes[4] = {image.data, nullptr, nullptr, nullptr};
+    const int strides[4] = {static_cast<int>(image.step), 0, 0, 0};
     sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, frame_->height, planes, strides);
-    return picture;
+    return image;
   }
 
   std::filesystem::path path_;

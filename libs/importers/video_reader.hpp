@@ -13,7 +13,7 @@ namespace redbee {
 
 struct VideoFrame {
   int64_t utime = 0;  ///< us, on the video's clock (presentation time)
-  cv::Mat picture;    ///< 8-bit, grey or BGR as asked for
+  cv::Mat image;      ///< 8-bit, grey or BGR as asked for
 };
 
 /// A packet of a data track.

@@ -56,7 +56,7 @@ void AltitudeCorrection::correctLate(NavigationState& state, int64_t now) {
   }
 }
 
-void AltitudeCorrection::forgetBefore(int64_t utime) {
+void AltitudeCorrection::eraseBefore(int64_t utime) {
   while (!samples_.empty() && samples_.front().utime < utime) samples_.pop_front();
 }
 

@@ -26,7 +26,7 @@ class AltitudeCorrection {
   void correctLate(NavigationState& state, int64_t now);
   /// `lag_s`: how long before the state's time the height was measured.
   void correct(NavigationState& state, const AltitudeSample& sample, double lag_s);
-  void forgetBefore(int64_t utime);
+  void eraseBefore(int64_t utime);
 
  private:
   Eigen::Vector3d p_IC_;

@@ -62,10 +62,10 @@ bool FrameSamples::hasGap(const ImuSpan& span) const {
   return span.longest_hole_s > max_gap_s_ || span.extrapolated_s > kCoverageTolerance;
 }
 
-void FrameSamples::forgetBefore(int64_t frame) {
+void FrameSamples::eraseBefore(int64_t frame) {
   const int64_t horizon = imuTime(frame) - microseconds(kMemory);
-  imu_.forgetBefore(horizon);
-  check_.forgetBefore(horizon);
+  imu_.eraseBefore(horizon);
+  check_.eraseBefore(horizon);
 }
 
 }  // namespace redbee

@@ -38,7 +38,7 @@ class FrameSamples {
   /// True where holes in the span are long enough to be said.
   bool hasGap(const ImuSpan& span) const;
   /// Keeps what a restart at the frame would need.
-  void forgetBefore(int64_t frame);
+  void eraseBefore(int64_t frame);
 
  private:
   int64_t timeshift_us_;

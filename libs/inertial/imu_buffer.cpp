@@ -79,7 +79,7 @@ std::vector<ImuSample> ImuBuffer::samplesOn(int64_t begin, int64_t end) const {
   return {first, std::upper_bound(first, samples_.end(), end, isLater)};
 }
 
-void ImuBuffer::forgetBefore(int64_t utime) {
+void ImuBuffer::eraseBefore(int64_t utime) {
   while (samples_.size() > 1 && samples_[1].utime <= utime) samples_.pop_front();
 }
 

@@ -44,7 +44,7 @@ class ImuBuffer {
   /// Samples on [begin, end].
   std::vector<ImuSample> samplesOn(int64_t begin, int64_t end) const;
   /// Forgets what is not needed for spans that begin at `utime` or later.
-  void forgetBefore(int64_t utime);
+  void eraseBefore(int64_t utime);
 
  private:
   ImuSample at(int64_t utime) const;

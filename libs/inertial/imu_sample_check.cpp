@@ -120,7 +120,7 @@ int ImuSampleCheck::refusedOn(int64_t begin, int64_t end) const {
                                         [&](int64_t utime) { return utime > begin && utime <= end; }));
 }
 
-void ImuSampleCheck::forgetBefore(int64_t utime) {
+void ImuSampleCheck::eraseBefore(int64_t utime) {
   const auto old = [&](int64_t refused) { return refused < utime; };
   refused_.erase(std::remove_if(refused_.begin(), refused_.end(), old), refused_.end());
 }

@@ -32,7 +32,7 @@ class ImuSampleCheck {
   std::vector<ImuSample> take(const ImuSample& sample);
   /// Samples on (begin, end] that were refused.
   int refusedOn(int64_t begin, int64_t end) const;
-  void forgetBefore(int64_t utime);
+  void eraseBefore(int64_t utime);
 
  private:
   /// One sensor's three components.

@@ -74,20 +74,20 @@ class InertialFilter::Implementation {
     return report;
   }
 
-  std::optional<InertialState> state() const {
+  std::optional<NominalState> state() const {
     if (!state_) return std::nullopt;
-    return InertialState{*frame_,           state_->R_GI,       state_->v_GI, cameraHeight(*state_, p_IC()),
-                         state_->gyro_bias, state_->accel_bias, state_->R_CI};
+    return NominalState{*frame_,           state_->R_GI,       state_->v_GI, cameraHeight(*state_, p_IC()),
+                        state_->gyro_bias, state_->accel_bias, state_->R_CI};
   }
 
-  const std::optional<InertialKnowledge>& knowledge() const { return known_; }
+  const std::optional<FilterSnapshot>& snapshot() const { return known_; }
 
-  bool begins() const { return state_ && !has_moved_; }
+  bool isAtFirstFrame() const { return state_ && !has_moved_; }
 
-  KnowledgeVerdict goOnFrom(const InertialKnowledge& known) {
-    if (!begins()) return KnowledgeVerdict::kNotWanted;
-    const KnowledgeVerdict verdict = judge(known, *frame_, parameters_);
-    if (verdict == KnowledgeVerdict::kBelieved) {
+  SnapshotCheck warmStart(const FilterSnapshot& known) {
+    if (!isAtFirstFrame()) return SnapshotCheck::kNotWanted;
+    const SnapshotCheck verdict = judge(known, *frame_, parameters_);
+    if (verdict == SnapshotCheck::kBelieved) {
       known_ = known;
       state_ = initialState(*frame_, samples_.forVertical(*frame_), parameters_, known_);
     }
@@ -107,7 +107,7 @@ class InertialFilter::Implementation {
     }
     state_ = initialState(frame, before, parameters_, known_);
     frame_ = frame;
-    altitude_.forgetBefore(samples_.imuTime(frame));
+    altitude_.eraseBefore(samples_.imuTime(frame));
     vision_.restart();
     return result;
   }
@@ -140,7 +140,7 @@ class InertialFilter::Implementation {
     describe(*state_, camera_, p_IC(), result);
     if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
     result.valid = true;
-    known_ = knowledgeOf(*state_, frame, p_IC());
+    known_ = snapshotOf(*state_, frame, p_IC());
     return result;
   }
 
@@ -167,7 +167,7 @@ class InertialFilter::Implementation {
     }
     integrateTo(time, end);
     keepAboveGround();
-    samples_.forgetBefore(frame);
+    samples_.eraseBefore(frame);
     previous_frame_ = frame_;
     frame_ = frame;
     corrected_ = false;
@@ -196,7 +196,7 @@ class InertialFilter::Implementation {
   AltitudeCorrection altitude_;
   VisionCorrection vision_;
   std::optional<NavigationState> state_;
-  std::optional<InertialKnowledge> known_;  ///< of the last sound state: outlives a restart
+  std::optional<FilterSnapshot> known_;  ///< of the last sound state: outlives a restart
   std::optional<int64_t> frame_;
   std::optional<int64_t> previous_frame_;
   bool corrected_ = false;  ///< by vision, for the last two frames
@@ -220,13 +220,11 @@ InertialHomography InertialFilter::advanceTo(int64_t frame_utime) {
 CorrectionReport InertialFilter::correct(const HomographyObservation& observation) {
   return implementation_->correct(observation);
 }
-std::optional<InertialState> InertialFilter::state() const { return implementation_->state(); }
-const std::optional<InertialKnowledge>& InertialFilter::knowledge() const {
-  return implementation_->knowledge();
-}
-bool InertialFilter::begins() const { return implementation_->begins(); }
-KnowledgeVerdict InertialFilter::goOnFrom(const InertialKnowledge& known) {
-  return implementation_->goOnFrom(known);
+std::optional<NominalState> InertialFilter::state() const { return implementation_->state(); }
+const std::optional<FilterSnapshot>& InertialFilter::snapshot() const { return implementation_->snapshot(); }
+bool InertialFilter::isAtFirstFrame() const { return implementation_->isAtFirstFrame(); }
+SnapshotCheck InertialFilter::warmStart(const FilterSnapshot& known) {
+  return implementation_->warmStart(known);
 }
 
 }  // namespace redbee

@@ -18,10 +18,10 @@
 #include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/camera.hpp"
 #include "redbee/geometry/homography.hpp"
+#include "redbee/inertial/filter_snapshot.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
-#include "redbee/inertial/inertial_knowledge.hpp"
 
 namespace redbee {
 
@@ -68,7 +68,7 @@ struct CorrectionReport {
 };
 
 /// The filter's nominal state, for tests and monitoring.
-struct InertialState {
+struct NominalState {
   int64_t utime = 0;     ///< camera clock
   Eigen::Matrix3d R_GI;  ///< yaw free
   Eigen::Vector3d v_GI;  ///< m/s in G
@@ -101,14 +101,14 @@ class InertialFilter {
   /// fails its gate.
   CorrectionReport correct(const HomographyObservation& observation);
 
-  std::optional<InertialState> state() const;
+  std::optional<NominalState> state() const;
 
   /// What has been learned up to the last frame that a motion was found for; nothing before.
-  const std::optional<InertialKnowledge>& knowledge() const;
+  const std::optional<FilterSnapshot>& snapshot() const;
   /// True at the first frame that it was ever at.
-  bool begins() const;
+  bool isAtFirstFrame() const;
   /// While it begins: takes what another filter had learned before. What it does not believe changes nothing.
-  KnowledgeVerdict goOnFrom(const InertialKnowledge& known);
+  SnapshotCheck warmStart(const FilterSnapshot& known);
 
  private:
   class Implementation;

@@ -49,9 +49,9 @@ void setTilt(NavigationState& state, const Eigen::Vector3d& force, const Inertia
 }
 
 /// What the configuration says of a flight's first frame.
-InertialKnowledge configured(const InertialParameters& parameters) {
+FilterSnapshot configured(const InertialParameters& parameters) {
   const InertialExtrinsics& extrinsics = parameters.extrinsics;
-  InertialKnowledge known;
+  FilterSnapshot known;
   known.height_m = extrinsics.start_height_m;
   known.height_sigma_m = extrinsics.start_height_sigma_m;
   known.velocity_sigma.setConstant(parameters.start_velocity_sigma);
@@ -65,8 +65,8 @@ InertialKnowledge configured(const InertialParameters& parameters) {
 }
 
 /// The sensors of `learned`, all else of the configured start.
-InertialKnowledge sensorsOf(const InertialKnowledge& learned, const InertialParameters& parameters) {
-  InertialKnowledge known = configured(parameters);
+FilterSnapshot sensorsOf(const FilterSnapshot& learned, const InertialParameters& parameters) {
+  FilterSnapshot known = configured(parameters);
   known.gyro_bias = learned.gyro_bias;
   known.gyro_bias_sigma = learned.gyro_bias_sigma;
   known.accel_bias = learned.accel_bias;
@@ -77,7 +77,7 @@ InertialKnowledge sensorsOf(const InertialKnowledge& learned, const InertialPara
 }
 
 /// Both the vertical that was known and the one that specific force shows.
-void mergeTilt(NavigationState& state, const Eigen::Vector3d& force, const InertialKnowledge& known,
+void mergeTilt(NavigationState& state, const Eigen::Vector3d& force, const FilterSnapshot& known,
                const InertialParameters& parameters) {
   state.R_GI = righting(known.up);
   const Eigen::Matrix3d across =
@@ -96,11 +96,11 @@ Eigen::Vector3d sigmaOf(const Eigen::Matrix3d& covariance) {
 
 NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before,
                              const InertialParameters& parameters,
-                             const std::optional<InertialKnowledge>& learned) {
+                             const std::optional<FilterSnapshot>& learned) {
   const bool is_recent = learned && isRecent(*learned, utime);
-  const InertialKnowledge known = is_recent ? aged(*learned, utime)
-                                  : learned ? sensorsOf(*learned, parameters)
-                                            : configured(parameters);
+  const FilterSnapshot known = is_recent ? aged(*learned, utime)
+                               : learned ? sensorsOf(*learned, parameters)
+                                         : configured(parameters);
   NavigationState state;
   state.P.setZero();
   state.gyro_bias = known.gyro_bias;
@@ -123,10 +123,10 @@ NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before
   return state;
 }
 
-InertialKnowledge knowledgeOf(const NavigationState& state, int64_t utime, const Eigen::Vector3d& p_IC) {
+FilterSnapshot snapshotOf(const NavigationState& state, int64_t utime, const Eigen::Vector3d& p_IC) {
   const Eigen::Matrix3d from_G = righting(state.R_GI.row(2)) * state.R_GI.transpose();
   const auto block = [&](int index) -> Eigen::Matrix3d { return state.P.block<3, 3>(index, index); };
-  InertialKnowledge known;
+  FilterSnapshot known;
   known.utime = utime;
   known.height_m = cameraHeight(state, p_IC);
   known.height_sigma_m = cameraHeightSigma(state, p_IC);

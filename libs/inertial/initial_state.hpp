@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "redbee/inertial/error_state.hpp"
+#include "redbee/inertial/filter_snapshot.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
-#include "redbee/inertial/inertial_knowledge.hpp"
 
 namespace redbee {
 
@@ -19,9 +19,9 @@ namespace redbee {
 /// vertical; later they are those of the configured start.
 NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before,
                              const InertialParameters& parameters,
-                             const std::optional<InertialKnowledge>& known);
+                             const std::optional<FilterSnapshot>& known);
 
 /// What `state`, at the frame at `utime`, holds for a filter that starts later.
-InertialKnowledge knowledgeOf(const NavigationState& state, int64_t utime, const Eigen::Vector3d& p_IC);
+FilterSnapshot snapshotOf(const NavigationState& state, int64_t utime, const Eigen::Vector3d& p_IC);
 
 }  // namespace redbee

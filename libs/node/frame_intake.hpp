@@ -15,12 +15,12 @@ bool acceptFrame(FrameOrder& order, HealthMonitor& health, int64_t utime, const 
     return false;
   }
   health.noteInput(utime);
-  const auto verdict = order.judge(utime);
-  if (verdict == FrameOrder::Verdict::kDiscard) {
+  const auto verdict = order.classify(utime);
+  if (verdict == FrameDecision::kDiscard) {
     health.noteSkipped();
     return false;
   }
-  if (verdict == FrameOrder::Verdict::kRestart) {
+  if (verdict == FrameDecision::kRestart) {
     restart();
     health.setState(HealthState::kDegraded, "the camera's clock was set back: started anew");
   }

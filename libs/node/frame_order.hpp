@@ -7,22 +7,24 @@
 
 namespace redbee {
 
+enum class FrameDecision { kNext, kDiscard, kRestart };
+
 /// A frame that is not newer than the last one came late or twice and is left out, unless time itself was set
 /// back: then the frames go on from an earlier time, and after `kRestartAfter` of them in a row, each newer
 /// than the one before, they are believed.
 class FrameOrder {
  public:
-  enum class Verdict { kNext, kDiscard, kRestart };
   static constexpr int kRestartAfter = 5;
   /// us: a frame this far in the past is a clock that was set back, at once.
   static constexpr int64_t kSetBack = 2'000'000;
 
-  Verdict judge(int64_t utime) {
-    if (!last_ || utime > *last_) return accept(utime, Verdict::kNext);
+  FrameDecision classify(int64_t utime) {
+    if (!last_ || utime > *last_) return accept(utime, FrameDecision::kNext);
     in_a_row_ = utime > discarded_ ? in_a_row_ + 1 : 1;
     discarded_ = utime;
-    if (in_a_row_ >= kRestartAfter || *last_ - utime > kSetBack) return accept(utime, Verdict::kRestart);
-    return Verdict::kDiscard;
+    if (in_a_row_ >= kRestartAfter || *last_ - utime > kSetBack)
+      return accept(utime, FrameDecision::kRestart);
+    return FrameDecision::kDiscard;
   }
 
   std::optional<int64_t> last() const { return last_; }
@@ -30,11 +32,11 @@ class FrameOrder {
  private:
   static constexpr int64_t kNone = std::numeric_limits<int64_t>::max();
 
-  Verdict accept(int64_t utime, Verdict verdict) {
+  FrameDecision accept(int64_t utime, FrameDecision decision) {
     last_ = utime;
     discarded_ = kNone;
     in_a_row_ = 0;
-    return verdict;
+    return decision;
   }
 
   std::optional<int64_t> last_;

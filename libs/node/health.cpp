@@ -113,7 +113,7 @@ void HealthMonitor::noteWork(double milliseconds) {
   ++work_count_;
 }
 
-void HealthMonitor::noteCpu(const CpuShare& share) {
+void HealthMonitor::noteCpu(const CpuTime& share) {
   cpu_.work += share.work;
   cpu_.publishing += share.publishing;
 }

@@ -70,7 +70,7 @@ std::optional<HealthState> healthStateOf(const std::string& name);
 
 /// Processor time [ms] that a frame took: until its answer was known (decoding included), and to make it into
 /// messages and publish them.
-struct CpuShare {
+struct CpuTime {
   double work = 0;
   double publishing = 0;
 };
@@ -97,7 +97,7 @@ class HealthMonitor {
   void noteLatency(double milliseconds) { latency_.note(milliseconds); }
   /// Wall time of the work on one frame, waiting left out [ms].
   void noteWork(double milliseconds);
-  void noteCpu(const CpuShare& share);
+  void noteCpu(const CpuTime& share);
 
   /// `message`: one line that says why, empty when all is well. A change of either is a change to tell at
   /// once.
@@ -128,7 +128,7 @@ class HealthMonitor {
   double workP99() const { return work_.percentile(0.99); }
 
   /// Sum over all frames [ms].
-  const CpuShare& cpu() const { return cpu_; }
+  const CpuTime& cpu() const { return cpu_; }
   const std::string& process() const { return process_; }
 
   /// The message to publish now; each has the next sequence number.
@@ -161,7 +161,7 @@ class HealthMonitor {
   LatencyWindow work_;
   double work_sum_ = 0;
   int64_t work_count_ = 0;
-  CpuShare cpu_;
+  CpuTime cpu_;
 };
 
 /// Resident memory of this process [bytes]; 0 where /proc does not tell.

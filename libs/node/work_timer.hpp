@@ -24,7 +24,7 @@ class CpuTimer {
  public:
   /// From here on the frame's answer is known, and is only made into messages.
   void answered() { answered_ = now(); }
-  CpuShare share() const {
+  CpuTime share() const {
     const double end = now();
     const double answered = answered_ > 0 ? answered_ : end;
     return {answered - start_, end - answered};

@@ -34,7 +34,7 @@ cv::Vec3b tinted(const cv::Vec3b& pixel) {
 
 void drawMask(cv::Mat& canvas, const cv::Mat& mask) {
   if (mask.empty() || mask.size() != canvas.size()) return;
-  // By hand: OpenCV would tint the whole picture first, and a mask covers little of it.
+  // By hand: OpenCV would tint the whole image first, and a mask covers little of it.
   for (int y = 0; y < canvas.rows; ++y) {
     const uint8_t* marked = mask.ptr(y);
     auto* pixels = canvas.ptr<cv::Vec3b>(y);
@@ -70,13 +70,13 @@ std::string statusLine(const OverlayStatus& status) {
 
 }  // namespace
 
-cv::Mat drawOverlay(const cv::Mat& picture, const cv::Mat& mask, const std::vector<Detection>& detections,
+cv::Mat drawOverlay(const cv::Mat& image, const cv::Mat& mask, const std::vector<Detection>& detections,
                     const OverlayStatus& status) {
   cv::Mat canvas;
-  if (picture.channels() == 1) {
-    cv::cvtColor(picture, canvas, cv::COLOR_GRAY2BGR);
+  if (image.channels() == 1) {
+    cv::cvtColor(image, canvas, cv::COLOR_GRAY2BGR);
   } else {
-    canvas = picture.clone();
+    canvas = image.clone();
   }
   drawMask(canvas, mask);
   for (const Detection& detection : detections) drawDetection(canvas, detection);

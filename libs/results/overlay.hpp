@@ -1,4 +1,4 @@
-// A picture with what was found drawn on it.
+// A image with what was found drawn on it.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ struct OverlayStatus {
   std::string message;  ///< anything else, "learning" say
 };
 
-/// `picture`: 8-bit grey or BGR. `mask`: 0/255 of the same size, or empty. A new BGR picture with the mask's
+/// `image`: 8-bit grey or BGR. `mask`: 0/255 of the same size, or empty. A new BGR image with the mask's
 /// tint and outline, a box with the identity per detection (grey where the tracker carried it through a frame
 /// in which it was not seen), and the status in the top line.
-cv::Mat drawOverlay(const cv::Mat& picture, const cv::Mat& mask, const std::vector<Detection>& detections,
+cv::Mat drawOverlay(const cv::Mat& image, const cv::Mat& mask, const std::vector<Detection>& detections,
                     const OverlayStatus& status);
 
 }  // namespace redbee

@@ -60,11 +60,11 @@ void writeJson(const std::filesystem::path& path, const nlohmann::json& json) {
   writeAtomically(path, json.dump(2) + "\n");
 }
 
-void writePng(const std::filesystem::path& path, const cv::Mat& picture) {
+void writePng(const std::filesystem::path& path, const cv::Mat& image) {
   std::vector<uint8_t> bytes;
   // Masks shrink to little at the lowest level already, and a run writes two a frame.
-  if (picture.empty() || !cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    throw InputError(path, "the picture cannot be encoded as PNG");
+  if (image.empty() || !cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
+    throw InputError(path, "the image cannot be encoded as PNG");
   }
   AtomicFile file(path);
   file.write(bytes.data(), bytes.size());

@@ -43,7 +43,7 @@ class HomographyCsv {
 };
 
 void writeJson(const std::filesystem::path& path, const nlohmann::json& json);
-/// Any picture that OpenCV writes as PNG.
-void writePng(const std::filesystem::path& path, const cv::Mat& picture);
+/// Any image that OpenCV writes as PNG.
+void writePng(const std::filesystem::path& path, const cv::Mat& image);
 
 }  // namespace redbee

@@ -39,19 +39,19 @@ class VideoWriter::Implementation {
     std::filesystem::remove(partial_, ignored);
   }
 
-  void write(const cv::Mat& picture) {
-    if (picture.size() != size_ || (picture.type() != CV_8UC1 && picture.type() != CV_8UC3)) {
-      throw std::invalid_argument("VideoWriter: a picture of another size or type");
+  void write(const cv::Mat& image) {
+    if (image.size() != size_ || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) {
+      throw std::invalid_argument("VideoWriter: a image of another size or type");
     }
     check(av_frame_make_writable(frame_.get()));
-    const AVPixelFormat format = picture.channels() == 1 ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_BGR24;
+    const AVPixelFormat format = image.channels() == 1 ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_BGR24;
     if (!scaler_ || format != format_) {
       scaler_.reset(sws_getContext(size_.width, size_.height, format, size_.width, size_.height,
                                    AV_PIX_FMT_YUV420P, SWS_BICUBIC, nullptr, nullptr, nullptr));
       format_ = format;
     }
-    const uint8_t* planes[4] = {picture.data, nullptr, nullptr, nullptr};
-    const int strides[4] = {static_cast<int>(picture.step), 0, 0, 0};
+    const uint8_t* planes[4] = {image.data, nullptr, nullptr, nullptr};
+    const int strides[4] = {static_cast<int>(image.step), 0, 0, 0};
     sws_scale(scaler_.get(), planes, strides, 0, size_.height, frame_->data, frame_->linesize);
     frame_->pts = next_++;
     encode(frame_.get());
@@ -147,7 +147,7 @@ class VideoWriter::Implementation {
 VideoWriter::VideoWriter(const std::filesystem::path& path, const cv::Size& size, double fps, int quality)
     : implementation_(std::make_unique<Implementation>(path, size, fps, quality)) {}
 VideoWriter::~VideoWriter() = default;
-void VideoWriter::write(const cv::Mat& picture) { implementation_->write(picture); }
+void VideoWriter::write(const cv::Mat& image) { implementation_->write(image); }
 void VideoWriter::close() { implementation_->close(); }
 
 }  // namespace redbee

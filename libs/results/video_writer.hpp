@@ -17,7 +17,7 @@ class VideoWriter {
   ~VideoWriter();
 
   /// BGR or grey, of the size given; the frame is shown at index / fps.
-  void write(const cv::Mat& picture);
+  void write(const cv::Mat& image);
   void close();
 
  private:

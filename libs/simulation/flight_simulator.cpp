@@ -14,7 +14,7 @@ const Scenario& checked(const Scenario& scenario) {
   if (scenario.frames <= 0 || !(scenario.fps > 0))
     throw std::invalid_argument("a flight needs frames and a frame rate");
   if (scenario.intrinsics.width <= 0 || scenario.intrinsics.height <= 0) {
-    throw std::invalid_argument("a flight needs a picture size");
+    throw std::invalid_argument("a flight needs a image size");
   }
   return scenario;
 }

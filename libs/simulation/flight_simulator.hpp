@@ -1,4 +1,4 @@
-// A whole simulated flight: pictures, IMU and altimeter of one trajectory over one scene, and the truth about
+// A whole simulated flight: images, IMU and altimeter of one trajectory over one scene, and the truth about
 // them.
 //
 // Clocks: the trajectory runs on the IMU's clock, utime = start_utime + t. Frame k carries the camera's
@@ -39,12 +39,12 @@ struct Scenario {
 
 struct SimulatedFrame {
   int64_t utime = 0;  ///< camera clock
-  RenderedPicture picture;
+  RenderedImage image;
 };
 
 class FlightSimulator {
  public:
-  /// Throws std::invalid_argument for a scenario that cannot be flown (no frames, no picture size, fps <= 0).
+  /// Throws std::invalid_argument for a scenario that cannot be flown (no frames, no image size, fps <= 0).
   explicit FlightSimulator(const Scenario& scenario);
 
   const Scenario& scenario() const { return scenario_; }

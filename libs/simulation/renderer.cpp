@@ -57,7 +57,7 @@ Eigen::Vector3d centreAt(const Patch& patch, double t_s) {
   return patch.centre + patch.motion.displacementAt(t_s);
 }
 
-/// Pixel range that a patch can cover: the box of its corners, or the whole picture where a corner lies
+/// Pixel range that a patch can cover: the box of its corners, or the whole image where a corner lies
 /// behind the camera.
 cv::Rect boxOf(const Patch& patch, const CameraPose& pose, double t_s, const Camera& camera) {
   const cv::Rect all(0, 0, camera.intrinsics().width, camera.intrinsics().height);
@@ -94,15 +94,15 @@ class Renderer::Implementation {
     for (const Patch& patch : scene_.patches) addSurface(patch.material);
   }
 
-  RenderedPicture render(const CameraPose& pose, double t_s, unsigned index) const {
-    RenderedPicture picture;
+  RenderedImage render(const CameraPose& pose, double t_s, unsigned index) const {
+    RenderedImage image;
     const std::vector<PlaneView> views = planeViews(pose, t_s);
-    picture.surface = nearestSurfaces(views, pose, t_s);
-    labelMovers(picture, t_s);
-    const cv::Mat light = shade(views, picture.surface, t_s);
-    picture.grey = expose(light, t_s, index);
-    if (sensor_.colour) picture.bgr = expose(coloured(light, picture.surface), t_s, index);
-    return picture;
+    image.surface = nearestSurfaces(views, pose, t_s);
+    labelMovers(image, t_s);
+    const cv::Mat light = shade(views, image.surface, t_s);
+    image.grey = expose(light, t_s, index);
+    if (sensor_.colour) image.bgr = expose(coloured(light, image.surface), t_s, index);
+    return image;
   }
 
  private:
@@ -172,7 +172,7 @@ class Renderer::Implementation {
     }
   }
 
-  void labelMovers(RenderedPicture& picture, double t_s) const {
+  void labelMovers(RenderedImage& image, double t_s) const {
     cv::Mat_<uchar> mask_of(1, 256, uchar{0}), id_of(1, 256, uchar{0});
     uchar movers = 0;
     for (size_t i = 0; i < scene_.patches.size(); ++i) {
@@ -181,8 +181,8 @@ class Renderer::Implementation {
       mask_of(static_cast<int>(i) + 1) = patch.motion.isMovingAt(t_s) ? kMaskMoving : kMaskStopped;
       id_of(static_cast<int>(i) + 1) = ++movers;
     }
-    cv::LUT(picture.surface, mask_of, picture.mask);
-    cv::LUT(picture.surface, id_of, picture.id);
+    cv::LUT(image.surface, mask_of, image.mask);
+    cv::LUT(image.surface, id_of, image.id);
   }
 
   cv::Mat shade(const std::vector<PlaneView>& views, const cv::Mat_<uchar>& surface, double t_s) const {
@@ -241,10 +241,10 @@ class Renderer::Implementation {
       cv::RNG random((static_cast<std::uint64_t>(sensor_.seed) << 32U) + index * 0x9E3779B9ULL + 1);
       random.fill(noise, cv::RNG::NORMAL, 0, sensor_.noise_sigma);
     }
-    cv::Mat picture;
+    cv::Mat image;
     cv::scaleAdd(exposed, gain, noise, noise);
-    noise.convertTo(picture, CV_8U);
-    return picture;
+    noise.convertTo(image, CV_8U);
+    return image;
   }
 
   Camera camera_;
@@ -261,7 +261,7 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-RenderedPicture Renderer::render(const CameraPose& pose, double t_s, unsigned index) const {
+RenderedImage Renderer::render(const CameraPose& pose, double t_s, unsigned index) const {
   return implementation_->render(pose, t_s, index);
 }
 

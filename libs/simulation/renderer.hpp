@@ -1,4 +1,4 @@
-// Pictures of a scene, one ray through each raw pixel's centre.
+// Images of a scene, one ray through each raw pixel's centre.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ inline constexpr uchar kMaskStopped = 170;
 inline constexpr uchar kSurfaceGround = 0;
 inline constexpr uchar kSurfaceSky = 255;
 
-struct RenderedPicture {
+struct RenderedImage {
   cv::Mat grey;     ///< CV_8UC1
   cv::Mat bgr;      ///< CV_8UC3, empty unless asked for
   cv::Mat mask;     ///< CV_8UC1: 0 background, kMaskMoving, kMaskStopped
@@ -40,8 +40,8 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// The scene at t_s. The same arguments give the same picture; `index` seeds the picture's noise.
-  RenderedPicture render(const CameraPose& pose, double t_s, unsigned index) const;
+  /// The scene at t_s. The same arguments give the same image; `index` seeds the image's noise.
+  RenderedImage render(const CameraPose& pose, double t_s, unsigned index) const;
 
  private:
   class Implementation;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kSize = 1024;  // texels, a power of two so that wrapping is a mask
 constexpr int kSmallestLevel = 8;
 constexpr int kMaxTaps = 4;
-// Detail is kept this many octaves below the pixel's own limit: interpolation of the picture must not lose
+// Detail is kept this many octaves below the pixel's own limit: interpolation of the image must not lose
 // it.
 constexpr float kLevelBias = 0.6F;
 

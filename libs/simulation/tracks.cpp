@@ -23,7 +23,7 @@ std::vector<Eigen::Vector2d> gridPoints(const TrackGrid& grid) {
   return points;
 }
 
-size_t shareOf(size_t count, double share) {
+size_t fractionOf(size_t count, double share) {
   return static_cast<size_t>(std::llround(static_cast<double>(count) * std::clamp(share, 0.0, 1.0)));
 }
 
@@ -44,14 +44,14 @@ void spoil(SimulatedTracks& tracks, size_t index, const Eigen::Matrix3d& H_groun
 }  // namespace
 
 SimulatedTracks simulateTracks(const Eigen::Matrix3d& H_ground, const Eigen::Matrix3d& H_other,
-                               double other_share, double noise_px, double outlier_share,
+                               double other_fraction, double noise_px, double outlier_ratio,
                                const TrackGrid& grid, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   SimulatedTracks tracks;
   tracks.before = gridPoints(grid);
   const size_t count = tracks.before.size();
-  const size_t first_other = count - shareOf(count, other_share);
+  const size_t first_other = count - fractionOf(count, other_fraction);
   for (size_t i = 0; i < count; ++i) {
     const bool is_other = i >= first_other;
     const double noise_x = noise_px * normal(random), noise_y = noise_px * normal(random);
@@ -62,7 +62,7 @@ SimulatedTracks simulateTracks(const Eigen::Matrix3d& H_ground, const Eigen::Mat
   std::vector<size_t> order(count);
   std::iota(order.begin(), order.end(), size_t{0});
   std::shuffle(order.begin(), order.end(), random);
-  order.resize(shareOf(count, outlier_share));
+  order.resize(fractionOf(count, outlier_ratio));
   for (const size_t index : order) spoil(tracks, index, H_ground, H_other, random);
   return tracks;
 }

@@ -1,4 +1,4 @@
-// Correspondences without pictures: what a tracker would have found over two planes, with the truth about
+// Correspondences without images: what a tracker would have found over two planes, with the truth about
 // each.
 #pragma once
 
@@ -21,12 +21,12 @@ struct SimulatedTracks {
   std::vector<TrackOrigin> origin;
 };
 
-/// Points on a grid, moved by H_ground, or by H_other in the rightmost columns that make up `other_share` of
-/// the points. A share of `outlier_share` of all points, drawn at random, moves by neither: at least 5 px and
-/// up to 30 px off its plane's place. Every point but the outliers has white noise of `noise_px` per axis.
-/// The same seed gives the same tracks.
+/// Points on a grid, moved by H_ground, or by H_other in the rightmost columns that make up `other_fraction`
+/// of the points. A share of `outlier_ratio` of all points, drawn at random, moves by neither: at least 5 px
+/// and up to 30 px off its plane's place. Every point but the outliers has white noise of `noise_px` per
+/// axis. The same seed gives the same tracks.
 SimulatedTracks simulateTracks(const Eigen::Matrix3d& H_ground, const Eigen::Matrix3d& H_other,
-                               double other_share, double noise_px, double outlier_share,
+                               double other_fraction, double noise_px, double outlier_ratio,
                                const TrackGrid& grid, unsigned seed);
 
 }  // namespace redbee::simulation

@@ -19,7 +19,7 @@ constexpr double kPlaneGate = 31.83;
 void requireValid(const PointTracks& tracks, int width, int height, const RansacParameters& parameters) {
   if (tracks.previous.size() != tracks.current.size())
     throw std::invalid_argument("tracks of unequal length");
-  if (width < 2 || height < 2) throw std::invalid_argument("a picture of no size");
+  if (width < 2 || height < 2) throw std::invalid_argument("a image of no size");
   if (!(parameters.inlier_px > 0) || parameters.max_iterations < 1) {
     throw std::invalid_argument("RANSAC's threshold and iterations must be positive");
   }
@@ -34,11 +34,11 @@ ScaledPairs chosenOf(const ScaledPairs& pairs, const std::vector<uint8_t>& chose
 }
 
 std::optional<HomographyEstimate> estimateAmong(const ScaledPairs& pairs, const std::vector<uint8_t>& allowed,
-                                                const ImageScaling& scaling, cv::Size picture,
+                                                const ImageScaling& scaling, cv::Size image,
                                                 const RansacParameters& parameters) {
   const auto best = Ransac(chosenOf(pairs, allowed), scaling.unit_px, parameters, nullptr).run();
   if (!best) return std::nullopt;
-  return refinePlane(pairs, allowed, *best, picture, parameters, Selection::kFollowsFit);
+  return refinePlane(pairs, allowed, *best, image, parameters, Selection::kFollowsFit);
 }
 
 /// Pairs that a plane within the prior's uncertainty could explain.
@@ -98,7 +98,7 @@ std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& trac
 
 FrontPlaneParameters::FrontPlaneParameters() {
   ransac.min_inliers = 40;
-  ransac.min_inlier_share = 0.3;
+  ransac.min_inlier_ratio = 0.3;
   ransac.min_spread = 0.05;
 }
 

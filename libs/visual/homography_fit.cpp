@@ -11,7 +11,7 @@
 namespace redbee {
 namespace {
 
-/// A step shorter than this moves no point of the picture by a thousandth of a pixel (scaled units, 640 px).
+/// A step shorter than this moves no point of the image by a thousandth of a pixel (scaled units, 640 px).
 constexpr double kSettled = 1e-6;
 
 /// What to multiply (J' W J)^-1 with for the estimate's covariance (Huber, Robust Statistics, 7.6): E[psi^2]
@@ -46,7 +46,7 @@ Eigen::Matrix3d basisOf(const std::array<Eigen::Vector2d, 4>& p) {
 }
 
 bool isWellPosed(const std::array<Eigen::Vector2d, 4>& a, const std::array<Eigen::Vector2d, 4>& b) {
-  // Twice the area of a triangle, in squared half-widths: about 10 x 10 px of a VGA picture.
+  // Twice the area of a triangle, in squared half-widths: about 10 x 10 px of a VGA image.
   constexpr double kMinArea = 1e-3;
   constexpr int kTriangles[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
   for (const auto& t : kTriangles) {

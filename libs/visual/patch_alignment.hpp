@@ -1,7 +1,7 @@
-// One patch of a picture found again in another: the inner loop of the point tracker.
+// One patch of a image found again in another: the inner loop of the point tracker.
 //
 // Inverse-compositional Lucas-Kanade (Baker and Matthews, 2004) for a translation: the gradient and its
-// matrix belong to the template and are computed once; an iteration samples the other picture and makes two
+// matrix belong to the template and are computed once; an iteration samples the other image and makes two
 // scalar products. The gradients are made orthogonal to the constant and to the template itself ("project
 // out", part 3 of the same), which makes the step blind to a change of brightness and contrast at no cost.
 #pragma once
@@ -23,7 +23,7 @@ struct PatchShape {
   int half;   ///< px
   int lanes;  ///< groups of eight pixels in a row, the last one filled up with columns that do not count
   int gradient_scale;  ///< of the stored gradients; the largest that cannot overflow
-  /// Margin that a pyramid needs for patches whose centre lies up to kOverhang px outside the picture.
+  /// Margin that a pyramid needs for patches whose centre lies up to kOverhang px outside the image.
   int margin() const { return half + kOverhang + 12; }
   static constexpr int kOverhang = 8;
 };
@@ -34,7 +34,7 @@ struct AlignmentLimits {
 };
 
 enum class Alignment {
-  kLost,       ///< wandered off the picture
+  kLost,       ///< wandered off the image
   kUnsettled,  ///< moved to the last
   kSettled,    ///< the last step was short
 };
@@ -53,7 +53,7 @@ class PatchTemplate {
     for (int x = 0; x < shape.side; ++x) mask_[static_cast<std::size_t>(x)] = -1;
   }
 
-  /// Takes the patch around a pixel; the pixel lies in the picture.
+  /// Takes the patch around a pixel; the pixel lies in the image.
   void take(const PyramidLevel& level, int x, int y);
 
   /// smallestEigenvalue() of the patch around a pixel, which is not taken.

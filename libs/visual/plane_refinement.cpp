@@ -14,26 +14,26 @@ constexpr double kSigmaFloorPx = 0.04;
 /// Share of inlier_px within which a pair is fitted where a prediction chose the plane: another plane's
 /// points, which cross the ground's motion somewhere, are spread evenly over the threshold, the ground's own
 /// are not.
-constexpr double kNearShare = 0.6;
+constexpr double kNearFraction = 0.6;
 
-/// Square cells over the picture, so many to its width. Scaled coordinates run from -1 to 1 over the width.
+/// Square cells over the image, so many to its width. Scaled coordinates run from -1 to 1 over the width.
 class Cells {
  public:
-  Cells(cv::Size picture, int columns)
+  Cells(cv::Size image, int columns)
       : columns_(columns),
-        rows_(std::max(1, (columns * picture.height + picture.width - 1) / picture.width)),
-        aspect_(static_cast<float>(picture.height) / static_cast<float>(picture.width)) {}
+        rows_(std::max(1, (columns * image.height + image.width - 1) / image.width)),
+        aspect_(static_cast<float>(image.height) / static_cast<float>(image.width)) {}
 
   std::size_t size() const { return static_cast<std::size_t>(columns_ * rows_); }
-  /// Cell of a point; one outside the picture counts for the cell at the border.
+  /// Cell of a point; one outside the image counts for the cell at the border.
   std::size_t at(float x, float y) const {
     const int column = index((x + 1) / 2, columns_);
     return static_cast<std::size_t>(index((y + aspect_) / 2, rows_) * columns_ + column);
   }
 
  private:
-  int index(float share_of_width, int count) const {
-    const float cell = std::floor(share_of_width * static_cast<float>(columns_));
+  int index(float fraction_of_width, int count) const {
+    const float cell = std::floor(fraction_of_width * static_cast<float>(columns_));
     return static_cast<int>(std::clamp(cell, 0.0F, static_cast<float>(count - 1)));
   }
 
@@ -42,17 +42,17 @@ class Cells {
   float aspect_;
 };
 
-/// Share of the picture's area in cells that hold at least one inlier.
-double spreadOf(const ScaledPairs& pairs, const std::vector<uint8_t>& inlier, cv::Size picture) {
+/// Share of the image's area in cells that hold at least one inlier.
+double spreadOf(const ScaledPairs& pairs, const std::vector<uint8_t>& inlier, cv::Size image) {
   constexpr int kColumns = 20;
-  const Cells cells(picture, kColumns);
+  const Cells cells(image, kColumns);
   std::vector<uint8_t> held(cells.size(), 0);
   for (std::size_t i = 0; i < inlier.size(); ++i) {
     if (inlier[i]) held[cells.at(pairs.ax[i], pairs.ay[i])] = 1;
   }
-  const double cell_share =
-      static_cast<double>(picture.width) / (static_cast<double>(kColumns) * kColumns * picture.height);
-  return static_cast<double>(std::count(held.begin(), held.end(), 1)) * cell_share;
+  const double cell_fraction =
+      static_cast<double>(image.width) / (static_cast<double>(kColumns) * kColumns * image.height);
+  return static_cast<double>(std::count(held.begin(), held.end(), 1)) * cell_fraction;
 }
 
 double rmsOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vector<uint8_t>& inlier) {
@@ -73,10 +73,10 @@ double rmsOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vect
 /// samples). One where residuals are independent; the number of pairs in a block where a block errs as one,
 /// as relief does that was taken for the plane.
 double correlationOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vector<uint8_t>& inlier,
-                     cv::Size picture) {
+                     cv::Size image) {
   constexpr int kColumns = 6;
   constexpr int kParameters = 8;
-  const Cells blocks(picture, kColumns);
+  const Cells blocks(image, kColumns);
   std::vector<Eigen::Vector3d> sums(blocks.size(), Eigen::Vector3d::Zero());  // of residuals; how many
   double squares = 0;
   for (std::size_t i = 0; i < inlier.size(); ++i) {
@@ -107,10 +107,10 @@ int countOf(const std::vector<uint8_t>& flags) {
 }  // namespace
 
 std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const std::vector<uint8_t>& allowed,
-                                              const Eigen::Matrix3d& start, cv::Size picture,
+                                              const Eigen::Matrix3d& start, cv::Size image,
                                               const RansacParameters& parameters, Selection selection) {
   constexpr int kRounds = 3;
-  const ImageScaling scaling(picture.width, picture.height);
+  const ImageScaling scaling(image.width, image.height);
   const double threshold = parameters.inlier_px / scaling.unit_px;
   HomographyEstimate estimate;
   std::optional<LeastSquares> fit;
@@ -118,7 +118,7 @@ std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const st
   double knee = 0.5 * threshold;
   for (int round = 0; round < kRounds; ++round) {
     if (round == 0 || selection == Selection::kFollowsFit) {
-      flagWithin(pairs, H, selection == Selection::kFromStart ? kNearShare * threshold : threshold,
+      flagWithin(pairs, H, selection == Selection::kFromStart ? kNearFraction * threshold : threshold,
                  estimate.inlier);
       keepAllowed(allowed, estimate.inlier);
     }
@@ -128,7 +128,7 @@ std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const st
     knee = std::clamp(1.5 * std::sqrt(fit->variance), 0.1 * threshold, 0.5 * threshold);
   }
   const double floor = kSigmaFloorPx / scaling.unit_px;
-  const double inflation = std::max(kCorrelationInflation, correlationOf(pairs, H, estimate.inlier, picture));
+  const double inflation = std::max(kCorrelationInflation, correlationOf(pairs, H, estimate.inlier, image));
   estimate.covariance = inflation * std::max(fit->variance, floor * floor) * fit->inverse_information;
   estimate.H = scaling.unscale(H);
   flagWithin(pairs, H, threshold, estimate.inlier);
@@ -137,8 +137,8 @@ std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const st
   estimate.outliers = static_cast<int>(pairs.size()) - estimate.inliers;
   estimate.rms_px = rmsOf(pairs, H, estimate.inlier) * scaling.unit_px;
   const double share = static_cast<double>(estimate.inliers) / countOf(allowed);
-  if (estimate.inliers < parameters.min_inliers || share < parameters.min_inlier_share) return std::nullopt;
-  if (spreadOf(pairs, estimate.inlier, picture) < parameters.min_spread) return std::nullopt;
+  if (estimate.inliers < parameters.min_inliers || share < parameters.min_inlier_ratio) return std::nullopt;
+  if (spreadOf(pairs, estimate.inlier, image) < parameters.min_spread) return std::nullopt;
   return estimate;
 }
 

@@ -19,7 +19,7 @@ enum class Selection { kFollowsFit, kFromStart };
 /// Of the pairs only those that are `allowed` may be inliers. `start`: scaled. Nothing where the minima of
 /// the parameters are not reached.
 std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const std::vector<uint8_t>& allowed,
-                                              const Eigen::Matrix3d& start, cv::Size picture,
+                                              const Eigen::Matrix3d& start, cv::Size image,
                                               const RansacParameters& parameters, Selection selection);
 
 }  // namespace redbee

@@ -15,7 +15,7 @@ namespace {
 
 /// px: shorter side of the smallest level.
 constexpr int kMinSide = 24;
-/// Level whose whole picture is shifted when no guess is given (an eighth of the size), and how far, in its
+/// Level whose whole image is shifted when no guess is given (an eighth of the size), and how far, in its
 /// pixels.
 constexpr int kShiftLevel = 3;
 constexpr int kShiftReach = 8;
@@ -42,21 +42,21 @@ class PointTracker::Implementation {
 
   Pyramid pyramidOf(const cv::Mat& grey) const {
     if (grey.empty() || grey.type() != CV_8UC1) {
-      throw std::invalid_argument("the tracker takes 8-bit pictures of one channel");
+      throw std::invalid_argument("the tracker takes 8-bit images of one channel");
     }
     return {grey, std::max(parameters_.levels, kShiftLevel + 1), shape_.margin(), kMinSide};
   }
 
-  PointTracks advance(Pyramid picture, const std::optional<Eigen::Matrix3d>& guess) {
-    current_ = std::move(picture);
+  PointTracks advance(Pyramid image, const std::optional<Eigen::Matrix3d>& guess) {
+    current_ = std::move(image);
     PointTracks tracks;
     if (hasPrevious()) tracks = track(guess);
     previous_ = std::move(current_);
     return tracks;
   }
 
-  bool hasTexture(const Pyramid& picture, int points) const {
-    return hasTexture(picture, points, stepFor(picture));
+  bool hasTexture(const Pyramid& image, int points) const {
+    return hasTexture(image, points, stepFor(image));
   }
 
   void reset() { previous_.clear(); }
@@ -64,23 +64,23 @@ class PointTracker::Implementation {
  private:
   bool hasPrevious() const { return !previous_.empty() && previous_[0].size() == current_[0].size(); }
 
-  /// Where little of a picture can be followed, that is followed more densely.
-  int stepFor(const Pyramid& picture) const {
+  /// Where little of a image can be followed, that is followed more densely.
+  int stepFor(const Pyramid& image) const {
     const int step = parameters_.grid_px;
-    return hasTexture(picture, kEnoughPoints, step) ? step : std::max(1, step / 2);
+    return hasTexture(image, kEnoughPoints, step) ? step : std::max(1, step / 2);
   }
 
-  bool hasTexture(const Pyramid& picture, int points, int step) const {
+  bool hasTexture(const Pyramid& image, int points, int step) const {
     Template patch(shape_);
     int textured = 0;
-    forEachGridPoint(picture[0], step, [&](int x, int y) {
+    forEachGridPoint(image[0], step, [&](int x, int y) {
       if (textured >= points) return;
-      textured += patch.texture(picture[0], x, y) >= parameters_.min_eigenvalue ? 1 : 0;
+      textured += patch.texture(image[0], x, y) >= parameters_.min_eigenvalue ? 1 : 0;
     });
     return textured >= points;
   }
 
-  /// Grid points whose patch and gradients lie wholly in the picture.
+  /// Grid points whose patch and gradients lie wholly in the image.
   template <typename Visitor>
   void forEachGridPoint(const PyramidLevel& level, int step, const Visitor& visit) const {
     const int edge = shape_.half + 1;
@@ -133,7 +133,7 @@ class PointTracker::Implementation {
     return std::nullopt;
   }
 
-  /// Few steps on the picture itself, and short ones: no coarser level is needed.
+  /// Few steps on the image itself, and short ones: no coarser level is needed.
   bool settlesNear(Eigen::Vector2d& found) const {
     const Eigen::Vector2d start = found;
     const AlignmentLimits limits{kQuickIterations, parameters_.epsilon_px};
@@ -145,7 +145,7 @@ class PointTracker::Implementation {
     return forward_.residual(current_[0], found) <= parameters_.max_residual;
   }
 
-  /// From the coarsest level to the picture; levels on which the patch has no texture or runs away are passed
+  /// From the coarsest level to the image; levels on which the patch has no texture or runs away are passed
   /// over.
   bool descend(int x, int y, Eigen::Vector2d& found) {
     const Eigen::Vector2d start(x, y);
@@ -176,7 +176,7 @@ class PointTracker::Implementation {
     return (back - expected).norm() <= parameters_.max_forward_backward_px;
   }
 
-  /// The patch lies wholly in the current picture.
+  /// The patch lies wholly in the current image.
   bool isInside(const Eigen::Vector2d& p) const {
     const double edge = shape_.half + 1;
     return p.x() >= edge && p.y() >= edge && p.x() <= current_[0].width - 1 - edge &&
@@ -196,12 +196,12 @@ PointTracker::~PointTracker() = default;
 
 Pyramid PointTracker::pyramidOf(const cv::Mat& grey) const { return implementation_->pyramidOf(grey); }
 
-PointTracks PointTracker::advance(Pyramid picture, const std::optional<Eigen::Matrix3d>& guess) {
-  return implementation_->advance(std::move(picture), guess);
+PointTracks PointTracker::advance(Pyramid image, const std::optional<Eigen::Matrix3d>& guess) {
+  return implementation_->advance(std::move(image), guess);
 }
 
-bool PointTracker::hasTexture(const Pyramid& picture, int points) const {
-  return implementation_->hasTexture(picture, points);
+bool PointTracker::hasTexture(const Pyramid& image, int points) const {
+  return implementation_->hasTexture(image, points);
 }
 
 void PointTracker::reset() { implementation_->reset(); }

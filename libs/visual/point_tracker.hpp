@@ -12,10 +12,10 @@
 namespace redbee {
 
 struct TrackerParameters {
-  int grid_px = 24;          ///< px between sample points, both ways (paper: 16); half of it in a picture of
+  int grid_px = 24;          ///< px between sample points, both ways (paper: 16); half of it in a image of
                              ///< little texture
   int window_px = 13;        ///< px, odd: side of the patch that is followed
-  int levels = 3;            ///< pyramid levels, 1 = the picture alone
+  int levels = 3;            ///< pyramid levels, 1 = the image alone
   int iterations = 12;       ///< at most, per level
   double epsilon_px = 0.04;  ///< px: a smaller step ends the iteration
   double min_eigenvalue =
@@ -31,23 +31,23 @@ struct PointTracks {
   int sampled = 0;  ///< grid points looked at, the refused ones included
 };
 
-/// Keeps the previous frame's pyramid. Assumes grey 8-bit pictures of one size; a change of size starts anew.
+/// Keeps the previous frame's pyramid. Assumes grey 8-bit images of one size; a change of size starts anew.
 class PointTracker {
  public:
   explicit PointTracker(const TrackerParameters& parameters);
   ~PointTracker();
 
-  /// A picture as advance() takes it. Throws std::invalid_argument for one that is empty or not 8-bit grey.
+  /// A image as advance() takes it. Throws std::invalid_argument for one that is empty or not 8-bit grey.
   Pyramid pyramidOf(const cv::Mat& grey) const;
-  /// Tracks the grid of the previous picture into this one, `guess` (previous to current, ideal pixels) as
-  /// the starting point. Empty on the first picture and after a change of size. Without a guess the shift of
-  /// the picture as a whole serves, and what the neighbouring point did.
-  PointTracks advance(Pyramid picture, const std::optional<Eigen::Matrix3d>& guess);
+  /// Tracks the grid of the previous image into this one, `guess` (previous to current, ideal pixels) as
+  /// the starting point. Empty on the first image and after a change of size. Without a guess the shift of
+  /// the image as a whole serves, and what the neighbouring point did.
+  PointTracks advance(Pyramid image, const std::optional<Eigen::Matrix3d>& guess);
   PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
     return advance(pyramidOf(grey), guess);
   }
-  /// True where at least `points` grid points of a picture have texture enough to be followed.
-  bool hasTexture(const Pyramid& picture, int points) const;
+  /// True where at least `points` grid points of a image have texture enough to be followed.
+  bool hasTexture(const Pyramid& image, int points) const;
   void reset();
 
  private:

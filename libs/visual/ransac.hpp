@@ -20,8 +20,8 @@ struct RansacParameters {
   int max_iterations = 400;
   double confidence = 0.999;      ///< of having drawn one clean sample
   int min_inliers = 40;           ///< fewer is no plane
-  double min_inlier_share = 0.0;  ///< of all correspondences
-  double min_spread = 0.02;       ///< of the picture's area: what the inliers' grid cells must cover
+  double min_inlier_ratio = 0.0;  ///< of all correspondences
+  double min_spread = 0.02;       ///< of the image's area: what the inliers' grid cells must cover
   uint32_t seed = 1;              ///< of the sampler: the same input gives the same output
 };
 

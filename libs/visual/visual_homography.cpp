@@ -13,11 +13,11 @@ namespace {
 constexpr double kContradiction = 0.6;
 constexpr double kOverwhelming = 2.0;
 
-/// Mean squared gradient [grey levels^2] of the half-size picture in the direction that has least of it:
-/// noise counts little at half size, and a picture blurred along one direction only is blurred.
+/// Mean squared gradient [grey levels^2] of the half-size image in the direction that has least of it:
+/// noise counts little at half size, and a image blurred along one direction only is blurred.
 double sharpnessOf(const Pyramid& pyramid) {
   if (pyramid.size() < 2) return 0;
-  const cv::Mat half = pyramid[1].picture();
+  const cv::Mat half = pyramid[1].image();
   int64_t xx = 0, xy = 0, yy = 0;
   for (int y = 1; y + 1 < half.rows; ++y) {
     const uint8_t* above = half.ptr(y - 1);
@@ -75,10 +75,10 @@ void VisualHomographyEstimator::adopt(int64_t utime, cv::Size size, double sharp
   reference_sharpness_ = sharpness;
 }
 
-bool VisualHomographyEstimator::isBlind(const Pyramid& picture, double sharpness) const {
+bool VisualHomographyEstimator::isBlind(const Pyramid& image, double sharpness) const {
   if (sharpness < parameters_.min_sharpness) return true;
-  if (sharpness < parameters_.min_sharpness_share * reference_sharpness_) return true;
-  return !tracker_.hasTexture(picture, parameters_.ransac.min_inliers);
+  if (sharpness < parameters_.min_sharpness_fraction * reference_sharpness_) return true;
+  return !tracker_.hasTexture(image, parameters_.ransac.min_inliers);
 }
 
 std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
@@ -89,9 +89,9 @@ std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
                                      ransac);
   const auto all = static_cast<double>(tracks.previous.size());
   if (near && near->inliers >= kContradiction * all) return near;
-  // A plane that contradicts the prediction is believed only when it explains most of the picture: then it is
+  // A plane that contradicts the prediction is believed only when it explains most of the image: then it is
   // the prediction that has gone wrong, and the few points near it are chance.
-  ransac.min_inlier_share = std::max(ransac.min_inlier_share, kContradiction);
+  ransac.min_inlier_ratio = std::max(ransac.min_inlier_ratio, kContradiction);
   auto largest = estimateHomography(tracks, size_.width, size_.height, ransac);
   if (near && (!largest || largest->inliers < kOverwhelming * near->inliers)) return near;
   return largest;
@@ -100,7 +100,7 @@ std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
 VisualHomography VisualHomographyEstimator::step(int64_t utime, const cv::Mat& grey,
                                                  const std::optional<HomographyPrediction>& prediction) {
   if (grey.empty() || grey.type() != CV_8UC1) {
-    throw std::invalid_argument("the visual stage takes 8-bit pictures of one channel");
+    throw std::invalid_argument("the visual stage takes 8-bit images of one channel");
   }
   VisualHomography result;
   result.utime = utime;
@@ -110,15 +110,15 @@ VisualHomography VisualHomographyEstimator::step(int64_t utime, const cv::Mat& g
   if (!connected) forgetReference();
   result.utime_previous = previous_utime_.value_or(utime);
 
-  Pyramid picture = tracker_.pyramidOf(grey);
-  const double sharpness = sharpnessOf(picture);
-  if (isBlind(picture, sharpness)) {
+  Pyramid image = tracker_.pyramidOf(grey);
+  const double sharpness = sharpnessOf(image);
+  if (isBlind(image, sharpness)) {
     result.status = VisualStatus::kNoTexture;
     return result;
   }
   const std::optional<Eigen::Matrix3d> guess =
       prediction && prediction->H.allFinite() ? std::optional(prediction->H) : std::nullopt;
-  result.tracks = tracker_.advance(std::move(picture), guess);
+  result.tracks = tracker_.advance(std::move(image), guess);
   adopt(utime, grey.size(), sharpness);
   if (!connected) return result;
 

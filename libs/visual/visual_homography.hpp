@@ -15,9 +15,9 @@ struct VisualParameters {
   RansacParameters ransac;
   double max_frame_gap_s = 0.5;  ///< s: frames further apart than this are not tracked into each other
   double min_sharpness =
-      0.0;  ///< mean squared gradient [grey levels^2] below which a picture is blank, black or blurred
-  double min_sharpness_share =
-      0.15;  ///< of the sharpness of the frame tracked from, below which a picture is blurred
+      0.0;  ///< mean squared gradient [grey levels^2] below which a image is blank, black or blurred
+  double min_sharpness_fraction =
+      0.15;  ///< of the sharpness of the frame tracked from, below which a image is blurred
 };
 
 enum class VisualStatus {
@@ -60,7 +60,7 @@ class VisualHomographyEstimator {
  private:
   void forgetReference();
   void adopt(int64_t utime, cv::Size size, double sharpness);
-  bool isBlind(const Pyramid& picture, double sharpness) const;
+  bool isBlind(const Pyramid& image, double sharpness) const;
   std::optional<HomographyEstimate> estimateGround(
       const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const;
 

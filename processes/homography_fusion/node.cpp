@@ -35,8 +35,8 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
   bus_.subscribe<inertial_homography_t>(
       channels.inertial_homography, kQueue, [this](const inertial_homography_t& m) { takeInertial(m); },
       damaged);
-  bus_.subscribe<inertial_state_t>(
-      channels.inertial_state, kQueue, [this](const inertial_state_t& m) { takeState(m); }, damaged);
+  bus_.subscribe<filter_snapshot_t>(
+      channels.filter_snapshot, kQueue, [this](const filter_snapshot_t& m) { takeState(m); }, damaged);
   bus_.subscribe<visual_homography_t>(
       channels.visual_homography, kQueue, [this](const visual_homography_t& m) { takeVisual(m); }, damaged);
   if (configuration_.has_imu) {
@@ -51,7 +51,7 @@ void HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
     health_.noteDamaged();
     return;
   }
-  if (message.valid == 0 && message.status == kInertialInitialising) inertial_begins_ = true;
+  if (message.valid == 0 && message.status == kInertialInitialising) inertial_at_first_frame_ = true;
   expect(message.utime);
   inertial_.put(message.utime, message);
 }
@@ -89,32 +89,32 @@ void HomographyFusionNode::restart() {
   clock_.restart();
 }
 
-void HomographyFusionNode::offerKeptState() {
-  if (inertial_begins_ && kept_) bus_.publish(configuration_.channels.kept_state, *kept_);
-  inertial_begins_ = false;
+void HomographyFusionNode::publishWarmStart() {
+  if (inertial_at_first_frame_ && kept_) bus_.publish(configuration_.channels.warm_start, *kept_);
+  inertial_at_first_frame_ = false;
 }
 
 bool HomographyFusionNode::ready(int64_t utime) {
   if (finishing_) return true;
-  const int64_t before = inertial_.givenUp() + visual_.givenUp();
-  const auto inertial = inertial_.ask(utime, clock_.now());
-  const auto visual = visual_.ask(utime, clock_.now());
-  health_.noteLate(inertial_.givenUp() + visual_.givenUp() - before);
-  return inertial != CompanionBuffer<inertial_homography_t>::Answer::kWait &&
-         visual != CompanionBuffer<visual_homography_t>::Answer::kWait;
+  const int64_t before = inertial_.timedOut() + visual_.timedOut();
+  const auto inertial = inertial_.status(utime, clock_.now());
+  const auto visual = visual_.status(utime, clock_.now());
+  health_.noteLate(inertial_.timedOut() + visual_.timedOut() - before);
+  return inertial != MessageSynchronizer<inertial_homography_t>::Status::kPending &&
+         visual != MessageSynchronizer<visual_homography_t>::Status::kPending;
 }
 
 void HomographyFusionNode::process() {
-  offerKeptState();  // before its first frame is answered, which it waits for
+  publishWarmStart();  // before its first frame is answered, which it waits for
   while (!pending_.empty() && ready(pending_.begin()->first)) {
     const auto [utime, since_arrival] = *pending_.begin();
     pending_.erase(pending_.begin());
-    const auto verdict = order_.judge(utime);
-    if (verdict == FrameOrder::Verdict::kDiscard) {
+    const auto verdict = order_.classify(utime);
+    if (verdict == FrameDecision::kDiscard) {
       health_.noteSkipped();
       continue;
     }
-    if (verdict == FrameOrder::Verdict::kRestart) {
+    if (verdict == FrameDecision::kRestart) {
       fusion_ =
           HomographyFusion(configuration_.camera.width, configuration_.camera.height, configuration_.fusion);
     }
@@ -149,8 +149,8 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
   addSources(message, fused, inertial, visual);
   timers.cpu.answered();
   bus_.publish(configuration_.channels.fused_homography, message);
-  inertial_.forgetUpTo(utime);
-  visual_.forgetUpTo(utime);
+  inertial_.eraseThrough(utime);
+  visual_.eraseThrough(utime);
   noteDone(health_, utime, since_arrival, timers);
   const bool good = fused.source == FusionSource::kFused ||
                     (!configuration_.has_imu && fused.source == FusionSource::kVisual);

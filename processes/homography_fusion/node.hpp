@@ -1,5 +1,5 @@
 // INERTIAL_HOMOGRAPHY and VISUAL_HOMOGRAPHY in; FUSED_HOMOGRAPHY out. IMU is listened to for the passing of
-// time only. INERTIAL_STATE is kept, and goes back as KEPT_STATE.
+// time only. FILTER_SNAPSHOT is kept, and goes back as WARM_START.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/filter_snapshot_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/fusion/homography_fusion.hpp"
 #include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/inertial_homography_t.hpp"
-#include "redbee/inertial_state_t.hpp"
-#include "redbee/node/companion_buffer.hpp"
 #include "redbee/node/frame_order.hpp"
 #include "redbee/node/message_clock.hpp"
+#include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/node/work_timer.hpp"
 #include "redbee/visual_homography_t.hpp"
@@ -31,7 +31,7 @@ class HomographyFusionNode : public Node {
 
  private:
   void takeInertial(const inertial_homography_t& message);
-  void takeState(const inertial_state_t& message) { kept_ = message; }
+  void takeState(const filter_snapshot_t& message) { kept_ = message; }
   void takeVisual(const visual_homography_t& message);
   void expect(int64_t utime);
   bool ready(int64_t utime);
@@ -42,7 +42,7 @@ class HomographyFusionNode : public Node {
                   const inertial_homography_t* inertial, const visual_homography_t* visual) const;
   /// To an inertial process that begins: it may have taken the place of one that died. Whether it believes
   /// what it is told is its own affair.
-  void offerKeptState();
+  void publishWarmStart();
   void restart();
 
   Bus& bus_;
@@ -52,10 +52,10 @@ class HomographyFusionNode : public Node {
   CalibrationMonitor calibration_;
   FrameOrder order_;
   std::map<int64_t, WorkTimer> pending_;  ///< frames by time, each with its first word's arrival
-  CompanionBuffer<inertial_homography_t> inertial_;
-  CompanionBuffer<visual_homography_t> visual_;
-  std::optional<inertial_state_t> kept_;  ///< the newest of the inertial process
-  bool inertial_begins_ = false;
+  MessageSynchronizer<inertial_homography_t> inertial_;
+  MessageSynchronizer<visual_homography_t> visual_;
+  std::optional<filter_snapshot_t> kept_;  ///< the newest of the inertial process
+  bool inertial_at_first_frame_ = false;
   MessageClock clock_;
   bool finishing_ = false;
   int32_t sequence_ = 0;

@@ -41,8 +41,8 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
   }
   bus_.subscribe<fused_homography_t>(
       channels.fused_homography, kFrameQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged);
-  bus_.subscribe<inertial_state_t>(
-      channels.kept_state, kFrameQueue, [this](const inertial_state_t& m) { takeKept(m); }, damaged);
+  bus_.subscribe<filter_snapshot_t>(
+      channels.warm_start, kFrameQueue, [this](const filter_snapshot_t& m) { takeWarmStart(m); }, damaged);
 }
 
 void ImuIntegrationNode::takeFrame(const image_t& message) {
@@ -93,21 +93,21 @@ bool ImuIntegrationNode::readyFor(int64_t frame_utime) {
     imu_alive_ = false;
   }
   if (!last_frame_utime_) return true;
-  const int64_t before = feedback_.givenUp();
-  const auto answer = feedback_.ask(*last_frame_utime_, clock_.now());
-  health_.noteLate(feedback_.givenUp() - before);
-  return answer != CompanionBuffer<fused_homography_t>::Answer::kWait;
+  const int64_t before = feedback_.timedOut();
+  const auto answer = feedback_.status(*last_frame_utime_, clock_.now());
+  health_.noteLate(feedback_.timedOut() - before);
+  return answer != MessageSynchronizer<fused_homography_t>::Status::kPending;
 }
 
-void ImuIntegrationNode::goOnFromKept() {
-  const std::optional<inertial_state_t> kept = std::exchange(kept_, std::nullopt);
-  if (!kept || !filter_.begins()) return;
+void ImuIntegrationNode::warmStart() {
+  const std::optional<filter_snapshot_t> kept = std::exchange(kept_, std::nullopt);
+  if (!kept || !filter_.isAtFirstFrame()) return;
   if (kept->configuration != configuration_hash_) {
     spdlog::warn("the kept state of {} us is of another configuration: ignored", kept->utime);
     return;
   }
-  const KnowledgeVerdict verdict = filter_.goOnFrom(knowledgeOf(*kept));
-  if (verdict == KnowledgeVerdict::kBelieved) {
+  const SnapshotCheck verdict = filter_.warmStart(snapshotOf(*kept));
+  if (verdict == SnapshotCheck::kBelieved) {
     spdlog::info("goes on from the kept state of {} us: {:.2f} m above the ground", kept->utime,
                  kept->height);
   } else {
@@ -132,8 +132,8 @@ void ImuIntegrationNode::applyFeedback() {
                   configuration_.camera);
 }
 
-void ImuIntegrationNode::sayState() {
-  bus_.publish(configuration_.channels.inertial_state, messageOf(*filter_.knowledge(), configuration_hash_));
+void ImuIntegrationNode::publishSnapshot() {
+  bus_.publish(configuration_.channels.filter_snapshot, messageOf(*filter_.snapshot(), configuration_hash_));
 }
 
 void ImuIntegrationNode::process() {
@@ -152,10 +152,10 @@ void ImuIntegrationNode::finish() {
 
 void ImuIntegrationNode::integrate(const Frame& frame) {
   FrameTimers timers;
-  goOnFromKept();
+  warmStart();
   applyFeedback();
   agreed_in_a_row_ = feedback_report_.applied ? agreed_in_a_row_ + 1 : 0;
-  if (last_frame_utime_) feedback_.forgetUpTo(*last_frame_utime_);
+  if (last_frame_utime_) feedback_.eraseThrough(*last_frame_utime_);
   const InertialHomography result = filter_.advanceTo(frame.utime);
   last_frame_utime_ = frame.utime;
   last_H_ = result.valid ? std::optional<Eigen::Matrix3d>(result.H) : std::nullopt;
@@ -185,7 +185,7 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
   }
   message.feedback_test_ratio = feedback_report_.test_ratio;
   bus_.publish(configuration_.channels.inertial_homography, message);
-  if (result.valid && agreed_in_a_row_ >= kAgreedFrames) sayState();
+  if (result.valid && agreed_in_a_row_ >= kAgreedFrames) publishSnapshot();
   noteDone(health_, frame.utime, frame.since_arrival, timers);
   if (result.valid && result.status == InertialStatus::kGood) {
     health_.setState(HealthState::kGood, "");

@@ -1,5 +1,5 @@
-// CAMERA (its times), IMU, ALTIMETER, FUSED_HOMOGRAPHY and KEPT_STATE in; INERTIAL_HOMOGRAPHY and
-// INERTIAL_STATE out.
+// CAMERA (its times), IMU, ALTIMETER, FUSED_HOMOGRAPHY and WARM_START in; INERTIAL_HOMOGRAPHY and
+// FILTER_SNAPSHOT out.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 #include "redbee/altimeter_t.hpp"
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/filter_snapshot_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
 #include "redbee/inertial_homography_t.hpp"
-#include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
-#include "redbee/node/companion_buffer.hpp"
 #include "redbee/node/frame_order.hpp"
 #include "redbee/node/message_clock.hpp"
+#include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/node/work_timer.hpp"
 
@@ -44,11 +44,11 @@ class ImuIntegrationNode : public Node {
   void takeImu(const ins_t& message);
   void takeAltitude(const altimeter_t& message);
   void takeFused(const fused_homography_t& message);
-  void takeKept(const inertial_state_t& message) { kept_ = message; }
+  void takeWarmStart(const filter_snapshot_t& message) { kept_ = message; }
   bool readyFor(int64_t frame_utime);
-  void goOnFromKept();
+  void warmStart();
   void applyFeedback();
-  void sayState();
+  void publishSnapshot();
   void integrate(const Frame& frame);
   void restart();
 
@@ -60,12 +60,12 @@ class ImuIntegrationNode : public Node {
   InertialFilter filter_;
   FrameOrder order_;
   std::deque<Frame> pending_;
-  CompanionBuffer<fused_homography_t> feedback_;
+  MessageSynchronizer<fused_homography_t> feedback_;
   MessageClock clock_;
   std::optional<int64_t> last_frame_utime_;
   std::optional<Eigen::Matrix3d> last_H_;  ///< what was said of the last frame
   CalibrationMonitor calibration_;
-  std::optional<inertial_state_t> kept_;
+  std::optional<filter_snapshot_t> kept_;
   CorrectionReport feedback_report_;  ///< of the last frame
   int agreed_in_a_row_ = 0;           ///< frames that vision's correction was accepted at
   bool imu_alive_ = true;

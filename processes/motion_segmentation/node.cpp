@@ -5,7 +5,7 @@
 
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/node/work_timer.hpp"
 
 namespace redbee {
@@ -14,8 +14,8 @@ namespace {
 constexpr int kFrameQueue = 64;
 constexpr int8_t kVisualGood = 0;
 
-/// How much smaller a picture may be decoded: the parallax segmentation shrinks it anyway.
-int pictureDownscale(const Configuration& configuration) {
+/// How much smaller a image may be decoded: the parallax segmentation shrinks it anyway.
+int imageDownscale(const Configuration& configuration) {
   const SegmentationParameters& segmentation = configuration.segmentation;
   if (segmentation.method != SegmentationMethod::kParallax) return 1;
   int downscale = segmentation.work_downscale;
@@ -31,17 +31,17 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
     : bus_(bus),
       configuration_(configuration),
       health_("redbee-motion-segmentation", configurationHash(configuration)),
-      camera_(configuration.camera, pictureDownscale(configuration)),
+      camera_(configuration.camera, imageDownscale(configuration)),
       publisher_(bus_, configuration_, camera_),
       segmenter_(configuration.segmentation),
-      pictures_(configuration.waits.max_backlog),
+      images_(configuration.waits.max_backlog),
       fused_(microseconds(configuration.waits.segmentation_s), true),
       visual_(0, false) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(
       channels.camera, kFrameQueue,
-      [this](const image_t& m) { pictures_.take(m, health_, [this] { restart(); }); }, damaged);
+      [this](const image_t& m) { images_.take(m, health_, [this] { restart(); }); }, damaged);
   bus_.subscribe<fused_homography_t>(
       channels.fused_homography, kFrameQueue,
       [this](const fused_homography_t& m) {
@@ -76,11 +76,11 @@ void MotionSegmentationNode::restart() {
 }
 
 void MotionSegmentationNode::process() {
-  pictures_.workOff(fused_, health_, [this](const Arrived<image_t>& frame) { segment(frame); });
+  images_.workOff(fused_, health_, [this](const Arrived<image_t>& frame) { segment(frame); });
 }
 
 void MotionSegmentationNode::finish() {
-  pictures_.workOffAll([this](const Arrived<image_t>& frame) { segment(frame); });
+  images_.workOffAll([this](const Arrived<image_t>& frame) { segment(frame); });
 }
 
 SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const {
@@ -132,25 +132,25 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   } else {
     last_ = Last{message.utime, -1, 0, Eigen::Matrix3d::Identity()};
   }
-  fused_.forgetUpTo(message.utime);
-  visual_.forgetUpTo(message.utime);
+  fused_.eraseThrough(message.utime);
+  visual_.eraseThrough(message.utime);
   noteDone(health_, message.utime, frame.since, timers);
 }
 
 void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
   const bool wants_colour =
       configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
-  const IdealPicture picture = camera_.ideal(message, wants_colour, health_);
+  const IdealImage image = camera_.ideal(message, wants_colour, health_);
   input.size = {configuration_.camera.width, configuration_.camera.height};
-  input.grey = picture.grey;
-  input.colour = picture.colour;
+  input.grey = image.grey;
+  input.colour = image.colour;
   if (!input.grey.empty()) return;
   input.grey = cv::Mat::zeros(input.size, CV_8U);
 }
 
 void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input,
                                      SegmentationOutput output) {
-  for (Detection& detection : output.detections) detection.id = identities_.told(detection.id);
+  for (Detection& detection : output.detections) detection.id = identities_.globalId(detection.id);
   publisher_.publish(message, input.utime_previous, output);
   if (output.status != SegmentationStatus::kGood) {
     health_.setState(HealthState::kDegraded, toString(output.status));

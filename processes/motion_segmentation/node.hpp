@@ -6,20 +6,20 @@
 #include <optional>
 
 #include "processes/foreground_publisher.hpp"
-#include "processes/motion_segmentation/kept_identities.hpp"
+#include "processes/motion_segmentation/track_id_store.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/detection/motion_segmenter.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial/calibration_monitor.hpp"
-#include "redbee/node/companion_buffer.hpp"
+#include "redbee/node/image_queue.hpp"
+#include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
-#include "redbee/node/picture_queue.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {
 
-/// One message of each kind per frame. Maps and boxes are on the raw picture's grid.
+/// One message of each kind per frame. Maps and boxes are on the raw image's grid.
 class MotionSegmentationNode : public Node {
  public:
   MotionSegmentationNode(Bus& bus, const Configuration& configuration);
@@ -27,7 +27,7 @@ class MotionSegmentationNode : public Node {
   void finish() override;
   HealthMonitor& health() override { return health_; }
   void keepStateIn(const std::filesystem::path& folder) override {
-    identities_ = KeptIdentities(folder / "identities");
+    identities_ = TrackIdStore(folder / "identities");
   }
 
  private:
@@ -42,7 +42,7 @@ class MotionSegmentationNode : public Node {
   void segment(const Arrived<image_t>& frame);
   SegmentationInput inputFor(const image_t& message) const;
   void addVisual(SegmentationInput& input) const;
-  /// Black where there is no picture of the camera's size.
+  /// Black where there is no image of the camera's size.
   void decodeInto(SegmentationInput& input, const image_t& message);
   void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
   void judgeCalibration(const fused_homography_t& fused);
@@ -54,11 +54,11 @@ class MotionSegmentationNode : public Node {
   RectifiedCamera camera_;
   ForegroundPublisher publisher_;
   MotionSegmenter segmenter_;
-  PictureQueue pictures_;
-  CompanionBuffer<fused_homography_t> fused_;
-  CompanionBuffer<visual_homography_t> visual_;
+  ImageQueue images_;
+  MessageSynchronizer<fused_homography_t> fused_;
+  MessageSynchronizer<visual_homography_t> visual_;
   std::optional<Last> last_;
-  KeptIdentities identities_;
+  TrackIdStore identities_;
   CalibrationMonitor calibration_;
 };
 

@@ -19,10 +19,10 @@ SegmentationStatus statusOf(RivalStatus status) {
       return SegmentationStatus::kLearning;
     case RivalStatus::kLost:
       return SegmentationStatus::kNoHomography;
-    case RivalStatus::kBadPicture:
+    case RivalStatus::kBadImage:
       break;
   }
-  return SegmentationStatus::kBadPicture;
+  return SegmentationStatus::kBadImage;
 }
 
 Configuration withDecisionScore(Configuration configuration) {
@@ -42,14 +42,14 @@ RivalNode::RivalNode(Bus& bus, const Configuration& configuration, const std::st
       publisher_(bus_, configuration_, camera_),
       rival_(makeRival(rival)),
       tracker_(configuration_.segmentation),
-      pictures_(configuration.waits.max_backlog),
+      images_(configuration.waits.max_backlog),
       inertial_(microseconds(configuration.waits.segmentation_s),
                 configuration.has_imu && rival_->wantsMotion()) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(
       channels.camera, kFrameQueue,
-      [this](const image_t& m) { pictures_.take(m, health_, [this] { restart(); }); }, damaged);
+      [this](const image_t& m) { images_.take(m, health_, [this] { restart(); }); }, damaged);
   if (!rival_->wantsMotion()) return;
   bus_.subscribe<inertial_homography_t>(
       channels.inertial_homography, kFrameQueue, [this](const inertial_homography_t& m) { takeInertial(m); },
@@ -71,20 +71,20 @@ void RivalNode::restart() {
 }
 
 void RivalNode::process() {
-  pictures_.workOff(inertial_, health_, [this](const Arrived<image_t>& frame) { work(frame); });
+  images_.workOff(inertial_, health_, [this](const Arrived<image_t>& frame) { work(frame); });
 }
 
 void RivalNode::finish() {
-  pictures_.workOffAll([this](const Arrived<image_t>& frame) { work(frame); });
+  images_.workOffAll([this](const Arrived<image_t>& frame) { work(frame); });
 }
 
 RivalInput RivalNode::inputFor(const image_t& message) {
   RivalInput input;
   input.utime = message.utime;
   input.K = camera_.camera().K();
-  const IdealPicture picture = camera_.ideal(message, rival_->wantsColour(), health_);
-  input.grey = picture.grey;
-  input.colour = picture.colour;
+  const IdealImage image = camera_.ideal(message, rival_->wantsColour(), health_);
+  input.grey = image.grey;
+  input.colour = image.colour;
   const inertial_homography_t* inertial = inertial_.find(message.utime);
   if (inertial != nullptr && inertial->valid != 0 && last_utime_ &&
       inertial->utime_previous == *last_utime_) {
@@ -125,7 +125,7 @@ void RivalNode::work(const Arrived<image_t>& frame) {
   timers.cpu.answered();
   publisher_.publish(frame.content, last_utime_.value_or(utime), output);
   last_utime_ = utime;
-  inertial_.forgetUpTo(utime);
+  inertial_.eraseThrough(utime);
   const bool good = output.status == SegmentationStatus::kGood;
   health_.setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(output.status));
   noteDone(health_, utime, frame.since, timers);

@@ -12,9 +12,9 @@
 #include "redbee/detection/objects/object_tracker.hpp"
 #include "redbee/detection/rivals/rival.hpp"
 #include "redbee/inertial_homography_t.hpp"
-#include "redbee/node/companion_buffer.hpp"
+#include "redbee/node/image_queue.hpp"
+#include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
-#include "redbee/node/picture_queue.hpp"
 
 namespace redbee {
 
@@ -43,8 +43,8 @@ class RivalNode : public Node {
   ForegroundPublisher publisher_;
   std::unique_ptr<Rival> rival_;
   ObjectTracker tracker_;
-  PictureQueue pictures_;
-  CompanionBuffer<inertial_homography_t> inertial_;
+  ImageQueue images_;
+  MessageSynchronizer<inertial_homography_t> inertial_;
   std::optional<int64_t> last_utime_;
 };
 

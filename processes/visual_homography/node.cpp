@@ -4,7 +4,7 @@
 
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/geometry/chi_square.hpp"
 #include "redbee/node/work_timer.hpp"
 
@@ -12,7 +12,7 @@ namespace redbee {
 namespace {
 
 constexpr int kFrameQueue = 64;
-constexpr int8_t kPictureDoesNotFit = 4;
+constexpr int8_t kImageDoesNotFit = 4;
 
 }  // namespace
 
@@ -23,13 +23,13 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
       camera_(configuration.camera),
       rectifier_(camera_),
       estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual)),
-      pictures_(configuration.waits.max_backlog),
+      images_(configuration.waits.max_backlog),
       inertial_(microseconds(configuration.waits.visual_s), configuration.has_imu) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(
       channels.camera, kFrameQueue,
-      [this](const image_t& m) { pictures_.take(m, health_, [this] { restart(); }); }, damaged);
+      [this](const image_t& m) { images_.take(m, health_, [this] { restart(); }); }, damaged);
   bus_.subscribe<inertial_homography_t>(
       channels.inertial_homography, kFrameQueue, [this](const inertial_homography_t& m) { takeInertial(m); },
       damaged);
@@ -73,11 +73,11 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t uti
 }
 
 void VisualHomographyNode::process() {
-  pictures_.workOff(inertial_, health_, [this](const Arrived<image_t>& frame) { track(frame); });
+  images_.workOff(inertial_, health_, [this](const Arrived<image_t>& frame) { track(frame); });
 }
 
 void VisualHomographyNode::finish() {
-  pictures_.workOffAll([this](const Arrived<image_t>& frame) { track(frame); });
+  images_.workOffAll([this](const Arrived<image_t>& frame) { track(frame); });
 }
 
 void VisualHomographyNode::track(const Arrived<image_t>& frame) {
@@ -90,13 +90,13 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
     refusal.utime = message.utime;
     refusal.utime_previous = estimator_->previousTime().value_or(message.utime);
     refusal.sequence = sequence_++;
-    refusal.status = kPictureDoesNotFit;
+    refusal.status = kImageDoesNotFit;
     refusal.width = configuration_.camera.width;
     refusal.height = configuration_.camera.height;
     bus_.publish(configuration_.channels.visual_homography, refusal);
     noteDone(health_, message.utime, frame.since, timers);
     health_.setState(HealthState::kDegraded,
-                     "picture is " + std::to_string(message.width) + "x" + std::to_string(message.height) +
+                     "image is " + std::to_string(message.width) + "x" + std::to_string(message.height) +
                          " or damaged; configured are " + std::to_string(configuration_.camera.width) + "x" +
                          std::to_string(configuration_.camera.height));
     return;
@@ -106,9 +106,9 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
   timers.cpu.answered();
   publish(result);
   if (predicted && result.ground) judgeCalibration(*predicted, result);
-  // After a picture that nothing could be tracked in, the next one is tracked from an earlier frame: its
+  // After a image that nothing could be tracked in, the next one is tracked from an earlier frame: its
   // links are still needed.
-  inertial_.forgetUpTo(estimator_->previousTime().value_or(message.utime));
+  inertial_.eraseThrough(estimator_->previousTime().value_or(message.utime));
   noteDone(health_, message.utime, frame.since, timers);
 }
 

@@ -10,9 +10,9 @@
 #include "redbee/imaging/rectifier.hpp"
 #include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/inertial_homography_t.hpp"
-#include "redbee/node/companion_buffer.hpp"
+#include "redbee/node/image_queue.hpp"
+#include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
-#include "redbee/node/picture_queue.hpp"
 #include "redbee/visual/visual_homography.hpp"
 #include "redbee/visual_homography_t.hpp"
 
@@ -44,8 +44,8 @@ class VisualHomographyNode : public Node {
   Rectifier rectifier_;
   std::unique_ptr<VisualHomographyEstimator> estimator_;
   CalibrationMonitor calibration_;
-  PictureQueue pictures_;
-  CompanionBuffer<inertial_homography_t> inertial_;
+  ImageQueue images_;
+  MessageSynchronizer<inertial_homography_t> inertial_;
   int32_t sequence_ = 0;
 };
 

@@ -70,7 +70,7 @@ void alignHalfSize(benchmark::State& state) {
   EarlierFrame frame;
   frame.grey = halfSize(inputs()[0].grey);
   frame.ground(0, 2) = 1.3;
-  for (auto _ : state) benchmark::DoNotOptimize(alignPicture(frame, inputs()[0].K, 8));
+  for (auto _ : state) benchmark::DoNotOptimize(alignImage(frame, inputs()[0].K, 8));
 }
 BENCHMARK(alignHalfSize)->Unit(benchmark::kMillisecond);
 
@@ -84,7 +84,7 @@ void carriedBackground(benchmark::State& state) {
   const SceneMotion scene(*inputs()[1].ground, inputs()[1].motion, inputs()[1].K);
   for (auto _ : state) {
     background.carry(scene);
-    benchmark::DoNotOptimize(background.unlike(colour, speed));
+    benchmark::DoNotOptimize(background.appearanceDifference(colour, speed));
     background.learn(colour, moving, speed, 0.04);
   }
 }

@@ -1,5 +1,5 @@
 // Processor time a frame of the whole stack and of rivals, decoding included, in one run: read the ratios.
-// The bundled flight's pictures, from memory, on memq://. `work` is what the answer took, `publishing` what
+// The bundled flight's images, from memory, on memq://. `work` is what the answer took, `publishing` what
 // it took to make messages of it [ms a frame]; the time of an iteration holds both and the bus.
 #include <benchmark/benchmark.h>
 
@@ -39,7 +39,7 @@ Configuration configurationOf(const std::string& preset, const std::vector<std::
 
 /// One iteration is the whole flight.
 void fly(benchmark::State& state, const Configuration& configuration, const std::string& rival) {
-  CpuShare sum;
+  CpuTime sum;
   int64_t frames = 0;
   for (auto _ : state) {
     const auto bus = makeLcmBus("memq://");

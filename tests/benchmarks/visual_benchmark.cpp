@@ -1,4 +1,4 @@
-// Our tracker against OpenCV's calcOpticalFlowPyrLK on the same pictures, grid, window, levels and stopping
+// Our tracker against OpenCV's calcOpticalFlowPyrLK on the same images, grid, window, levels and stopping
 // rule, one thread.
 #include <benchmark/benchmark.h>
 
@@ -14,22 +14,22 @@ namespace {
 
 using namespace redbee;
 
-const std::vector<cv::Mat>& pictures() {
+const std::vector<cv::Mat>& images() {
   static const std::vector<cv::Mat> frames = [] {
     const simulation::FlightSimulator flight(simulation::twoPlanes(1));
-    return std::vector<cv::Mat>{flight.frame(1).picture.grey, flight.frame(2).picture.grey};
+    return std::vector<cv::Mat>{flight.frame(1).image.grey, flight.frame(2).image.grey};
   }();
   return frames;
 }
 
-/// Pyramid of the new picture, forward and backward tracking.
+/// Pyramid of the new image, forward and backward tracking.
 void ourTracker(benchmark::State& state) {
   cv::setNumThreads(1);
   PointTracker tracker({});
   std::size_t k = 0, tracked = 0;
-  tracker.advance(pictures()[0], {});
+  tracker.advance(images()[0], {});
   for (auto _ : state)
-    tracked = tracker.advance(pictures()[++k % 2], Eigen::Matrix3d::Identity()).previous.size();
+    tracked = tracker.advance(images()[++k % 2], Eigen::Matrix3d::Identity()).previous.size();
   state.counters["tracked"] = static_cast<double>(tracked);
 }
 BENCHMARK(ourTracker)->Unit(benchmark::kMillisecond);
@@ -46,11 +46,11 @@ void openCvTracker(benchmark::State& state) {
     }
   }
   std::vector<cv::Mat> before, after;
-  cv::buildOpticalFlowPyramid(pictures()[0], before, window, p.levels - 1);
+  cv::buildOpticalFlowPyramid(images()[0], before, window, p.levels - 1);
   std::size_t k = 0;
   int tracked = 0;
   for (auto _ : state) {
-    cv::buildOpticalFlowPyramid(pictures()[++k % 2], after, window, p.levels - 1);
+    cv::buildOpticalFlowPyramid(images()[++k % 2], after, window, p.levels - 1);
     std::vector<cv::Point2f> there = grid, back = grid;
     std::vector<uchar> found, returned;
     std::vector<float> error;
@@ -70,8 +70,8 @@ BENCHMARK(openCvTracker)->Unit(benchmark::kMillisecond);
 
 void groundHomography(benchmark::State& state) {
   PointTracker tracker({});
-  tracker.advance(pictures()[0], {});
-  const PointTracks tracks = tracker.advance(pictures()[1], {});
+  tracker.advance(images()[0], {});
+  const PointTracks tracks = tracker.advance(images()[1], {});
   for (auto _ : state) benchmark::DoNotOptimize(estimateHomography(tracks, 640, 480, {}));
 }
 BENCHMARK(groundHomography)->Unit(benchmark::kMillisecond);

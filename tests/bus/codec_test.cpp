@@ -58,7 +58,7 @@ class CodecTest : public ::testing::Test {
 };
 
 using AllTypes = ::testing::Types<image_t, image_metadata_t, ins_t, altimeter_t, detection_t, detections_t,
-                                  foreground_t, inertial_homography_t, inertial_state_t, visual_homography_t,
+                                  foreground_t, inertial_homography_t, filter_snapshot_t, visual_homography_t,
                                   fused_homography_t, process_health_t>;
 
 struct MessageName {

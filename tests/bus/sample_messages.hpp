@@ -7,8 +7,8 @@
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/codec.hpp"
 #include "redbee/detection_t.hpp"
+#include "redbee/filter_snapshot_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
-#include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
 
 namespace redbee::testing {
@@ -116,8 +116,8 @@ inline inertial_homography_t sample() {
 }
 
 template <>
-inline inertial_state_t sample() {
-  inertial_state_t message{};
+inline filter_snapshot_t sample() {
+  filter_snapshot_t message{};
   message.utime = 99;
   message.configuration = "0123456789abcdef";
   message.height = 5.5;

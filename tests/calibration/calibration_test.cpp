@@ -54,7 +54,7 @@ TEST(Calibration, simulatedFlightsWithinTheLimitsAndTheirDeviations) {
     SimulationChoices choices;
     choices.duration_s = 8;
     choices.grid_px = 40;
-    choices.outlier_share = 0.05;
+    choices.outlier_ratio = 0.05;
     const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed, choices);
     const CalibrationResult result = calibrate(r.input);
     const InertialExtrinsics& estimated = result.values.estimated;
@@ -87,7 +87,7 @@ TEST(Calibration, simulatedFlightsWithinTheLimitsAndTheirDeviations) {
   }
 }
 
-/// Errors that all points of a quarter of the picture share do not average out over the points; the residuals
+/// Errors that all points of a quarter of the image share do not average out over the points; the residuals
 /// show them.
 TEST(Calibration, deviationsGrowWithErrorsThatNeighbouringPointsShare) {
   Consistency rotation;

@@ -1,4 +1,4 @@
-// Calibration inputs with a known truth, without pictures: ground points moved by the exact homographies of
+// Calibration inputs with a known truth, without images: ground points moved by the exact homographies of
 // an analytic flight.
 #pragma once
 
@@ -27,8 +27,8 @@ struct SimulationChoices {
   double fps = 24;
   double noise_px = 0.15;  ///< per axis, white
   double common_noise_px =
-      0;  ///< per axis, shared by all points of a quarter of the picture: correlated errors
-  double outlier_share = 0;  ///< of the points
+      0;                     ///< per axis, shared by all points of a quarter of the image: correlated errors
+  double outlier_ratio = 0;  ///< of the points
   bool altimeter = false;
   double height_m = 6;
   int grid_px = 32;
@@ -49,7 +49,7 @@ class PointNoise {
   cv::Point2f disturbed(const Eigen::Vector2d& x, const CameraIntrinsics& camera) {
     const size_t quarter = (x.x() > camera.cx ? 1U : 0U) + (x.y() > camera.cy ? 2U : 0U);
     Eigen::Vector2d y = x + common_[quarter] + vector(choices_.noise_px);
-    if (uniform_(random_) < choices_.outlier_share)
+    if (uniform_(random_) < choices_.outlier_ratio)
       y += 40.0 * Eigen::Vector2d(uniform_(random_) - 0.5, uniform_(random_) - 0.5);
     return {static_cast<float>(y.x()), static_cast<float>(y.y())};
   }

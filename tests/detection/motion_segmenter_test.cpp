@@ -21,11 +21,11 @@ using testing::RecordedFlight;
 constexpr int kFrames = 24;
 
 void report(const std::string& what, const PixelCounts& counts) {
-  std::cout << what << ": recall " << counts.recall() << ", false share " << counts.falseShare()
-            << ", false share of the patch " << counts.falsePatchShare() << ", P_FG of movers "
+  std::cout << what << ": recall " << counts.recall() << ", false share " << counts.falseFraction()
+            << ", false share of the patch " << counts.falsePatchFraction() << ", P_FG of movers "
             << counts.moverProbability() << ", of the patch " << counts.patchProbability() << "\n";
   ::testing::Test::RecordProperty(what + "_recall", std::to_string(counts.recall()));
-  ::testing::Test::RecordProperty(what + "_false_share", std::to_string(counts.falseShare()));
+  ::testing::Test::RecordProperty(what + "_false_fraction", std::to_string(counts.falseFraction()));
 }
 
 /// A facade beside the path, near enough that its parallax against the ground is about a pixel a frame, and
@@ -57,7 +57,7 @@ TEST(MotionSegmenter, MoverStandsOutAndFrontPlaneDoesNotWithTheDefault) {
   const PixelCounts counts = fly(facadeAndCar(), {}, kFacadePatch);
   report("default", counts);
   EXPECT_GT(counts.recall(), 0.5);
-  EXPECT_LT(counts.falsePatchShare(), 0.02);
+  EXPECT_LT(counts.falsePatchFraction(), 0.02);
 }
 
 TEST(MotionSegmenter, MoverStandsOutAndFrontPlaneDoesNotWithTwoPlanes) {
@@ -72,22 +72,22 @@ TEST(MotionSegmenter, MoverStandsOutAndFrontPlaneDoesNotWithTwoPlanes) {
   // Paint and grass differ by 60 +- 52 grey levels, a background's threshold is 16 to 35: about seven pixels
   // in ten stand out.
   EXPECT_GT(both.recall(), 0.5);
-  EXPECT_GT(ground.falsePatchShare(), 0.1) << "the facade must need its plane";
-  EXPECT_LT(both.falsePatchShare(), 0.25 * ground.falsePatchShare());
+  EXPECT_GT(ground.falsePatchFraction(), 0.1) << "the facade must need its plane";
+  EXPECT_LT(both.falsePatchFraction(), 0.25 * ground.falsePatchFraction());
 }
 
 TEST(MotionSegmenter, SceneWithoutFrontPlaneWorksWithTwoPlanes) {
   const PixelCounts counts = fly(walkersOnGrass(), paperSegmentation(), 0);
   report("walkers_paper", counts);
   EXPECT_GT(counts.recall(), 0.3);
-  EXPECT_LT(counts.falseShare(), 0.02);
+  EXPECT_LT(counts.falseFraction(), 0.02);
 }
 
 TEST(MotionSegmenter, SceneWithoutFrontPlaneWorksWithTheDefault) {
   const PixelCounts counts = fly(walkersOnGrass(), {}, 0);
   report("walkers_default", counts);
   EXPECT_GT(counts.recall(), 0.3);
-  EXPECT_LT(counts.falseShare(), 0.02);
+  EXPECT_LT(counts.falseFraction(), 0.02);
 }
 
 TEST(MotionSegmenter, WorksOnVisionAlone) {
@@ -95,10 +95,10 @@ TEST(MotionSegmenter, WorksOnVisionAlone) {
   const PixelCounts counts = fly(walkersOnGrass(), {}, 0, without_motion);
   report("vision_only", counts);
   EXPECT_GT(counts.recall(), 0.3);
-  EXPECT_LT(counts.falseShare(), 0.05);
+  EXPECT_LT(counts.falseFraction(), 0.05);
 }
 
-TEST(MotionSegmenter, WithoutImuAndSecondPlaneAFacadeThatRunsOutOfThePictureIsStatic) {
+TEST(MotionSegmenter, WithoutImuAndSecondPlaneAFacadeThatRunsOutOfTheImageIsStatic) {
   const auto ground_alone = [](SegmentationInput& input) {
     input.motion.reset();
     input.front.reset();
@@ -185,27 +185,27 @@ TEST_P(Interruptions, LearnsBeforeTheFirstMask) {
   EXPECT_EQ(flyTo(parameters().learning_frames).status, SegmentationStatus::kGood);
 }
 
-TEST_P(Interruptions, BlackPictureIsNotLearnedAndNotJudged) {
+TEST_P(Interruptions, BlackImageIsNotLearnedAndNotJudged) {
   flyTo(9);
   SegmentationInput changed = input(next_++);
   changed.grey = cv::Mat(changed.grey.size(), CV_8U, cv::Scalar(0));
-  expectNothingClaimed(segmenter_.step(changed), SegmentationStatus::kBadPicture);
+  expectNothingClaimed(segmenter_.step(changed), SegmentationStatus::kBadImage);
   EXPECT_EQ(flyTo(next_).status, SegmentationStatus::kGood) << "its homography was known: nothing is lost";
 }
 
-TEST_P(Interruptions, FrozenPictureIsSaid) {
+TEST_P(Interruptions, FrozenImageIsSaid) {
   const cv::Mat frozen = input(9).grey.clone();
   flyTo(9);
   SegmentationInput changed = input(next_++);
   changed.grey = frozen;
-  expectNothingClaimed(segmenter_.step(changed), SegmentationStatus::kBadPicture);
+  expectNothingClaimed(segmenter_.step(changed), SegmentationStatus::kBadImage);
 }
 
-TEST_P(Interruptions, EmptyPictureIsSaid) {
+TEST_P(Interruptions, EmptyImageIsSaid) {
   flyTo(9);
   SegmentationInput changed = input(next_);
   changed.grey.release();
-  EXPECT_EQ(segmenter_.step(changed).status, SegmentationStatus::kBadPicture);
+  EXPECT_EQ(segmenter_.step(changed).status, SegmentationStatus::kBadImage);
 }
 
 TEST_P(Interruptions, MissingHomographyStartsAnew) {

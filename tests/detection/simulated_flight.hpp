@@ -30,7 +30,7 @@ inline simulation::Scenario halfSize(simulation::Scenario scenario) {
 /// A flight with what the segmentation is given of it and the truth, rendered once.
 struct RecordedFlight {
   std::vector<SegmentationInput> inputs;
-  std::vector<simulation::RenderedPicture> truths;
+  std::vector<simulation::RenderedImage> truths;
 
   /// `front_patch`: the surface whose homography is given as the front plane's; nothing gives none.
   RecordedFlight(const simulation::Scenario& scenario, int frames, std::optional<size_t> front_patch = {}) {
@@ -42,7 +42,7 @@ struct RecordedFlight {
       const simulation::SimulatedFrame frame = simulator.frame(k);
       SegmentationInput input;
       input.utime = frame.utime;
-      input.grey = frame.picture.grey;
+      input.grey = frame.image.grey;
       input.K = simulator.camera().K();
       if (k > 0) {
         input.utime_previous = simulator.frameUtime(k - 1);
@@ -53,7 +53,7 @@ struct RecordedFlight {
       }
       input.tracks = tracker.advance(input.grey, input.ground);
       inputs.push_back(input);
-      truths.push_back(frame.picture);
+      truths.push_back(frame.image);
     }
   }
 };
@@ -69,10 +69,10 @@ struct PixelCounts {
   double moverProbability() const { return mover > 0 ? mover_probability / mover : 0; }
   double patchProbability() const { return patch > 0 ? patch_probability / patch : 0; }
   double recall() const { return mover > 0 ? found / mover : 0; }
-  double falseShare() const { return static_ > 0 ? false_ / static_ : 0; }
-  double falsePatchShare() const { return patch > 0 ? false_patch / patch : 0; }
+  double falseFraction() const { return static_ > 0 ? false_ / static_ : 0; }
+  double falsePatchFraction() const { return patch > 0 ? false_patch / patch : 0; }
 
-  void add(const simulation::RenderedPicture& truth, const SegmentationOutput& output, size_t patch_index) {
+  void add(const simulation::RenderedImage& truth, const SegmentationOutput& output, size_t patch_index) {
     const cv::Mat& mask = output.mask;
     const cv::Mat moving = truth.mask == simulation::kMaskMoving;
     const cv::Mat still = truth.mask == 0;

@@ -45,7 +45,7 @@ TEST(ObjectMeasures, NothingDetectedFindsNothingAndAlarmsNobody) {
   measures.add(emptyMask(), objectsOfMask(maskWith({{0, 0, 5, 5}})));
   EXPECT_EQ(measures.recall(), 0);
   EXPECT_EQ(measures.falseAlarmsPerFrame(), 0);
-  EXPECT_EQ(measures.falseAreaShare(), 0);
+  EXPECT_EQ(measures.falseAreaFraction(), 0);
 }
 
 TEST(ObjectMeasures, WhereNothingMovesEveryComponentIsAFalseAlarm) {
@@ -55,7 +55,7 @@ TEST(ObjectMeasures, WhereNothingMovesEveryComponentIsAFalseAlarm) {
   EXPECT_EQ(measures.counts().present, 0);
   EXPECT_EQ(measures.recall(), 0);
   EXPECT_DOUBLE_EQ(measures.falseAlarmsPerFrame(), 1.0);
-  EXPECT_DOUBLE_EQ(measures.falseAreaShare(), 20.0 / (kSide * kSide) / 2);
+  EXPECT_DOUBLE_EQ(measures.falseAreaFraction(), 20.0 / (kSide * kSide) / 2);
 }
 
 TEST(ObjectMeasures, AComponentThatTouchesAnObjectIsNoFalseAlarmHoweverLarge) {

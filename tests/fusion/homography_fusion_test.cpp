@@ -167,16 +167,16 @@ TEST(HomographyFusion, CovarianceOfTheStepIsConsistent) {
 }
 
 TEST(HomographyFusion, OutliersWeakenVision) {
-  const auto shareOfVision = [](int outliers) {
+  const auto fractionOfVision = [](int outliers) {
     HomographyFusion fusion = makeFusion();
     const InertialInput inertial{frameTime(0), translation(0), 1e-6 * Matrix8d::Identity()};
     const VisualInput visual{frameTime(0), translation(1), 1e-6 * Matrix8d::Identity(), 100, outliers};
     return fusion.step(frameTime(1), inertial, visual).H_step(0, 2);
   };
   // Equal covariances meet in the middle; with as many outliers as inliers vision has half the weight.
-  EXPECT_NEAR(shareOfVision(0), 1.0 / 2, 1e-6);
-  EXPECT_NEAR(shareOfVision(100), 1.0 / 3, 1e-6);
-  EXPECT_NEAR(shareOfVision(300), 1.0 / 5, 1e-6);
+  EXPECT_NEAR(fractionOfVision(0), 1.0 / 2, 1e-6);
+  EXPECT_NEAR(fractionOfVision(100), 1.0 / 3, 1e-6);
+  EXPECT_NEAR(fractionOfVision(300), 1.0 / 5, 1e-6);
 }
 
 TEST(HomographyFusion, PaperPresetGivesThePapersGainInPixels) {

@@ -1,5 +1,5 @@
 // An EuRoC folder with any tables: imported, or refused. Input: cam0's data.csv, imu0's, altimeter0's, cam0's
-// sensor.yaml and imu0's, cut by lines of "%%". The one picture there is is good.
+// sensor.yaml and imu0's, cut by lines of "%%". The one image there is is good.
 #include <opencv2/imgcodecs.hpp>
 
 #include "redbee/files/input_error.hpp"
@@ -9,7 +9,7 @@
 namespace redbee {
 namespace {
 
-void writePicture(const fuzz::Folder& folder) {
+void writeImage(const fuzz::Folder& folder) {
   const std::string name = "mav0/cam0/data/0.png";
   folder.write(name, "");
   cv::imwrite((folder / name).string(), cv::Mat(8, 8, CV_8U, cv::Scalar(90)));
@@ -21,7 +21,7 @@ void writePicture(const fuzz::Folder& folder) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace redbee;  // NOLINT: a target is one function
   static const fuzz::Folder folder;
-  static const bool has_picture = (writePicture(folder), true);
+  static const bool has_image = (writeImage(folder), true);
   const char* const names[] = {"mav0/cam0/data.csv", "mav0/imu0/data.csv", "mav0/altimeter0/data.csv",
                                "mav0/cam0/sensor.yaml", "mav0/imu0/sensor.yaml"};
   const auto contents = fuzz::parts(data, size, std::size(names));
@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     std::filesystem::remove(folder / names[i]);
     if (!contents[i].empty()) folder.write(names[i], contents[i]);
   }
-  if (!has_picture) return 0;
+  if (!has_image) return 0;
   AslImportOptions options;
   options.folder = folder / "mav0";
   options.log = folder / "flight.lcm";

@@ -1,10 +1,10 @@
-// Every message type: bytes that decode encode to the same bytes, and pictures decode or do not.
+// Every message type: bytes that decode encode to the same bytes, and images decode or do not.
 // Input: one byte that picks the type, then what follows the type's hash.
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/codec.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
+#include "redbee/filter_snapshot_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
-#include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 
@@ -43,10 +43,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   ++data;
   --size;
   if (type == 0) {
-    image_t picture;
-    if (roundTrip(data, size, picture) && picture.width <= 256 && picture.height <= 256) {
-      decodeGrey(picture);
-      decodeColour(picture);
+    image_t image;
+    if (roundTrip(data, size, image) && image.width <= 256 && image.height <= 256) {
+      decodeGrey(image);
+      decodeColour(image);
     }
   }
   if (type == 1) roundTrip<ins_t>(data, size);
@@ -57,6 +57,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (type == 6) roundTrip<foreground_t>(data, size);
   if (type == 7) roundTrip<detections_t>(data, size);
   if (type == 8) roundTrip<process_health_t>(data, size);
-  if (type == 9) roundTrip<inertial_state_t>(data, size);
+  if (type == 9) roundTrip<filter_snapshot_t>(data, size);
   return 0;
 }

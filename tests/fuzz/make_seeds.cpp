@@ -9,7 +9,7 @@
 #include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/codec.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/foreground_t.hpp"
@@ -62,8 +62,8 @@ std::vector<Event> inputs() {
   }
   for (int k = 0; k < simulator.scenario().frames; ++k) {
     const auto frame = simulator.frame(k);
-    const image_t m = k == 3 ? jpegMessage(frame.utime, frame.picture.grey, 80)
-                             : rawGreyMessage(frame.utime, frame.picture.grey);
+    const image_t m = k == 3 ? jpegMessage(frame.utime, frame.image.grey, 80)
+                             : rawGreyMessage(frame.utime, frame.image.grey);
     events.push_back({m.utime, 0, "CAMERA", encodeMessage(m)});
   }
   std::stable_sort(events.begin(), events.end(),
@@ -76,7 +76,7 @@ std::vector<Event> outputs(const std::vector<Event>& events) {
   const auto bus = makeLcmBus("memq://");
   std::vector<Event> said;
   const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY", "FOREGROUND",
-                               "DETECTIONS",          "PROCESS_HEALTH",    "INERTIAL_STATE"};
+                               "DETECTIONS",          "PROCESS_HEALTH",    "FILTER_SNAPSHOT"};
   for (size_t i = 0; i < std::size(names); ++i) {
     bus->subscribe(names[i], 64, [&said, i, &names](const uint8_t* data, int size) {
       said.push_back({0, static_cast<uint8_t>(3 + i), names[i], Bytes(data, data + size)});
@@ -94,14 +94,14 @@ std::vector<Event> outputs(const std::vector<Event>& events) {
 
 /// What a neighbour says to an inertial process at the flight's first frame.
 Event keptState(const std::vector<Event>& flight) {
-  constexpr uint8_t kKeptState = 7;
-  InertialKnowledge known;
+  constexpr uint8_t kWarmStart = 7;
+  FilterSnapshot known;
   known.utime =
       std::find_if(flight.begin(), flight.end(), [](const Event& e) { return e.name == "CAMERA"; })->utime;
   known.height_m = 5;
   known.height_sigma_m = 0.1;
   known.R_CI = smallVehicle().inertial.extrinsics.R_CI;
-  return {known.utime, kKeptState, "KEPT_STATE",
+  return {known.utime, kWarmStart, "WARM_START",
           encodeMessage(messageOf(known, configurationHash(smallVehicle())))};
 }
 
@@ -130,7 +130,7 @@ void writeMessageSeeds(const fs::path& folder, const std::vector<Event>& flight,
     appendRecord(begun, event);
   }
   appendRecord(begun, keptState(flight));
-  write(folder / "messages" / "kept_state", begun);
+  write(folder / "messages" / "warm_start", begun);
   std::map<uint8_t, Event> one_of_each;
   for (const auto* events : {&flight, &said}) {
     for (const Event& event : *events) one_of_each.insert_or_assign(event.channel, event);

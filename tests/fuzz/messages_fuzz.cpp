@@ -7,10 +7,10 @@
 
 #include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
+#include "redbee/filter_snapshot_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
-#include "redbee/inertial_state_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/visual_homography_t.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
@@ -31,8 +31,8 @@ Target targetOf(const Channels& channels, uint8_t pick) {
                             {channels.inertial_homography, inertial_homography_t::getHash()},
                             {channels.visual_homography, visual_homography_t::getHash()},
                             {channels.fused_homography, fused_homography_t::getHash()},
-                            {channels.inertial_state, inertial_state_t::getHash()},
-                            {channels.kept_state, inertial_state_t::getHash()}};
+                            {channels.filter_snapshot, filter_snapshot_t::getHash()},
+                            {channels.warm_start, filter_snapshot_t::getHash()}};
   return targets[pick % std::size(targets)];
 }
 

@@ -64,7 +64,7 @@ TEST(Rotation, NearestRotationUndoesANonRigidDisturbance) {
   EXPECT_FALSE(isRotation(-R));
 }
 
-TEST(Camera, UndistortInvertsDistortOverThePicture) {
+TEST(Camera, UndistortInvertsDistortOverTheImage) {
   // EuRoC's camera, whose distortion moves the corners by more than 100 px.
   const Camera camera({752,
                        480,

@@ -44,7 +44,7 @@ TEST(FillHoles, AGapIsClosedUpToItsWidth) {
   EXPECT_NEAR(fillHoles(map, 4).at<float>(22, 35), 0.7, 1e-6);
 }
 
-TEST(FillHoles, WhatIsOpenTowardsThePicturesBorderIsNoHole) {
+TEST(FillHoles, WhatIsOpenTowardsTheImagesBorderIsNoHole) {
   cv::Mat map = empty();
   map(cv::Rect(0, 10, 30, 2)).setTo(0.7);
   map(cv::Rect(28, 10, 2, 24)).setTo(0.7);
@@ -74,7 +74,7 @@ TEST(FillHoles, NothingFallsAndTheInputStays) {
   EXPECT_LE(most, 1);
 }
 
-TEST(FillHoles, APictureOfOnePixelAndAnEmptyMapStayAsTheyAre) {
+TEST(FillHoles, AImageOfOnePixelAndAnEmptyMapStayAsTheyAre) {
   const cv::Mat one(1, 1, CV_32F, cv::Scalar(0.5));
   EXPECT_EQ(largestDifference(fillHoles(one, 7), one), 0);
   EXPECT_EQ(largestDifference(fillHoles(empty(), 7), empty()), 0);

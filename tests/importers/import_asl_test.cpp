@@ -3,7 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "redbee/altimeter_t.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "tests/support/scratch.hpp"
@@ -25,7 +25,7 @@ class ImportAslTest : public ::testing::Test {
       list += std::to_string(kStart + k * 50'000'000LL + 600) + "," + name + "\n";
       fs::create_directories(mav() / "cam0" / "data");
       cv::imwrite((mav() / "cam0" / "data" / name).string(), texture(64, 48, k, 3));
-      pictures_.push_back(mav() / "cam0" / "data" / name);
+      images_.push_back(mav() / "cam0" / "data" / name);
     }
     std::string imu = "#timestamp [ns],w,w,w,a,a,a\n";
     for (int k = -10; k < 50; ++k) {
@@ -80,7 +80,7 @@ class ImportAslTest : public ::testing::Test {
   }
 
   ScratchFolder folder_;
-  std::vector<fs::path> pictures_;
+  std::vector<fs::path> images_;
 };
 
 TEST_F(ImportAslTest, AWholeFlightBecomesALogInTheOrderOfTime) {
@@ -99,7 +99,7 @@ TEST_F(ImportAslTest, AWholeFlightBecomesALogInTheOrderOfTime) {
   // 600 ns past the microsecond: rounded up, not cut off.
   EXPECT_EQ(frames[0].utime, kStart / 1000 + 1);
   EXPECT_EQ(frames[0].pixelformat, kMjpeg);
-  const std::string original = readText(pictures_[0]);
+  const std::string original = readText(images_[0]);
   EXPECT_EQ(std::string(frames[0].data.begin(), frames[0].data.end()), original)
       << "the JPEG's bytes were touched";
   const auto imu = messagesOn<ins_t>(events, "IMU");
@@ -147,10 +147,10 @@ TEST_F(ImportAslTest, WithoutImuAndAltimeterThereIsVisionOnly) {
 }
 
 TEST_F(ImportAslTest, GreyPngsKeepEveryPixel) {
-  for (size_t k = 0; k < pictures_.size(); ++k) {
+  for (size_t k = 0; k < images_.size(); ++k) {
     const cv::Mat grey = texture(64, 48, static_cast<int>(k), 1);
-    cv::imwrite(pictures_[k].string() + ".png", grey);
-    fs::rename(pictures_[k].string() + ".png", pictures_[k]);
+    cv::imwrite(images_[k].string() + ".png", grey);
+    fs::rename(images_[k].string() + ".png", images_[k]);
   }
   import();
   const auto frames = messagesOn<image_t>(readEvents(log()), "CAMERA");
@@ -180,21 +180,21 @@ TEST_F(ImportAslTest, BadInputIsToldWithFileAndLine) {
   const auto copyOf = [](const fs::path& file) { return readText(file); };
   const std::string good_list = copyOf(list);
   const std::string good_imu = copyOf(imu);
-  const std::string good_picture = copyOf(pictures_[3]);
+  const std::string good_image = copyOf(images_[3]);
   const std::string good_sensor = copyOf(mav() / "cam0" / "sensor.yaml");
   const std::vector<Case> cases = {
       {"no list", [&] { fs::remove(list); }, "cam0/data.csv: ", "no such file"},
-      {"no pictures listed", [&] { writeText(list, "#timestamp,filename\n"); },
-       "cam0/data.csv: ", "lists no pictures"},
-      {"a picture is missing", [&] { fs::remove(pictures_[3]); }, "cam0/data.csv:5: ", "is missing"},
-      {"truncated JPEG", [&] { fs::resize_file(pictures_[3], good_picture.size() / 2); },
-       pictures_[3].string(), "cut short"},
-      {"JPEG header only", [&] { fs::resize_file(pictures_[3], 20); }, pictures_[3].string(), "header"},
-      {"no picture at all", [&] { writeText(pictures_[3], "hello"); }, pictures_[3].string(),
+      {"no images listed", [&] { writeText(list, "#timestamp,filename\n"); },
+       "cam0/data.csv: ", "lists no images"},
+      {"a image is missing", [&] { fs::remove(images_[3]); }, "cam0/data.csv:5: ", "is missing"},
+      {"truncated JPEG", [&] { fs::resize_file(images_[3], good_image.size() / 2); }, images_[3].string(),
+       "cut short"},
+      {"JPEG header only", [&] { fs::resize_file(images_[3], 20); }, images_[3].string(), "header"},
+      {"no image at all", [&] { writeText(images_[3], "hello"); }, images_[3].string(),
        "neither JPEG nor PNG"},
-      {"empty picture", [&] { writeText(pictures_[3], ""); }, pictures_[3].string(), "is an empty file"},
-      {"mixed resolutions", [&] { cv::imwrite(pictures_[3].string(), texture(32, 48, 0, 3)); },
-       pictures_[3].string(), "32x48"},
+      {"empty image", [&] { writeText(images_[3], ""); }, images_[3].string(), "is an empty file"},
+      {"mixed resolutions", [&] { cv::imwrite(images_[3].string(), texture(32, 48, 0, 3)); },
+       images_[3].string(), "32x48"},
       {"frames run backwards", [&] { replaceLine(list, 4, std::to_string(kStart) + ",a.jpg"); },
        "cam0/data.csv:4: ", "backwards"},
       {"frames repeat", [&] { replaceLine(list, 4, lineOf(list, 3)); }, "cam0/data.csv:4: ", "repeats"},
@@ -232,7 +232,7 @@ TEST_F(ImportAslTest, BadInputIsToldWithFileAndLine) {
     EXPECT_NE(line.find(bad.words), std::string::npos) << bad.what << ": " << line;
     writeText(list, good_list);
     writeText(imu, good_imu);
-    writeText(pictures_[3], good_picture);
+    writeText(images_[3], good_image);
     writeText(mav() / "cam0" / "sensor.yaml", good_sensor);
   }
   EXPECT_EQ(import().frames, 5) << "the damage was not mended between the cases";

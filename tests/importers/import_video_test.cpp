@@ -1,6 +1,6 @@
 #include "redbee/importers/import_video.hpp"
 
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/importers/video_reader.hpp"
@@ -56,7 +56,7 @@ TEST_F(ImportVideoTest, FramesKeepTheirTimesAndLooks) {
     ASSERT_TRUE(grey);
     worst = std::max(worst, cv::norm(*grey, texture(96, 64, k, 1), cv::NORM_L1) / (96 * 64));
   }
-  std::cout << "mean difference to the encoded pictures, worst frame: " << worst << " grey levels\n";
+  std::cout << "mean difference to the encoded images, worst frame: " << worst << " grey levels\n";
   EXPECT_LT(worst, 8);
 }
 
@@ -144,8 +144,8 @@ TEST_F(ImportVideoTest, WhatIsNoVideoIsRefused) {
   EXPECT_NE(complaint().find("v.mp4: no such file"), std::string::npos);
 }
 
-TEST_F(ImportVideoTest, AFolderOfPicturesIsAVideoToo) {
-  options_.video = folder_ / "pictures";
+TEST_F(ImportVideoTest, AFolderOfImagesIsAVideoToo) {
+  options_.video = folder_ / "images";
   fs::create_directories(options_.video);
   EXPECT_NE(complaintOf([&] {
               options_.fps = 10;

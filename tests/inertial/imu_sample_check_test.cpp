@@ -122,7 +122,7 @@ TEST(ImuSampleCheck, RemembersABoundedNumber) {
   const std::vector<ImuSample> flight = gentleFlight(100);
   for (int round = 0; round < 200; ++round) believed(check, flight);
   EXPECT_LE(refused(check), 8192);
-  check.forgetBefore(10'000'000'000);
+  check.eraseBefore(10'000'000'000);
   EXPECT_EQ(refused(check), 0);
 }
 

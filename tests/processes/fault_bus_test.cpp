@@ -55,8 +55,8 @@ TEST(BusFault, RandomBytesOnEveryChannel) {
   for (const Arrival& arrival : flight.arrivals) {
     with_rubbish.push_back(arrival);
     if (!isDisturbed(flight, arrival.utime) || arrival.channel != "CAMERA") continue;
-    for (const std::string& channel : {c.camera, c.imu, c.altimeter, c.inertial_homography, c.inertial_state,
-                                       c.kept_state, c.visual_homography, c.fused_homography}) {
+    for (const std::string& channel : {c.camera, c.imu, c.altimeter, c.inertial_homography, c.filter_snapshot,
+                                       c.warm_start, c.visual_homography, c.fused_homography}) {
       std::vector<uint8_t> rubbish(std::uniform_int_distribution<size_t>(0, 2000)(random));
       for (uint8_t& byte : rubbish) byte = static_cast<uint8_t>(random());
       with_rubbish.push_back({arrival.utime, channel, rubbish});
@@ -210,7 +210,7 @@ TEST(BusFault, AFloodIsSkippedNotKept) {
       }
       grown = allocatedBytes() - before;
     });
-    // 20000 pictures are 1.5 GB; what a queue of frames and the bus itself may hold is far below.
+    // 20000 images are 1.5 GB; what a queue of frames and the bus itself may hold is far below.
     EXPECT_LT(grown, int64_t{32} << 20) << channel << ": the backlog must be bounded";
     std::printf("20000 messages on %s cost %.1f MB\n", channel.c_str(), static_cast<double>(grown) / 1e6);
     expectRecovery("20000 messages on " + channel, said, flight, 24);

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "tests/processes/fault_trial.hpp"
 
 namespace redbee::test {
@@ -27,7 +27,7 @@ int complaints(const Said& said, const Flight& flight) {
 Flight withChangedImu(const std::function<void(ins_t&)>& change) {
   return withChanged<ins_t>(calmFlight(), "IMU", change);
 }
-Flight withChangedPictures(const std::function<void(cv::Mat&)>& change) {
+Flight withChangedImages(const std::function<void(cv::Mat&)>& change) {
   return withChanged<image_t>(calmFlight(), "CAMERA", [&](image_t& m) {
     cv::Mat grey = decodeGrey(m).value();
     change(grey);
@@ -123,7 +123,7 @@ TEST(SensorFault, AltimeterWrong) {
 
 TEST(SensorFault, CameraFrozen) {
   std::optional<cv::Mat> held;
-  const Flight flight = withChangedPictures([&](cv::Mat& grey) {
+  const Flight flight = withChangedImages([&](cv::Mat& grey) {
     if (!held) held = grey.clone();
     grey = held->clone();
   });
@@ -131,23 +131,23 @@ TEST(SensorFault, CameraFrozen) {
 }
 
 TEST(SensorFault, ExposureJump) {
-  const Flight flight = withChangedPictures([](cv::Mat& grey) { grey.convertTo(grey, CV_8U, 1.8, 20); });
+  const Flight flight = withChangedImages([](cv::Mat& grey) { grey.convertTo(grey, CV_8U, 1.8, 20); });
   // The background is learned anew twice, when it grows bright and when it grows dark again: two seconds.
   expectRecovery("exposure 1.8 times as long", run(flight), flight, 48);
 }
 
 TEST(SensorFault, BlackFrames) {
-  const Flight flight = withChangedPictures([](cv::Mat& grey) { grey.setTo(0); });
+  const Flight flight = withChangedImages([](cv::Mat& grey) { grey.setTo(0); });
   const Said said = run(flight);
   const Damage damage = expectRecovery("black frames", said, flight, 30);
-  EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "a black picture has no trusted mask";
+  EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "a black image has no trusted mask";
 }
 
-TEST(SensorFault, NoiseInsteadOfPictures) {
+TEST(SensorFault, NoiseInsteadOfImages) {
   cv::RNG random(5);
   const Flight flight =
-      withChangedPictures([&](cv::Mat& grey) { random.fill(grey, cv::RNG::UNIFORM, 0, 255); });
-  const Damage damage = expectRecovery("noise instead of pictures", run(flight), flight, 30);
+      withChangedImages([&](cv::Mat& grey) { random.fill(grey, cv::RNG::UNIFORM, 0, 255); });
+  const Damage damage = expectRecovery("noise instead of images", run(flight), flight, 30);
   EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "noise has no trusted mask";
 }
 
@@ -158,7 +158,7 @@ TEST(SensorFault, CutShortJpegs) {
     m.size = static_cast<int32_t>(m.data.size());
   });
   const Damage damage = expectRecovery("JPEGs cut short", run(flight), flight, 30);
-  EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "two thirds of each picture were never there";
+  EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "two thirds of each image were never there";
 }
 
 }  // namespace

@@ -71,11 +71,11 @@ inline bool saysTheSame(const Said& said, const Said& expected, int64_t utime) {
 
 /// What a disturbance did.
 struct Damage {
-  int frames_to_recovery = 0;    ///< after the disturbance's last frame, until all that follow say the same
-  double worst_px = 0;           ///< homography against the truth, of disturbed frames that have one
-  int without_homography = 0;    ///< disturbed frames
-  int without_mask = 0;          ///< disturbed frames without a trusted mask
-  double worst_false_share = 0;  ///< of the picture, in masks that are called good
+  int frames_to_recovery = 0;  ///< after the disturbance's last frame, until all that follow say the same
+  double worst_px = 0;         ///< homography against the truth, of disturbed frames that have one
+  int without_homography = 0;  ///< disturbed frames
+  int without_mask = 0;        ///< disturbed frames without a trusted mask
+  double worst_false_fraction = 0;  ///< of the image, in masks that are called good
 };
 
 inline Damage assess(const Said& said, const Flight& flight) {
@@ -88,8 +88,8 @@ inline Damage assess(const Said& said, const Flight& flight) {
     const bool trusted = foreground != said.foreground.end() && foreground->second.status == 0;
     if (trusted) {
       const cv::Mat wrong = maskOf(foreground->second) & (flight.masks[static_cast<size_t>(k)] == 0);
-      damage.worst_false_share =
-          std::max(damage.worst_false_share,
+      damage.worst_false_fraction =
+          std::max(damage.worst_false_fraction,
                    cv::countNonZero(wrong) / static_cast<double>(kFaultWidth * kFaultHeight));
     }
     if (k >= kFaultEnd && !saysTheSame(said, calmAnswer(), utime))
@@ -111,15 +111,15 @@ inline Damage assess(const Said& said, const Flight& flight) {
 /// Tells the figures, and holds the stack to them: recovered within `within_frames`, and never a wild mask
 /// that is called good.
 inline Damage expectRecovery(const std::string& fault, const Said& said, const Flight& flight,
-                             int within_frames, double most_false_share = 0.04) {
+                             int within_frames, double most_false_fraction = 0.04) {
   const Damage damage = assess(said, flight);
   std::printf(
       "%-34s recovered after %2d frames; of %d disturbed: %2d without homography, worst %.2f px, %2d without "
       "mask; false at most %.2f %%\n",
       fault.c_str(), damage.frames_to_recovery, kFaultEnd - kFaultBegin, damage.without_homography,
-      damage.worst_px, damage.without_mask, 100 * damage.worst_false_share);
+      damage.worst_px, damage.without_mask, 100 * damage.worst_false_fraction);
   EXPECT_LE(damage.frames_to_recovery, within_frames) << fault;
-  EXPECT_LT(damage.worst_false_share, most_false_share) << fault << ": a wrong mask was called good";
+  EXPECT_LT(damage.worst_false_fraction, most_false_fraction) << fault << ": a wrong mask was called good";
   return damage;
 }
 

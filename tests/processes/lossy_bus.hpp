@@ -23,7 +23,7 @@ struct PacketFaults {
 
 /// Decorates a bus. A message is lost when any of its datagrams is: LCM cuts a message into pieces of
 /// kDatagramBytes (lcm/udpm_util.h of 1.3.1, LCM_FRAGMENT_MAX_PAYLOAD) and delivers whole ones only, so that
-/// pictures suffer more than the rest. A reordered message is overtaken by up to kMaxOvertaking later ones,
+/// images suffer more than the rest. A reordered message is overtaken by up to kMaxOvertaking later ones,
 /// about two frames' worth. The same seed does the same.
 class LossyBus : public Bus {
  public:

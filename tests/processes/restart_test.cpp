@@ -84,7 +84,7 @@ int untrusted(const Said& said, int from, int to) {
   return count;
 }
 
-/// No mask that is called good is wilder than a few percent of the picture.
+/// No mask that is called good is wilder than a few percent of the image.
 void expectNoWrongMask(const Said& said) {
   for (int k = 0; k < kFrames; ++k) {
     if (!isGood(said, k)) continue;
@@ -156,21 +156,21 @@ TEST(ProcessesStart, WithoutVisionNoWrongMaskIsCalledGood) {
 
 TEST(RestartedTracker, GivesNoIdentityTwice) {
   const testing::ScratchFolder folder;
-  KeptIdentities first(folder.path() / "identities");
+  TrackIdStore first(folder.path() / "identities");
   EXPECT_EQ(first.told(1), 1);
   EXPECT_EQ(first.told(7), 7);
   EXPECT_EQ(first.told(3), 3);
-  KeptIdentities second(folder.path() / "identities");
+  TrackIdStore second(folder.path() / "identities");
   EXPECT_EQ(second.told(1), 8);
-  KeptIdentities third(folder.path() / "identities");
+  TrackIdStore third(folder.path() / "identities");
   EXPECT_EQ(third.told(2), 10);
 }
 
 TEST(RestartedTracker, WhatCannotBeReadOrWrittenEndsNoFlight) {
   const testing::ScratchFolder folder;
   std::ofstream(folder.path() / "identities") << "seven";
-  EXPECT_EQ(KeptIdentities(folder.path() / "identities").told(1), 1);
-  KeptIdentities nowhere(folder.path() / "no such folder" / "identities");
+  EXPECT_EQ(TrackIdStore(folder.path() / "identities").told(1), 1);
+  TrackIdStore nowhere(folder.path() / "no such folder" / "identities");
   EXPECT_EQ(nowhere.told(1), 1);
   EXPECT_EQ(nowhere.told(2), 2);
 }

@@ -10,7 +10,7 @@
 
 #include "processes/in_process_stack.hpp"
 #include "redbee/altimeter_t.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
@@ -65,10 +65,10 @@ inline Flight fly(simulation::Scenario scenario, int frames) {
   }
   for (int k = 0; k < frames; ++k) {
     const auto frame = simulator.frame(k);
-    flight.arrivals.push_back(arrivalOf(rawGreyMessage(frame.utime, frame.picture.grey)));
+    flight.arrivals.push_back(arrivalOf(rawGreyMessage(frame.utime, frame.image.grey)));
     flight.frame_utimes.push_back(frame.utime);
     flight.homographies.push_back(simulator.homography(k));
-    flight.masks.push_back(frame.picture.mask);
+    flight.masks.push_back(frame.image.mask);
   }
   std::stable_sort(flight.arrivals.begin(), flight.arrivals.end(),
                    [](const Arrival& a, const Arrival& b) { return a.utime < b.utime; });

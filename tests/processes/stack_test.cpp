@@ -74,7 +74,7 @@ int falsePixels(const Said& said, const Flight& flight, int k) {
   return cv::countNonZero(mask & (truth == 0));
 }
 
-/// No mask of a frame that is called good is wilder than a few percent of the picture.
+/// No mask of a frame that is called good is wilder than a few percent of the image.
 void expectNoWrongMaskCalledGood(const Said& said, const Flight& flight) {
   for (int k = 0; k < static_cast<int>(flight.frame_utimes.size()); ++k) {
     if (status(said, flight, k) != 0) continue;
@@ -203,7 +203,7 @@ TEST(Stack, AClockThatIsSetBackStartsAnew) {
   expectRecovered(said, flight, 50);
 }
 
-TEST(Stack, PicturesOfAnotherSizeAreRefusedAndRecoveredFrom) {
+TEST(Stack, ImagesOfAnotherSizeAreRefusedAndRecoveredFrom) {
   Flight flight = undisturbed();
   for (int k = 30; k < 33; ++k) {
     Arrival& arrival = flight.arrivals[positionOf(flight, k)];

@@ -5,7 +5,7 @@
 
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/bus.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "tests/restarts/looped_flight.hpp"
@@ -34,7 +34,7 @@ class LivePlayer {
       bus_.publish("ALTIMETER", altimeter_t{sample.utime, sample.height_m, sample.sigma_m});
     }
     for (; flight_.utime(frame_) <= until; ++frame_) {
-      bus_.publish("CAMERA", rawGreyMessage(flight_.utime(frame_), flight_.picture(frame_)));
+      bus_.publish("CAMERA", rawGreyMessage(flight_.utime(frame_), flight_.image(frame_)));
     }
   }
 

@@ -1,5 +1,5 @@
-// A flight without end from a few seconds of pictures: trajectory and traffic repeat themselves smoothly, so
-// that picture k follows picture k - 1 for ever and the truth about every frame is known.
+// A flight without end from a few seconds of images: trajectory and traffic repeat themselves smoothly, so
+// that image k follows image k - 1 for ever and the truth about every frame is known.
 #pragma once
 
 #include <cmath>
@@ -72,11 +72,11 @@ struct FrameTruth {
 class LoopedFlight {
  public:
   LoopedFlight() : simulator_(loopedScenario()) {
-    for (int k = 0; k < kLoopFrames; ++k) pictures_.push_back(simulator_.frame(k).picture);
+    for (int k = 0; k < kLoopFrames; ++k) images_.push_back(simulator_.frame(k).image);
   }
 
   const simulation::Scenario& scenario() const { return simulator_.scenario(); }
-  const cv::Mat& picture(int64_t k) const { return at(k).grey; }
+  const cv::Mat& image(int64_t k) const { return at(k).grey; }
   int64_t utime(int64_t k) const { return scenario().start_utime + k * 1000000 / kFps; }
   int64_t frameAt(int64_t utime) const {
     return ((utime - scenario().start_utime) * kFps + 500000) / 1000000;
@@ -98,12 +98,12 @@ class LoopedFlight {
   }
 
  private:
-  const simulation::RenderedPicture& at(int64_t k) const {
-    return pictures_[static_cast<size_t>(k % kLoopFrames)];
+  const simulation::RenderedImage& at(int64_t k) const {
+    return images_[static_cast<size_t>(k % kLoopFrames)];
   }
 
   simulation::FlightSimulator simulator_;
-  std::vector<simulation::RenderedPicture> pictures_;
+  std::vector<simulation::RenderedImage> images_;
 };
 
 }  // namespace redbee::test

@@ -22,7 +22,7 @@ constexpr const char* kTracker = "redbee-motion-segmentation";
 constexpr double kSettling_s = 3;
 constexpr double kLongestPause_s = 30;
 constexpr int kSettledFrames = 30;
-constexpr double kWildShare = 1.0 / 25;  ///< no trusted mask may be more wrong than this
+constexpr double kWildFraction = 1.0 / 25;  ///< no trusted mask may be more wrong than this
 
 std::string vehicleYaml() {
   const simulation::Scenario scenario = loopedScenario();
@@ -221,11 +221,11 @@ class Trial {
     std::vector<double> found;
     for (const auto& [utime, told] : witness_.frames()) {
       if (told.status != 0) continue;
-      shares.push_back(told.false_share);
-      found.push_back(told.found_share);
-      if (told.false_share <= kWildShare) continue;
+      shares.push_back(told.false_fraction);
+      found.push_back(told.found_fraction);
+      if (told.false_fraction <= kWildFraction) continue;
       ++wild;
-      std::printf("wild: %.1f %% false, %s\n", 100 * told.false_share, since(utime).c_str());
+      std::printf("wild: %.1f %% false, %s\n", 100 * told.false_fraction, since(utime).c_str());
     }
     std::printf("%zu trusted masks: false area median %.2f %%, worst %.2f %%; movers found, median %.0f %%\n",
                 shares.size(), 100 * at(shares, 0.5), 100 * at(shares, 1), 100 * at(found, 0.5));

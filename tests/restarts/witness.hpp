@@ -25,8 +25,8 @@ using Identities = std::map<int, std::set<int>>;
 struct Told {
   std::chrono::steady_clock::time_point when;
   int8_t status = -1;
-  double false_share = 0;  ///< of the picture: called moving, background in truth
-  double found_share = 0;  ///< of the movers' pixels
+  double false_fraction = 0;  ///< of the image: called moving, background in truth
+  double found_fraction = 0;  ///< of the movers' pixels
   Identities ids_of_car;
 };
 
@@ -76,8 +76,8 @@ class Witness {
     const cv::Mat mask = cv::imdecode(m.mask, cv::IMREAD_GRAYSCALE);
     const cv::Mat truth = flight_.truth(flight_.frameAt(m.utime)).moving;
     if (mask.size() != truth.size()) return;
-    told.false_share = cv::countNonZero(mask & (truth == 0)) / static_cast<double>(mask.total());
-    told.found_share =
+    told.false_fraction = cv::countNonZero(mask & (truth == 0)) / static_cast<double>(mask.total());
+    told.found_fraction =
         cv::countNonZero(mask & truth) / std::max(1.0, static_cast<double>(cv::countNonZero(truth)));
   }
 

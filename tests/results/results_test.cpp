@@ -80,13 +80,13 @@ TEST(ResultsTest, JsonAndPngReadBack) {
 }
 
 TEST(OverlayTest, ShowsMaskAndBoxesAndLeavesTheRest) {
-  const cv::Mat picture(120, 200, CV_8UC1, cv::Scalar(100));
-  cv::Mat mask = cv::Mat::zeros(picture.size(), CV_8UC1);
+  const cv::Mat image(120, 200, CV_8UC1, cv::Scalar(100));
+  cv::Mat mask = cv::Mat::zeros(image.size(), CV_8UC1);
   cv::rectangle(mask, {60, 60, 20, 20}, cv::Scalar(255), cv::FILLED);
   Detection detection;
   detection.id = 3;
   detection.box = {55, 55, 30, 30};
-  const cv::Mat overlay = drawOverlay(picture, mask, {detection}, {1'500'000, 24, "fused", 2, ""});
+  const cv::Mat overlay = drawOverlay(image, mask, {detection}, {1'500'000, 24, "fused", 2, ""});
   ASSERT_EQ(overlay.type(), CV_8UC3);
   EXPECT_EQ(overlay.at<cv::Vec3b>(100, 150), cv::Vec3b(100, 100, 100));
   const auto& inside = overlay.at<cv::Vec3b>(70, 70);
@@ -95,7 +95,7 @@ TEST(OverlayTest, ShowsMaskAndBoxesAndLeavesTheRest) {
   EXPECT_GT(cv::norm(overlay.rowRange(0, 25), cv::Mat(25, 200, CV_8UC3, cv::Scalar::all(100)), cv::NORM_INF),
             50)
       << "the status";
-  EXPECT_EQ(cv::norm(picture, cv::Mat(120, 200, CV_8UC1, cv::Scalar(100)), cv::NORM_INF), 0)
+  EXPECT_EQ(cv::norm(image, cv::Mat(120, 200, CV_8UC1, cv::Scalar(100)), cv::NORM_INF), 0)
       << "the input is untouched";
 }
 

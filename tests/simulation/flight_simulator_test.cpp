@@ -42,12 +42,12 @@ Eigen::Matrix3d shifted(const Eigen::Matrix3d& H, double dx, double dy) {
 
 void expectExact(const FlightSimulator& flight, int k, const Eigen::Matrix3d& H, int surface,
                  const char* name) {
-  const RenderedPicture before = flight.frame(k - 1).picture, after = flight.frame(k).picture;
+  const RenderedImage before = flight.frame(k - 1).image, after = flight.frame(k).image;
   const cv::Mat where = after.surface == surface;
   ASSERT_GT(cv::countNonZero(where), 10000);
   const double exact = residual(before.grey, after.grey, H, where);
   const double noise = flight.scenario().sensor.noise_sigma;
-  // White noise on both pictures; resampling can only lower its share.
+  // White noise on both images; resampling can only lower its share.
   const double noise_level = std::sqrt(2 / M_PI) * noise * std::sqrt(2.0);
   std::cout << name << ": exact " << exact << ", noise alone " << noise_level;
   for (const auto& [dx, dy] : {std::pair{0.5, 0.0}, {-0.5, 0.0}, {0.0, 0.5}, {0.0, -0.5}}) {
@@ -74,7 +74,7 @@ TEST(FlightSimulator, TheFacadeFollowsItsOwnHomography) {
 TEST(FlightSimulator, WithoutNoiseTheHomographyIsExactToATenthOfAPixel) {
   const FlightSimulator flight(noiseless(groundOnly(4)));
   const int k = 30;
-  const RenderedPicture before = flight.frame(k - 1).picture, after = flight.frame(k).picture;
+  const RenderedImage before = flight.frame(k - 1).image, after = flight.frame(k).image;
   const cv::Mat where = after.surface == kSurfaceGround;
   const double exact = residual(before.grey, after.grey, flight.homography(k), where);
   for (const auto& [dx, dy] : {std::pair{0.1, 0.0}, {-0.1, 0.0}, {0.0, 0.1}, {0.0, -0.1}}) {
@@ -82,12 +82,12 @@ TEST(FlightSimulator, WithoutNoiseTheHomographyIsExactToATenthOfAPixel) {
   }
 }
 
-TEST(FlightSimulator, DistortionMovesThePictureAsTheCameraModelSays) {
+TEST(FlightSimulator, DistortionMovesTheImageAsTheCameraModelSays) {
   Scenario scenario = noiseless(groundOnly(5));
-  const RenderedPicture ideal = FlightSimulator(scenario).frame(10).picture;
+  const RenderedImage ideal = FlightSimulator(scenario).frame(10).image;
   scenario.intrinsics.distortion = {-0.15, 0.04, 1e-3, -5e-4, 0};
   const FlightSimulator flight(scenario);
-  const RenderedPicture raw = flight.frame(10).picture;
+  const RenderedImage raw = flight.frame(10).image;
   cv::Mat_<cv::Vec2f> map(raw.grey.size());
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.cols; ++x) {
@@ -108,7 +108,7 @@ TEST(FlightSimulator, TheMaskIsWhereTheMoverProjects) {
   const Scenario scenario = twoPlanes(6);
   const FlightSimulator flight(scenario);
   const int k = 60;
-  const cv::Mat mask = flight.frame(k).picture.mask;
+  const cv::Mat mask = flight.frame(k).image.mask;
   const Patch& car = scenario.scene.patches[1];
   const CameraPose pose = flight.pose(k);
   const Eigen::Vector3d centre = car.centre + car.motion.displacementAt(flight.exposureTime(k));
@@ -134,9 +134,9 @@ TEST(FlightSimulator, TheMaskIsWhereTheMoverProjects) {
 TEST(FlightSimulator, AMoverThatStandsStillIsLabelledStopped) {
   const FlightSimulator flight(walkers(1));
   const auto labelOfFirst = [&flight](int k) {
-    const RenderedPicture picture = flight.frame(k).picture;
+    const RenderedImage image = flight.frame(k).image;
     double low = 0, high = 0;
-    cv::minMaxLoc(picture.mask, &low, &high, nullptr, nullptr, picture.id == 1);
+    cv::minMaxLoc(image.mask, &low, &high, nullptr, nullptr, image.id == 1);
     EXPECT_EQ(low, high);
     return high;
   };
@@ -148,7 +148,7 @@ TEST(FlightSimulator, AMoverThatStandsStillIsLabelledStopped) {
 TEST(FlightSimulator, WavesAreBackgroundAndDoNotFollowTheGround) {
   const auto pondResidual = [](const Scenario& scenario) {
     const FlightSimulator flight(scenario);
-    const RenderedPicture before = flight.frame(19).picture, after = flight.frame(20).picture;
+    const RenderedImage before = flight.frame(19).image, after = flight.frame(20).image;
     const cv::Mat pond = after.surface == 1 + static_cast<int>(kPondPatch);
     EXPECT_EQ(cv::countNonZero(after.mask & pond), 0);
     return residual(before.grey, after.grey, flight.frontHomography(20, kPondPatch), pond);
@@ -164,8 +164,8 @@ TEST(FlightSimulator, WavesAreBackgroundAndDoNotFollowTheGround) {
 TEST(FlightSimulator, TheSeedDecidesEverything) {
   const FlightSimulator first(twoPlanes(9)), second(twoPlanes(9)), other(twoPlanes(10));
   second.frame(3);
-  EXPECT_TRUE(same(first.frame(7).picture.grey, second.frame(7).picture.grey));
-  EXPECT_FALSE(same(first.frame(7).picture.grey, other.frame(7).picture.grey));
+  EXPECT_TRUE(same(first.frame(7).image.grey, second.frame(7).image.grey));
+  EXPECT_FALSE(same(first.frame(7).image.grey, other.frame(7).image.grey));
   EXPECT_EQ(first.imu()[50].gyro, second.imu()[50].gyro);
   EXPECT_EQ(first.altimeter()[5].height_m, second.altimeter()[5].height_m);
 }
@@ -174,10 +174,10 @@ TEST(FlightSimulator, NoiseIsThatOfTheSensor) {
   Scenario scenario = groundOnly(1);
   scenario.sensor.noise_sigma = 3;
   cv::Mat noisy, clean, mean, deviation;
-  FlightSimulator(scenario).frame(2).picture.grey.convertTo(noisy, CV_32F);
-  FlightSimulator(noiseless(scenario)).frame(2).picture.grey.convertTo(clean, CV_32F);
+  FlightSimulator(scenario).frame(2).image.grey.convertTo(noisy, CV_32F);
+  FlightSimulator(noiseless(scenario)).frame(2).image.grey.convertTo(clean, CV_32F);
   cv::meanStdDev(noisy - clean, mean, deviation, clean < 240);
-  // Both pictures are rounded to whole grey levels: a twelfth of a level squared each.
+  // Both images are rounded to whole grey levels: a twelfth of a level squared each.
   EXPECT_NEAR(deviation.at<double>(0), std::sqrt(9 + 2.0 / 12), 0.05);
   EXPECT_NEAR(mean.at<double>(0), 0, 0.05);
 }
@@ -185,10 +185,10 @@ TEST(FlightSimulator, NoiseIsThatOfTheSensor) {
 TEST(FlightSimulator, ColourHasTheSameGreyLevels) {
   Scenario scenario = noiseless(wavingWater(1));
   scenario.sensor.colour = true;
-  const RenderedPicture picture = FlightSimulator(scenario).frame(0).picture;
+  const RenderedImage image = FlightSimulator(scenario).frame(0).image;
   cv::Mat grey;
-  cv::cvtColor(picture.bgr, grey, cv::COLOR_BGR2GRAY);
-  cv::absdiff(grey, picture.grey, grey);
+  cv::cvtColor(image.bgr, grey, cv::COLOR_BGR2GRAY);
+  cv::absdiff(grey, image.grey, grey);
   EXPECT_LT(cv::mean(grey)[0], 1.5);
 }
 

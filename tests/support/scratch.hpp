@@ -94,17 +94,17 @@ inline bool isSortedByTime(const std::vector<LogEvent>& events) {
                         [](const LogEvent& a, const LogEvent& b) { return a.utime < b.utime; });
 }
 
-/// A textured picture that moves with `index`.
+/// A textured image that moves with `index`.
 inline cv::Mat texture(int width, int height, int index, int channels) {
-  cv::Mat picture(height, width, CV_8UC1);
+  cv::Mat image(height, width, CV_8UC1);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      picture.at<uint8_t>(y, x) =
+      image.at<uint8_t>(y, x) =
           static_cast<uint8_t>(128 + 60 * std::sin(0.3 * (x + 2 * index)) * std::cos(0.2 * y));
     }
   }
-  if (channels == 3) cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);
-  return picture;
+  if (channels == 3) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
+  return image;
 }
 
 /// Recorded flights outside the repository; nothing where there are none.

@@ -83,7 +83,7 @@ TEST(PointTracker, IsBlindToExposure) {
   EXPECT_GT(a.share, 0.9);
 }
 
-TEST(PointTracker, SurvivesRaggedPictures) {
+TEST(PointTracker, SurvivesRaggedImages) {
   PointTracker tracker({});
   EXPECT_THROW(tracker.advance(cv::Mat(), {}), std::invalid_argument);
   EXPECT_THROW(tracker.advance(cv::Mat(40, 40, CV_8UC3, cv::Scalar::all(0)), {}), std::invalid_argument);
@@ -121,7 +121,7 @@ TEST(PointTracker, FollowsLittleTextureMoreDensely) {
   EXPECT_NEAR(static_cast<double>(dense.sampled) / usual.sampled, 4, 0.4);
 }
 
-TEST(PointTracker, APartOfALargerPictureEndsAtItsOwnEdge) {
+TEST(PointTracker, APartOfALargerImageEndsAtItsOwnEdge) {
   const cv::Mat large = Canvas(5).view(Eigen::Matrix3d::Identity(), 1, 1);
   const cv::Mat part = large(cv::Rect(100, 60, 320, 240));
   PointTracker of_part({}), of_copy({});

@@ -1,4 +1,4 @@
-// Textured pictures moved by a known homography, and small helpers that the visual tests share.
+// Textured images moved by a known homography, and small helpers that the visual tests share.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +33,7 @@ inline Eigen::Matrix3d groundHomography(const Eigen::Vector3d& rate_deg_s, const
   return planeHomography(cameraMatrix(), groundMotion(rate_deg_s, velocity));
 }
 
-/// A band-limited random texture with a margin around the picture, so that a moved view has no empty parts.
+/// A band-limited random texture with a margin around the image, so that a moved view has no empty parts.
 class Canvas {
  public:
   static constexpr int kMargin = 120;
@@ -50,18 +50,18 @@ class Canvas {
     texture_ = texture_ * (contrast / std::sqrt(2.0)) + mean;
   }
 
-  /// The picture after motion by H (pixels of the unmoved view to those of this one), with white noise.
+  /// The image after motion by H (pixels of the unmoved view to those of this one), with white noise.
   cv::Mat view(const Eigen::Matrix3d& H, double noise_sigma, unsigned noise_seed) const {
     Eigen::Matrix3d to_canvas = Eigen::Matrix3d::Identity();
     to_canvas(0, 2) = to_canvas(1, 2) = kMargin;
     const Eigen::Matrix3d M = to_canvas * H.inverse();
     cv::Mat_<double> map(3, 3);
     for (int i = 0; i < 9; ++i) map(i / 3, i % 3) = M(i / 3, i % 3);
-    cv::Mat picture, noise(kHeight, kWidth, CV_32F), grey;
-    cv::warpPerspective(texture_, picture, map, {kWidth, kHeight}, cv::INTER_CUBIC | cv::WARP_INVERSE_MAP);
+    cv::Mat image, noise(kHeight, kWidth, CV_32F), grey;
+    cv::warpPerspective(texture_, image, map, {kWidth, kHeight}, cv::INTER_CUBIC | cv::WARP_INVERSE_MAP);
     cv::RNG rng(noise_seed);
     rng.fill(noise, cv::RNG::NORMAL, 0, noise_sigma);
-    cv::Mat(picture + noise).convertTo(grey, CV_8U);
+    cv::Mat(image + noise).convertTo(grey, CV_8U);
     return grey;
   }
 

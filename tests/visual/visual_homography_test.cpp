@@ -19,7 +19,7 @@ constexpr int64_t kFrame = 41667;  // us
 
 cv::Mat still(unsigned noise_seed) { return Canvas(8).view(Eigen::Matrix3d::Identity(), 1.5, noise_seed); }
 
-/// Covers a share of the picture, in scattered blocks, with a texture that moves by its own ways.
+/// Covers a share of the image, in scattered blocks, with a texture that moves by its own ways.
 void scatter(cv::Mat& before, cv::Mat& after, double share, unsigned seed) {
   constexpr int kBlock = 40;
   cv::RNG rng(seed);
@@ -38,7 +38,7 @@ void scatter(cv::Mat& before, cv::Mat& after, double share, unsigned seed) {
   }
 }
 
-TEST(VisualHomography, PicturesWith40PercentThatMoveOtherwise) {
+TEST(VisualHomography, ImagesWith40PercentThatMoveOtherwise) {
   double worst = 0;
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Canvas canvas(seed);
@@ -67,7 +67,7 @@ TEST(VisualHomography, SimulatedFlight) {
   constexpr int kFrames = 8;
   for (int k = 0; k <= kFrames; ++k) {
     const auto frame = flight.frame(k);
-    const VisualHomography found = estimator.step(frame.utime, frame.picture.grey, {});
+    const VisualHomography found = estimator.step(frame.utime, frame.image.grey, {});
     if (k == 0) continue;
     ASSERT_EQ(found.status, VisualStatus::kGood) << "frame " << k;
     sum += meanTransferError(found.ground->H, flight.homography(k), kWidth, kHeight) / kFrames;

@@ -17,7 +17,7 @@ class RowCarrier {
  public:
   RowCarrier(const BackgroundMaps& from, BackgroundMaps& to) : from_(from), to_(to) {}
 
-  /// Pixels begin to end of row y, which `back` takes into the earlier picture.
+  /// Pixels begin to end of row y, which `back` takes into the earlier image.
   void carry(const Eigen::Matrix3f& back, int y, int begin, int end) {
     constexpr int kKnot = 16;
     for (int x = begin; x < end; x += kKnot) {

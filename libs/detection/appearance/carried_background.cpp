@@ -15,9 +15,9 @@ namespace {
 constexpr int kColours = 3;
 constexpr float kFirstVariance = 400;  // of a pixel seen once: it may lie on an edge
 constexpr float kMostVariance = 1000;  // what passes by is not the background's variance
-constexpr int kTrusted = 3;            // pictures after which what moves is told from what is new
+constexpr int kTrusted = 3;            // images after which what moves is told from what is new
 constexpr double kVarianceSpan_s = 0.4;
-constexpr float kMovingShare = 0.05F;     // of the learning rate, where it moves for sure
+constexpr float kMovingFraction = 0.05F;  // of the learning rate, where it moves for sure
 constexpr float kSurelyMovedAway = 0.5F;  // then it is another surface that is learned, from the start
 
 using Pixel = Eigen::Map<Eigen::Array4f>;
@@ -87,25 +87,25 @@ float CarriedBackground::movedAway(float learned_speed, const cv::Vec2f& speed) 
   return gone / (gone + sigmas * sigmas * speed[1]);
 }
 
-cv::Mat CarriedBackground::unlike(const cv::Mat& picture, const SurfaceSpeed& speed) const {
-  cv::Mat evidence = cv::Mat::zeros(picture.size(), CV_32F);
+cv::Mat CarriedBackground::appearanceDifference(const cv::Mat& image, const SurfaceSpeed& speed) const {
+  cv::Mat evidence = cv::Mat::zeros(image.size(), CV_32F);
   if (model_.empty()) return evidence;
   const auto noise2 = static_cast<float>(parameters_.background_noise * parameters_.background_noise);
   const double edge_px = parameters_.edge_doubt_px / std::max(parameters_.background_downscale, 1);
   const auto edge2 = static_cast<float>(edge_px * edge_px);
   std::optional<ShadowTest> shadows;
-  if (parameters_.use_shadow_test) shadows.emplace(picture, model_, parameters_.shadow_noise);
-  const std::vector<float> none(static_cast<size_t>(picture.cols), 0.0F);
-  for (int y = 0; y < picture.rows; ++y) {
+  if (parameters_.use_shadow_test) shadows.emplace(image, model_, parameters_.shadow_noise);
+  const std::vector<float> none(static_cast<size_t>(image.cols), 0.0F);
+  for (int y = 0; y < image.rows; ++y) {
     const std::vector<float>& shadow = shadows ? shadows->row(y) : none;
     const Slope slope(model_, y);
-    const float* now = picture.ptr<float>(y);
+    const float* now = image.ptr<float>(y);
     const float* known = model_.ptr<float>(y);
     const cv::Vec2f* is = speed.ptr<cv::Vec2f>(y);
     const float* was = speed_.ptr<float>(y);
     const uint8_t* age = age_.ptr(y);
     float* to = evidence.ptr<float>(y);
-    for (int x = 0; x < picture.cols; ++x) {
+    for (int x = 0; x < image.cols; ++x) {
       if (age[x] == 0) continue;
       const float d2 = meanSquare(ConstPixel(now + 4 * x) - ConstPixel(known + 4 * x));
       const float doubt = known[4 * x + kColours] + noise2 + edge2 * slope.squared(x);
@@ -116,26 +116,26 @@ cv::Mat CarriedBackground::unlike(const cv::Mat& picture, const SurfaceSpeed& sp
   return evidence;
 }
 
-void CarriedBackground::learn(const cv::Mat& picture, const cv::Mat& moving, const SurfaceSpeed& speed,
+void CarriedBackground::learn(const cv::Mat& image, const cv::Mat& moving, const SurfaceSpeed& speed,
                               double elapsed_s) {
   if (model_.empty()) {
-    model_ = cv::Mat::zeros(picture.size(), CV_32FC4);
-    speed_ = cv::Mat::zeros(picture.size(), CV_32F);
-    age_ = cv::Mat::zeros(picture.size(), CV_8U);
+    model_ = cv::Mat::zeros(image.size(), CV_32FC4);
+    speed_ = cv::Mat::zeros(image.size(), CV_32F);
+    age_ = cv::Mat::zeros(image.size(), CV_8U);
   }
   const auto mean_rates = ratesByAge(elapsed_s / parameters_.background_span_s);
   const auto variance_rates = ratesByAge(elapsed_s / kVarianceSpan_s);
-  for (int y = 0; y < picture.rows; ++y) {
-    const float* now = picture.ptr<float>(y);
+  for (int y = 0; y < image.rows; ++y) {
+    const float* now = image.ptr<float>(y);
     const float* moves = moving.ptr<float>(y);
     const cv::Vec2f* is = speed.ptr<cv::Vec2f>(y);
     float* was = speed_.ptr<float>(y);
     float* known = model_.ptr<float>(y);
     uint8_t* age = age_.ptr(y);
-    for (int x = 0; x < picture.cols; ++x) {
+    for (int x = 0; x < image.cols; ++x) {
       if (movedAway(was[x], is[x]) > kSurelyMovedAway) age[x] = 0;
       const Eigen::Array4f difference = ConstPixel(now + 4 * x) - ConstPixel(known + 4 * x);
-      const float keep = age[x] < kTrusted ? 1 : 1 - (1 - kMovingShare) * moves[x];
+      const float keep = age[x] < kTrusted ? 1 : 1 - (1 - kMovingFraction) * moves[x];
       const float rate = mean_rates[age[x]] * keep;
       const float variance = known[4 * x + kColours];
       const float change = std::min(meanSquare(difference), kMostVariance) - variance;

@@ -19,16 +19,16 @@ class CarriedBackground {
   explicit CarriedBackground(const SegmentationParameters& parameters) : parameters_(parameters) {}
 
   void reset();
-  /// The view moves (pixels of the pictures that are compared and learned).
+  /// The view moves (pixels of the images that are compared and learned).
   void carry(const SceneMotion& scene);
   /// CV_32F, 0..1: d^2 / (d^2 + variance + noise^2 + (edge doubt * slope)^2) of the pixel's difference d.
   /// Less where it may be the background in shadow, and where the background was learned from a surface that
-  /// has moved away since; 0 where the model has not seen the scene. `picture`: CV_32FC4 (blue, green, red,
+  /// has moved away since; 0 where the model has not seen the scene. `image`: CV_32FC4 (blue, green, red,
   /// anything).
-  cv::Mat unlike(const cv::Mat& picture, const SurfaceSpeed& speed) const;
+  cv::Mat appearanceDifference(const cv::Mat& image, const SurfaceSpeed& speed) const;
   /// What moves (CV_32F, 0..1) is learned slowly, so that it leaves no trail. `elapsed_s`: since the last
-  /// picture.
-  void learn(const cv::Mat& picture, const cv::Mat& moving, const SurfaceSpeed& speed, double elapsed_s);
+  /// image.
+  void learn(const cv::Mat& image, const cv::Mat& moving, const SurfaceSpeed& speed, double elapsed_s);
 
  private:
   float movedAway(float learned_speed, const cv::Vec2f& speed) const;
@@ -36,7 +36,7 @@ class CarriedBackground {
   SegmentationParameters parameters_;
   cv::Mat model_;  ///< CV_32FC4: mean colour (3, grey levels), variance about it (of one channel)
   cv::Mat speed_;  ///< CV_32F, px: speed of the surface that a pixel's model was learned from
-  cv::Mat age_;    ///< CV_8U: pictures that a pixel's model was learned from, at most 255; 0: none
+  cv::Mat age_;    ///< CV_8U: images that a pixel's model was learned from, at most 255; 0: none
 };
 
 }  // namespace redbee

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kColours = 3;
 constexpr int kWindow = 3;  // px, both ways
-// What a shadow leaves of the light, in the picture's (gamma) grey levels: the sky alone gives a tenth to a
+// What a shadow leaves of the light, in the image's (gamma) grey levels: the sky alone gives a tenth to a
 // half of the light, 0.35 to 0.75 of the grey levels.
 constexpr float kDarkest = 0.4F;
 constexpr float kDarkestRamp = 0.1F;
@@ -28,20 +28,20 @@ void sumThree(const std::vector<float>& of, std::vector<float>& to) {
 
 }  // namespace
 
-ShadowTest::ShadowTest(const cv::Mat& picture, const cv::Mat& background, double noise)
-    : picture_(picture),
+ShadowTest::ShadowTest(const cv::Mat& image, const cv::Mat& background, double noise)
+    : image_(image),
       background_(background),
       noise_variance_(static_cast<float>(noise * noise)),
-      shadow_(static_cast<size_t>(picture.cols)) {
+      shadow_(static_cast<size_t>(image.cols)) {
   for (Sums* sums : {&products_, &rows_[0], &rows_[1], &rows_[2]}) {
-    for (auto* of : {&sums->pp, &sums->pb, &sums->bb}) of->resize(static_cast<size_t>(picture.cols));
+    for (auto* of : {&sums->pp, &sums->pb, &sums->bb}) of->resize(static_cast<size_t>(image.cols));
   }
 }
 
 void ShadowTest::add(int y) {
-  const float* now = picture_.ptr<float>(y);
+  const float* now = image_.ptr<float>(y);
   const float* known = background_.ptr<float>(y);
-  for (int x = 0; x < picture_.cols; ++x) {
+  for (int x = 0; x < image_.cols; ++x) {
     const Eigen::Map<const Eigen::Array3f> p(now + 4 * x), b(known + 4 * x);
     const auto i = static_cast<size_t>(x);
     products_.pp[i] = p.square().sum();
@@ -64,7 +64,7 @@ float ShadowTest::judge(float pp, float pb, float bb) const {
 }
 
 const std::vector<float>& ShadowTest::row(int y) {
-  const int last = picture_.rows - 1;
+  const int last = image_.rows - 1;
   for (; next_ <= std::min(y + 1, last); ++next_) add(next_);
   const Sums& above = rows_[std::max(y - 1, 0) % kWindow];
   const Sums& here = rows_[y % kWindow];

@@ -10,20 +10,20 @@ namespace redbee {
 class ShadowTest {
  public:
   /// `noise`: grey levels, what is left of a shadow once it is scaled.
-  ShadowTest(const cv::Mat& picture, const cv::Mat& background, double noise);
+  ShadowTest(const cv::Mat& image, const cv::Mat& background, double noise);
 
   /// For each pixel of row y: 0 no shadow, 1 surely one. Rows are asked for in order, from 0.
   const std::vector<float>& row(int y);
 
  private:
-  /// Sums over three neighbours of a row: picture squared, picture times background, background squared.
+  /// Sums over three neighbours of a row: image squared, image times background, background squared.
   struct Sums {
     std::vector<float> pp, pb, bb;
   };
   void add(int y);
   float judge(float pp, float pb, float bb) const;
 
-  const cv::Mat& picture_;
+  const cv::Mat& image_;
   const cv::Mat& background_;
   float noise_variance_;
   int next_ = 0;

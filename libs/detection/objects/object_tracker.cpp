@@ -33,7 +33,7 @@ double misfit(const Eigen::Vector2d& centre, const cv::Rect& box, int missed, co
 
 cv::Mat disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
 
-/// What exceeds the lower threshold, opened and closed. Most pictures are empty but for a corner, so only the
+/// What exceeds the lower threshold, opened and closed. Most images are empty but for a corner, so only the
 /// part around the foreground is worked on; `part` says which.
 cv::Mat foregroundPart(const cv::Mat& probability, const cv::Mat& unknown,
                        const SegmentationParameters& parameters, cv::Rect& part) {
@@ -130,7 +130,7 @@ void ObjectTracker::miss(Object& object) {
   ++object.missed;
 }
 
-void ObjectTracker::forgetLost(const cv::Rect& view) {
+void ObjectTracker::deleteLostTracks(const cv::Rect& view) {
   const auto lost = [&](const Object& object) {
     // What was never told is a flicker, and is not waited for.
     const int patience = object.told ? parameters_.max_missed_frames : 0;
@@ -154,16 +154,16 @@ std::vector<Detection> ObjectTracker::tell(const cv::Rect& view) {
   return told;
 }
 
-std::vector<Detection> ObjectTracker::skip(cv::Size picture) {
+std::vector<Detection> ObjectTracker::skip(cv::Size image) {
   for (Object& object : objects_) {
     miss(object);
     if (object.told && object.blind < parameters_.max_missed_frames) ++object.blind;
   }
-  forgetLost({{}, picture});
-  return tell({{}, picture});
+  deleteLostTracks({{}, image});
+  return tell({{}, image});
 }
 
-std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& components, cv::Size picture) {
+std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& components, cv::Size image) {
   std::vector<int> component_of_object;
   associate(components, component_of_object);
   std::vector<bool> known(components.size(), false);
@@ -177,14 +177,14 @@ std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& compo
       miss(object);
     }
   }
-  forgetLost({{}, picture});
+  deleteLostTracks({{}, image});
   for (size_t c = 0; c < components.size(); ++c) {
     if (known[c]) continue;
     Object object{components[c], centreOf(components[c].box), Eigen::Vector2d::Zero()};
     object.last.id = 0;
     objects_.push_back(object);
   }
-  return tell({{}, picture});
+  return tell({{}, image});
 }
 
 }  // namespace redbee

@@ -36,11 +36,11 @@ class ObjectTracker {
   /// The view moves by the ground homography (previous to current, pixels).
   void carry(const Eigen::Matrix3d& ground);
   /// Gives components their identities. Objects that were told before and are not among the components follow
-  /// with seen = false, until max_missed_frames or until they have left the picture.
-  std::vector<Detection> update(const std::vector<Detection>& components, cv::Size picture);
+  /// with seen = false, until max_missed_frames or until they have left the image.
+  std::vector<Detection> update(const std::vector<Detection>& components, cv::Size image);
   /// A frame in which nothing could be judged, as while a process of the stack begins anew: nothing was
   /// looked for, and so nothing was missed. Up to max_missed_frames of these in a row cost no identity.
-  std::vector<Detection> skip(cv::Size picture);
+  std::vector<Detection> skip(cv::Size image);
 
  private:
   struct Object {
@@ -56,7 +56,7 @@ class ObjectTracker {
   void associate(const std::vector<Detection>& components, std::vector<int>& component_of_object) const;
   void observe(Object& object, const Detection& component) const;
   static void miss(Object& object);
-  void forgetLost(const cv::Rect& view);
+  void deleteLostTracks(const cv::Rect& view);
   std::vector<Detection> tell(const cv::Rect& view);
 
   SegmentationParameters parameters_;

@@ -36,7 +36,7 @@ cv::Mat seeds(const cv::Mat& motion, int stretch) {
 
 }  // namespace
 
-cv::Mat shareOfBorderStructure(const cv::Mat& motion, const cv::Mat& unseen, double stretch_px) {
+cv::Mat fractionOfBorderStructure(const cv::Mat& motion, const cv::Mat& unseen, double stretch_px) {
   cv::Mat small, hidden;
   cv::resize(motion, small, {}, 1 / kShrink, 1 / kShrink, cv::INTER_AREA);
   cv::resize(unseen, hidden, small.size(), 0, 0, cv::INTER_NEAREST);

@@ -71,10 +71,10 @@ const EarlierFrame* EarlierFrames::aged(int64_t now, double age_s) const {
   return best;
 }
 
-AlignedPicture alignPicture(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px) {
+AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px) {
   const SceneMotion scene(frame.ground, frame.motion, K);
-  AlignedPicture aligned{carryMap(frame.grey, scene.ground, cv::INTER_LINEAR),
-                         ~overlapMask(frame.grey.size(), scene.ground)};
+  AlignedImage aligned{carryMap(frame.grey, scene.ground, cv::INTER_LINEAR),
+                       ~overlapMask(frame.grey.size(), scene.ground)};
   const cv::Mat above = aboveHorizon(frame.grey.size(), scene.horizon);
   if (cv::countNonZero(above) > 0) {
     carryMap(frame.grey, scene.far, cv::INTER_LINEAR).copyTo(aligned.grey, above);

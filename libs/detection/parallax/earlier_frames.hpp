@@ -1,4 +1,4 @@
-// Pictures of the last second and the camera's motion from each of them to now.
+// Images of the last second and the camera's motion from each of them to now.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct EarlierFrame {
 class EarlierFrames {
  public:
   void reset() { frames_.clear(); }
-  /// The view moves (previous to current, pixels of the pictures that are remembered).
+  /// The view moves (previous to current, pixels of the images that are remembered).
   void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
              const std::optional<Eigen::Matrix3d>& front = std::nullopt);
   /// Forgets what is older than span_s.
@@ -35,13 +35,13 @@ class EarlierFrames {
   std::deque<EarlierFrame> frames_;  ///< oldest first
 };
 
-/// An earlier picture as the current camera would see it, were the scene ground up to the horizon and
+/// An earlier image as the current camera would see it, were the scene ground up to the horizon and
 /// infinitely far above it.
-struct AlignedPicture {
+struct AlignedImage {
   cv::Mat grey;    ///< CV_8U
-  cv::Mat unseen;  ///< CV_8U, 255 where the earlier picture does not show the scene, or within margin_px of
+  cv::Mat unseen;  ///< CV_8U, 255 where the earlier image does not show the scene, or within margin_px of
                    ///< that
 };
-AlignedPicture alignPicture(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px);
+AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px);
 
 }  // namespace redbee

@@ -38,12 +38,11 @@ void ForegroundEvidence::carry(const Eigen::Matrix3d& ground, const std::optiona
                                 motion, to_background_ * K));
 }
 
-cv::Mat ForegroundEvidence::pictureToCompare(const cv::Mat& grey, const cv::Mat& colour,
-                                             cv::Size full) const {
-  cv::Mat picture = colour;
-  if (picture.empty()) cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+cv::Mat ForegroundEvidence::imageToCompare(const cv::Mat& grey, const cv::Mat& colour, cv::Size full) const {
+  cv::Mat image = colour;
+  if (image.empty()) cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
   cv::Mat small;
-  cv::resize(picture, small, shrunkSize(full, std::max(parameters_.background_downscale, 1)), 0, 0,
+  cv::resize(image, small, shrunkSize(full, std::max(parameters_.background_downscale, 1)), 0, 0,
              cv::INTER_AREA);
   // The noise of single pixels and of JPEG's blocks.
   constexpr double kSigmaPx = 0.6;
@@ -54,11 +53,11 @@ cv::Mat ForegroundEvidence::pictureToCompare(const cv::Mat& grey, const cv::Mat&
 }
 
 /// Pixels of one region move together: each takes half of its evidence from those around it that look alike.
-void ForegroundEvidence::fillRegions(const cv::Mat& picture, cv::Mat& foreground) const {
+void ForegroundEvidence::fillRegions(const cv::Mat& image, cv::Mat& foreground) const {
   const double scale = std::max(parameters_.background_downscale, 1);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.region_radius_px / scale)));
   cv::Mat grey;
-  cv::cvtColor(picture, grey, cv::COLOR_BGRA2GRAY);
+  cv::cvtColor(image, grey, cv::COLOR_BGRA2GRAY);
   foreground = 0.5 * (foreground + guidedFilter(grey, foreground, radius, parameters_.fill_contrast));
   foreground = cv::min(cv::max(foreground, 0), 1);
 }
@@ -72,23 +71,23 @@ ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::M
   cv::Mat foreground;
   if (!motion.empty()) foreground = motion / (motion + parameters_.motion_half);
   if (parameters_.use_appearance) {
-    const cv::Mat picture = pictureToCompare(grey, colour, full);
-    cv::Mat moving = cv::Mat::zeros(picture.size(), CV_32F);
-    SurfaceSpeed speed(picture.size(), CV_32FC2, cv::Scalar(0, kUnknownVariance));
+    const cv::Mat image = imageToCompare(grey, colour, full);
+    cv::Mat moving = cv::Mat::zeros(image.size(), CV_32F);
+    SurfaceSpeed speed(image.size(), CV_32FC2, cv::Scalar(0, kUnknownVariance));
     if (!motion.empty()) {
-      cv::resize(motion_.speed(), speed, picture.size(), 0, 0, cv::INTER_LINEAR);
-      cv::resize(foreground, foreground, picture.size(), 0, 0, cv::INTER_LINEAR);
-      cv::Mat foreign = foreground.mul(background_.unlike(picture, speed));
+      cv::resize(motion_.speed(), speed, image.size(), 0, 0, cv::INTER_LINEAR);
+      cv::resize(foreground, foreground, image.size(), 0, 0, cv::INTER_LINEAR);
+      cv::Mat foreign = foreground.mul(background_.appearanceDifference(image, speed));
       if (parameters_.use_hole_filling) {
         const double gap_px = parameters_.outline_gap_px / std::max(parameters_.background_downscale, 1);
         foreign = cv::min(fillHoles(foreign, static_cast<int>(std::lround(gap_px))), foreground);
       }
       foreground = foreign;
-      if (parameters_.region_radius_px > 0) fillRegions(picture, foreground);
+      if (parameters_.region_radius_px > 0) fillRegions(image, foreground);
       // Half is sure enough: what is learned by mistake is lost for as long as the background remembers.
       moving = cv::min(2 * foreground, 1);
     }
-    background_.learn(picture, moving, speed, elapsed_s);
+    background_.learn(image, moving, speed, elapsed_s);
   }
   Verdict verdict;
   if (motion.empty()) return verdict;

@@ -32,8 +32,8 @@ class ForegroundEvidence {
                 cv::Size full);
 
  private:
-  void fillRegions(const cv::Mat& picture, cv::Mat& foreground) const;
-  cv::Mat pictureToCompare(const cv::Mat& grey, const cv::Mat& colour, cv::Size full) const;
+  void fillRegions(const cv::Mat& image, cv::Mat& foreground) const;
+  cv::Mat imageToCompare(const cv::Mat& grey, const cv::Mat& colour, cv::Size full) const;
 
   SegmentationParameters parameters_;
   Eigen::Matrix3d to_background_;  ///< full-size pixels to the background's

@@ -77,7 +77,7 @@ cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen:
 cv::Mat ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K,
                                    double frames) {
   const int margin = static_cast<int>(std::lround(kMarginPx / scale_));
-  const AlignedPicture reference = alignPicture(frame, K, margin);
+  const AlignedImage reference = alignImage(frame, K, margin);
   unseen_ = reference.unseen;
   cv::Mat flow;
   dis_->calc(grey, reference.grey, flow);
@@ -101,7 +101,7 @@ bool ParallaxEvidence::holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, 
   constexpr double kFastPx = 8;  // full-size px a frame
   constexpr float kSureSigmas = 3;
   constexpr int kStep = 8;
-  constexpr double kShare = 0.02;  // of the picture
+  constexpr double kFraction = 0.02;  // of the image
   const auto fast = static_cast<float>(kFastPx / scale_ * frames);
   int seen = 0, fast_movers = 0;
   for (int y = kStep / 2; y < flow.rows; y += kStep) {
@@ -112,13 +112,13 @@ bool ParallaxEvidence::holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, 
       if (moves && cv::norm(flow.at<cv::Vec2f>(y, x)) > fast) ++fast_movers;
     }
   }
-  return fast_movers > kShare * seen;
+  return fast_movers > kFraction * seen;
 }
 
 void ParallaxEvidence::muteBorderStructure(cv::Mat& motion) const {
-  // Squared, because what enters the picture has not gathered all of its evidence at the border yet.
+  // Squared, because what enters the image has not gathered all of its evidence at the border yet.
   const cv::Mat inside =
-      1 - shareOfBorderStructure(motion, unseen_, parameters_.border_stretch * motion.cols);
+      1 - fractionOfBorderStructure(motion, unseen_, parameters_.border_stretch * motion.cols);
   motion = motion.mul(inside).mul(inside);
 }
 
@@ -156,7 +156,7 @@ FrameEvidence ParallaxEvidence::judgeFlow(const ParallaxSegment& segment, const 
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const cv::Vec2f forth = -back[x] - error.at(pixel[0], pixel[1]);
-      off[x] = segment.judge(pixel + back[x], forth, noise[x]).off_in_sigmas;
+      off[x] = segment.judge(pixel + back[x], forth, noise[x]).normalized_residual;
       speed[x] = {std::sqrt(forth.dot(forth)), noise[x]};
     }
   }

@@ -1,6 +1,6 @@
 // What no static surface at any depth explains (plane plus parallax; Irani and Anandan 1998).
 //
-// An earlier picture is laid onto the current one by the ground homography (above the horizon, where there is
+// An earlier image is laid onto the current one by the ground homography (above the horizon, where there is
 // no ground, by the rotation). Does the dense flow that remains lie off the segment of possible parallax
 // (parallax_segment.hpp)? The answer is averaged along what moves (travelling_evidence.hpp). It knows trees
 // and facades (without an IMU by where they stand, border_structure.hpp), but its outlines are coarse.
@@ -20,7 +20,7 @@
 
 namespace redbee {
 
-/// Dense inverse-search flow for pictures of work_downscale, found at flow_downscale.
+/// Dense inverse-search flow for images of work_downscale, found at flow_downscale.
 cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const SegmentationParameters& parameters);
 
 class ParallaxEvidence {
@@ -32,7 +32,7 @@ class ParallaxEvidence {
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
              const std::optional<PlaneMotion>& motion);
   /// Evidence of motion per pixel of the work, CV_32F 0..1; empty where there is no earlier frame. Remembers
-  /// the picture (CV_8U, `full` or smaller).
+  /// the image (CV_8U, `full` or smaller).
   cv::Mat learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K, cv::Size full);
 
   /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
@@ -45,7 +45,7 @@ class ParallaxEvidence {
   cv::Mat evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K, double frames);
   FrameEvidence judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey, const cv::Mat& flow,
                           double frames);
-  /// Whether much of the picture moves, and by so much that the frame before shows it better than an earlier
+  /// Whether much of the image moves, and by so much that the frame before shows it better than an earlier
   /// one. `off`: CV_32FC2, sigmas.
   bool holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, double frames) const;
   void muteBorderStructure(cv::Mat& motion) const;

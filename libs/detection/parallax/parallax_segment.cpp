@@ -18,7 +18,8 @@ ParallaxSegment::ParallaxSegment(const std::optional<PlaneMotion>& motion, const
                                  const SegmentationParameters& parameters)
     : direction_variance_(static_cast<float>(parameters.direction_error * parameters.direction_error)) {
   if (!motion || !parameters.use_epipolar) return;
-  const Eigen::Vector3f e = (K * motion->t_ba / (parameters.nearest_depth_share * motion->h_a)).cast<float>();
+  const Eigen::Vector3f e =
+      (K * motion->t_ba / (parameters.nearest_depth_fraction * motion->h_a)).cast<float>();
   epipole_ = {e.x(), e.y(), e.z()};
 }
 
@@ -28,7 +29,7 @@ ParallaxSegment::ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Mat
   if (parameters.use_epipolar) to_front_ = cv::Matx33f(toMatx(front * ground.inverse()));
 }
 
-/// From the ground's place in the picture to that of the nearest static surface.
+/// From the ground's place in the image to that of the nearest static surface.
 cv::Vec2f ParallaxSegment::end(const cv::Vec2f& ground) const {
   constexpr float kBeyondFront = 1.5F;  // parts of it stand out from the plane
   // A point at depth z lies at (a + e / z) / (a_3 + e_3 / z), a its image at infinity: whatever the depth, it
@@ -57,12 +58,12 @@ ParallaxSegment::Verdict ParallaxSegment::judge(const cv::Vec2f& ground, const c
   return {nearest, (flow - nearest) * (1 / sigma)};
 }
 
-bool runsOutOfPicture(const PointTracks& tracks, const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
-                      cv::Size picture) {
+bool runsOutOfImage(const PointTracks& tracks, const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
+                    cv::Size image) {
   constexpr double kExplained_px = 1.5;
-  constexpr double kBorderShare = 1.0 / 12;  // of the picture's height
-  constexpr double kLeastShare = 0.1;        // of the points, near the border
-  const double border = kBorderShare * picture.height;
+  constexpr double kBorderFraction = 1.0 / 12;  // of the image's height
+  constexpr double kLeastFraction = 0.1;        // of the points, near the border
+  const double border = kBorderFraction * image.height;
   int on_front = 0, at_border = 0;
   for (size_t i = 0; i < tracks.current.size(); ++i) {
     const Eigen::Vector2d before(tracks.previous[i].x, tracks.previous[i].y);
@@ -71,10 +72,10 @@ bool runsOutOfPicture(const PointTracks& tracks, const Eigen::Matrix3d& ground, 
     if ((transfer(ground, before) - now).norm() <= kExplained_px) continue;
     ++on_front;
     const double to_border =
-        std::min({now.x(), now.y(), picture.width - 1 - now.x(), picture.height - 1 - now.y()});
+        std::min({now.x(), now.y(), image.width - 1 - now.x(), image.height - 1 - now.y()});
     if (to_border < border) ++at_border;
   }
-  return on_front > 0 && at_border >= kLeastShare * on_front;
+  return on_front > 0 && at_border >= kLeastFraction * on_front;
 }
 
 }  // namespace redbee

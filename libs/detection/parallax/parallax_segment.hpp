@@ -1,4 +1,4 @@
-// Where a static surface may have moved in the picture, once the ground's motion has been taken out (plane
+// Where a static surface may have moved in the image, once the ground's motion has been taken out (plane
 // plus parallax; Irani and Anandan 1998).
 #pragma once
 
@@ -26,11 +26,11 @@ class ParallaxSegment {
                   const SegmentationParameters& parameters);
 
   struct Verdict {
-    cv::Vec2f nearest;        ///< px: the point of the segment that is nearest to the flow
-    cv::Vec2f off_in_sigmas;  ///< from there to the flow, over its standard deviation
-    float sigmasSquared() const { return off_in_sigmas.dot(off_in_sigmas); }
+    cv::Vec2f nearest;              ///< px: the point of the segment that is nearest to the flow
+    cv::Vec2f normalized_residual;  ///< from there to the flow, over its standard deviation
+    float squaredMahalanobis() const { return normalized_residual.dot(normalized_residual); }
   };
-  /// `ground`: where the scene point would be in the current picture if it lay on the ground [px]; `flow`:
+  /// `ground`: where the scene point would be in the current image if it lay on the ground [px]; `flow`:
   /// from there to where it is [px], of variance `noise_variance` [px^2].
   Verdict judge(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
   /// Unit vector along which parallax moves what stands at `ground`; 0 where there is none.
@@ -49,9 +49,9 @@ class ParallaxSegment {
   float direction_variance_;             ///< rad^2
 };
 
-/// Whether what follows the second plane (and not the ground) runs out of the picture, as static structures
+/// Whether what follows the second plane (and not the ground) runs out of the image, as static structures
 /// do: an island in the ground is more likely something that moves. Homographies previous to current.
-bool runsOutOfPicture(const PointTracks& tracks, const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
-                      cv::Size picture);
+bool runsOutOfImage(const PointTracks& tracks, const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
+                    cv::Size image);
 
 }  // namespace redbee

@@ -10,11 +10,11 @@
 namespace redbee {
 
 /// The flow [px] of a homography that hardly moves anything, to first order in its eight entries. Pixels are
-/// taken in units of half the picture's width about its middle, so that all entries are in pixels.
+/// taken in units of half the image's width about its middle, so that all entries are in pixels.
 struct HomographyFlow {
-  explicit HomographyFlow(cv::Size picture)
-      : middle(0.5F * static_cast<float>(picture.width), 0.5F * static_cast<float>(picture.height)),
-        unit(0.5F * static_cast<float>(picture.width)) {}
+  explicit HomographyFlow(cv::Size image)
+      : middle(0.5F * static_cast<float>(image.width), 0.5F * static_cast<float>(image.height)),
+        unit(0.5F * static_cast<float>(image.width)) {}
 
   cv::Vec2f at(float x, float y) const {
     const float u = (x - middle[0]) / unit, v = (y - middle[1]) / unit;
@@ -30,11 +30,11 @@ struct HomographyFlow {
 };
 
 /// What a homography explains of the flow across the direction of parallax (where there is no parallax, of
-/// all of it), robustly over the picture: static surfaces agree on it whatever their depth, what moves does
-/// not. `flow`: CV_32FC2, px, from the current picture to the earlier one that the ground's homography has
+/// all of it), robustly over the image: static surfaces agree on it whatever their depth, what moves does
+/// not. `flow`: CV_32FC2, px, from the current image to the earlier one that the ground's homography has
 /// laid onto it; `variance`: CV_32F, px^2, of the flow; `unseen`: CV_8U, not 0 where the flow means nothing;
 /// `expected_px`: how large an error is expected, a weak prior. The result points like the flow of `segment`,
-/// from the earlier picture to the current one.
+/// from the earlier image to the current one.
 HomographyFlow registrationError(const cv::Mat& flow, const cv::Mat& variance, const cv::Mat& unseen,
                                  const ParallaxSegment& segment, float expected_px);
 

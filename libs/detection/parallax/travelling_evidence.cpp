@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kSmall = 1e-3F;
 
-/// Where the pixels were in the previous picture.
+/// Where the pixels were in the previous image.
 cv::Mat previousPlaces(const cv::Mat& back_step, const Eigen::Matrix3d& ground) {
   const Eigen::Matrix3f back = ground.inverse().cast<float>();
   cv::Mat places(back_step.size(), CV_32FC2);

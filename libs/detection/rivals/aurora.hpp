@@ -9,7 +9,7 @@
 // at a tenth of a
 // deviation, since a deviation is held up from below (tuned), graded by (mean - D_k) / deviation. Their
 // grouping of the foreground pixels is an average over a box here (tuned, EXPERIMENTS.md). Mean and deviation
-// of D begin when a pixel is first judged: the first densities are all 1. Pictures are smoothed first, or
+// of D begin when a pixel is first judged: the first densities are all 1. Images are smoothed first, or
 // what the carrying blurs would be foreground wherever there is fine texture. `aurora-davis` has what was
 // best on DAVIS' clips alone: it forgets sooner.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace redbee {
 
-/// The recursion for a picture's worth of pixels. Values are colours over `unit` grey levels.
+/// The recursion for a image's worth of pixels. Values are colours over `unit` grey levels.
 class RecursiveDensity {
  public:
   struct Parameters {
@@ -31,7 +31,7 @@ class RecursiveDensity {
   RecursiveDensity(cv::Size size, const Parameters& parameters);
 
   void carry(const cv::Matx33d& H);
-  /// Takes in a picture (CV_8UC3). CV_32F: by how many deviations the density lies below its mean, 0 where it
+  /// Takes in a image (CV_8UC3). CV_32F: by how many deviations the density lies below its mean, 0 where it
   /// lies above or the pixel is not judged yet.
   cv::Mat update(const cv::Mat& colour);
 

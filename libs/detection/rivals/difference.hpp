@@ -1,4 +1,4 @@
-// The absolute difference to the picture before the previous one, laid onto this one by homographies: the
+// The absolute difference to the image before the previous one, laid onto this one by homographies: the
 // simplest of all.
 //
 // Nobody's publication. The difference is averaged over a box, which fills what is hollow and drowns what is
@@ -8,7 +8,7 @@
 // `difference-davis` has what was best on DAVIS' clips alone, whose movers are large and fast.
 #pragma once
 
-#include "redbee/detection/rivals/picture_history.hpp"
+#include "redbee/detection/rivals/image_history.hpp"
 #include "redbee/detection/rivals/registration.hpp"
 #include "redbee/detection/rivals/rival.hpp"
 
@@ -29,7 +29,7 @@ class Difference : public Rival {
 
   DifferenceParameters parameters_;
   Registrar registrar_;
-  PictureHistory history_;
+  ImageHistory history_;
 };
 
 }  // namespace redbee

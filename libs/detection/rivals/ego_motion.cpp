@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInlierPx = 0.5;
 constexpr double kConfidence = 0.999;
-constexpr double kMinInlierShare = 0.3;
+constexpr double kMinInlierRatio = 0.3;
 constexpr size_t kMinPoints = 16;
 
 }  // namespace
@@ -19,11 +19,11 @@ constexpr size_t kMinPoints = 16;
 EgoMotion::EgoMotion(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const Eigen::Matrix3d& K)
     : rotation_(K * R * K.inverse()), epipole_(K * t) {}
 
-EgoMotion::EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_share,
+EgoMotion::EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_fraction,
                      double ground_slack)
     : EgoMotion(motion.R_ba, motion.t_ba, K) {
   ground_ = (1 - ground_slack) / motion.h_a * K.inverse().transpose() * motion.m_a;
-  nearest_inverse_depth_ = 1 / (nearest_share * motion.h_a);
+  nearest_inverse_depth_ = 1 / (nearest_fraction * motion.h_a);
 }
 
 std::optional<EgoMotion> EgoMotion::fromTracks(const GridTracks& tracks, const Eigen::Matrix3d& K,
@@ -35,7 +35,7 @@ std::optional<EgoMotion> EgoMotion::fromTracks(const GridTracks& tracks, const E
   const cv::Mat E = cv::findEssentialMat(tracks.previous, tracks.current, camera, cv::RANSAC, kConfidence,
                                          kInlierPx, inlier);
   if (E.rows != 3 || E.cols != 3) return std::nullopt;
-  if (cv::countNonZero(inlier) < kMinInlierShare * static_cast<double>(tracks.sampled)) return std::nullopt;
+  if (cv::countNonZero(inlier) < kMinInlierRatio * static_cast<double>(tracks.sampled)) return std::nullopt;
   cv::Mat R, t;
   cv::recoverPose(E, tracks.previous, tracks.current, camera, R, t, inlier);
   Eigen::Matrix3d rotation;

@@ -9,20 +9,21 @@
 
 namespace redbee {
 
-/// Static points at inverse depth s along the ray of a previous pixel lie at q + s e in the current picture
+/// Static points at inverse depth s along the ray of a previous pixel lie at q + s e in the current image
 /// (homogeneous), for s between two bounds.
 class EgoMotion {
  public:
-  /// From an IMU. The scene is no nearer than `nearest_share` of the height, and no deeper than the ground
+  /// From an IMU. The scene is no nearer than `nearest_fraction` of the height, and no deeper than the ground
   /// plane, whose depth is trusted to within `ground_slack`.
-  EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_share, double ground_slack);
+  EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_fraction,
+            double ground_slack);
   /// From the tracks alone: essential matrix (Nister's five points, RANSAC). Depth is only known to be
   /// positive, and is taken to be at least `nearest_baselines` times the length of travel. Nothing where too
   /// few points agree.
   static std::optional<EgoMotion> fromTracks(const GridTracks& tracks, const Eigen::Matrix3d& K,
                                              double nearest_baselines);
 
-  /// Where a static scene point seen at `previous` may lie in the current picture: a straight segment [px].
+  /// Where a static scene point seen at `previous` may lie in the current image: a straight segment [px].
   struct Segment {
     Eigen::Vector2d farthest, nearest;
   };

@@ -19,7 +19,7 @@ std::vector<FlowCluster> clusterFlow(const std::vector<StrayPoint>& points,
     const float reach = static_cast<float>(cv::norm(a.at - b.at));
     if (reach > parameters.reach_px) return false;
     const double longer = std::max(cv::norm(a.motion), cv::norm(b.motion));
-    return cv::norm(a.motion - b.motion) <= parameters.motion_px + parameters.motion_share * longer;
+    return cv::norm(a.motion - b.motion) <= parameters.motion_px + parameters.motion_fraction * longer;
   };
   std::vector<int> labels;
   const int count = points.empty() ? 0 : cv::partition(points, labels, alike);
@@ -55,9 +55,9 @@ void paintHull(cv::Mat& map, const std::vector<cv::Point2f>& points, float margi
   cv::fillConvexPoly(map, outline, cv::Scalar(value));
 }
 
-cv::Mat paintClusters(cv::Size picture, const std::vector<StrayPoint>& points,
+cv::Mat paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
                       const ClusterParameters& parameters, const ClusterChoice& choose) {
-  cv::Mat map = cv::Mat::zeros(picture, CV_8U);
+  cv::Mat map = cv::Mat::zeros(image, CV_8U);
   std::vector<StrayPoint> stray = points;
   for (size_t level = 0; level < kDecisionLevels; ++level) {
     const float ratio = ratioOfLevel(level);

@@ -7,7 +7,7 @@
 
 namespace redbee {
 
-/// A point of the current picture and the motion that the camera's does not explain.
+/// A point of the current image and the motion that the camera's does not explain.
 struct StrayPoint {
   cv::Point2f at;      ///< px
   cv::Point2f motion;  ///< px
@@ -16,8 +16,8 @@ struct StrayPoint {
 
 struct ClusterParameters {
   float reach_px = 16;  ///< px: neighbours
-  float motion_px = 1;  ///< px: like motion, plus motion_share of the longer of the two
-  float motion_share = 0.3F;
+  float motion_px = 1;  ///< px: like motion, plus motion_fraction of the longer of the two
+  float motion_fraction = 0.3F;
   size_t min_points = 3;
 };
 
@@ -40,7 +40,7 @@ using ClusterChoice = std::function<std::vector<FlowCluster>(size_t level, std::
 /// A graded score from a method that decides: the decision is made at thresholds from 1/4 to 16 times the
 /// method's own, and a pixel's score is that of the strictest at which a cluster's hull holds it. At
 /// kDecisionScore the map is what the method itself would answer.
-cv::Mat paintClusters(cv::Size picture, const std::vector<StrayPoint>& points,
+cv::Mat paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
                       const ClusterParameters& parameters, const ClusterChoice& choose = {});
 inline constexpr size_t kDecisionLevels = 13;
 

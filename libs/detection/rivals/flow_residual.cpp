@@ -9,7 +9,7 @@ namespace redbee {
 
 cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
   const cv::Matx33d back = H.inv();
-  const cv::Rect2d picture(0, 0, flow.cols - 1, flow.rows - 1);
+  const cv::Rect2d image(0, 0, flow.cols - 1, flow.rows - 1);
   cv::Mat remains = cv::Mat::zeros(flow.size(), CV_32F);
   for (int y = 0; y < flow.rows; ++y) {
     const auto* measured = flow.ptr<cv::Vec2f>(y);
@@ -17,7 +17,7 @@ cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec3d p = back * cv::Vec3d(x, y, 1);
       const cv::Point2d expected(p[0] / p[2], p[1] / p[2]);
-      if (p[2] <= 0 || !picture.contains(expected)) continue;
+      if (p[2] <= 0 || !image.contains(expected)) continue;
       to[x] =
           static_cast<float>(std::hypot(x + measured[x][0] - expected.x, y + measured[x][1] - expected.y));
     }

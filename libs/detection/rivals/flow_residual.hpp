@@ -1,15 +1,15 @@
 // Dense flow minus the flow of one homography: whatever moves against the dominant plane.
 //
 // Nobody's publication. Dense inverse search flow (OpenCV's, preset medium) forward from the previous
-// picture's grid is not used: it is computed from the current picture back to the previous one, so that the
-// score lies on the current picture. What remains is
+// image's grid is not used: it is computed from the current image back to the previous one, so that the
+// score lies on the current image. What remains is
 // averaged over a box. Score: kDecisionScore at 3.25 px. Box, threshold and how many frames back the flow
 // reaches (two) are tuned (EXPERIMENTS.md). `flow-residual-davis` has what was best on DAVIS' clips alone.
 #pragma once
 
 #include <opencv2/video/tracking.hpp>
 
-#include "redbee/detection/rivals/picture_history.hpp"
+#include "redbee/detection/rivals/image_history.hpp"
 #include "redbee/detection/rivals/registration.hpp"
 #include "redbee/detection/rivals/rival.hpp"
 
@@ -32,11 +32,11 @@ class FlowResidual : public Rival {
   FlowResidualParameters parameters_;
   Registrar registrar_;
   cv::Ptr<cv::DISOpticalFlow> flow_;
-  PictureHistory history_;
+  ImageHistory history_;
 };
 
-/// Length [px] of what remains of `flow` (CV_32FC2, current picture to previous) once each pixel's own motion
-/// by `H` (previous to current) is taken out. 0 where H takes it from outside of the previous picture.
+/// Length [px] of what remains of `flow` (CV_32FC2, current image to previous) once each pixel's own motion
+/// by `H` (previous to current) is taken out. 0 where H takes it from outside of the previous image.
 cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H);
 
 }  // namespace redbee

@@ -28,12 +28,12 @@ inline cv::Mat gradedScore(const cv::Mat& statistic, float threshold) {
 }
 
 /// A score as a share of its range, averaged over a box, and graded anew with the decision where that mean is
-/// `decision_share`: what is hollow is filled, what is speckled drowns.
-inline cv::Mat averagedScore(const cv::Mat& score, int box_px, float decision_share) {
+/// `decision_fraction`: what is hollow is filled, what is speckled drowns.
+inline cv::Mat averagedScore(const cv::Mat& score, int box_px, float decision_fraction) {
   cv::Mat mean;
   score.convertTo(mean, CV_32F, 1.0 / 255);
   cv::blur(mean, mean, {box_px, box_px});
-  return gradedScore(mean, decision_share);
+  return gradedScore(mean, decision_fraction);
 }
 
 }  // namespace redbee

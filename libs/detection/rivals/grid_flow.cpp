@@ -5,10 +5,10 @@
 
 namespace redbee {
 
-std::vector<cv::Point2f> gridPoints(cv::Size picture, cv::Size cell_px) {
+std::vector<cv::Point2f> gridPoints(cv::Size image, cv::Size cell_px) {
   std::vector<cv::Point2f> points;
-  for (int y = cell_px.height / 2; y < picture.height; y += cell_px.height) {
-    for (int x = cell_px.width / 2; x < picture.width; x += cell_px.width) {
+  for (int y = cell_px.height / 2; y < image.height; y += cell_px.height) {
+    for (int x = cell_px.width / 2; x < image.width; x += cell_px.width) {
       points.emplace_back(static_cast<float>(x), static_cast<float>(y));
     }
   }
@@ -44,10 +44,10 @@ std::vector<cv::Point2f> GridFlow::follow(const cv::Mat& grey, const std::vector
   std::vector<cv::Point2f> returned = points;
   std::vector<uint8_t> found_back(points.size(), 1);
   if (parameters_.max_there_and_back_px > 0) returned = flow(pyramid_, before, moved, found_back);
-  const cv::Rect2f picture({}, cv::Size2f(grey.size()));
+  const cv::Rect2f image({}, cv::Size2f(grey.size()));
   for (size_t i = 0; i < points.size(); ++i) {
     const bool returns = cv::norm(returned[i] - points[i]) <= parameters_.max_there_and_back_px;
-    lost[i] = found[i] != 0 && found_back[i] != 0 && returns && picture.contains(moved[i]) ? 0 : 1;
+    lost[i] = found[i] != 0 && found_back[i] != 0 && returns && image.contains(moved[i]) ? 0 : 1;
   }
   return moved;
 }

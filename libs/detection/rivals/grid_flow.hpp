@@ -1,4 +1,4 @@
-// Points on a regular grid followed from one picture into the next by OpenCV's pyramidal Lucas-Kanade.
+// Points on a regular grid followed from one image into the next by OpenCV's pyramidal Lucas-Kanade.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,7 +10,7 @@ namespace redbee {
 struct GridFlowParameters {
   cv::Size grid_px{32, 24};          ///< px between points
   int window_px = 10;                ///< px, side of the patch
-  int levels = 3;                    ///< pyramid levels above the picture itself
+  int levels = 3;                    ///< pyramid levels above the image itself
   int iterations = 20;               ///< at most, per level
   double epsilon_px = 0.03;          ///< px: a smaller step ends the iteration
   double min_eigenvalue = 1e-4;      ///< OpenCV's measure of texture, per pixel
@@ -29,7 +29,7 @@ class GridFlow {
 
   void reset() { pyramid_.clear(); }
   bool hasPrevious() const { return !pyramid_.empty(); }
-  /// Follows the grid of the picture (CV_8U) before into this one, which is then the one before. All pictures
+  /// Follows the grid of the image (CV_8U) before into this one, which is then the one before. All images
   /// between resets are of one size. Empty for the first.
   GridTracks advance(const cv::Mat& grey);
   /// Follows any points instead; `lost[i]` tells which were not found.
@@ -42,10 +42,10 @@ class GridFlow {
                                 const std::vector<cv::Point2f>& points, std::vector<uint8_t>& found) const;
 
   GridFlowParameters parameters_;
-  std::vector<cv::Mat> pyramid_;  ///< of the previous picture
+  std::vector<cv::Mat> pyramid_;  ///< of the previous image
 };
 
-/// Centres of the cells of a grid over a picture.
-std::vector<cv::Point2f> gridPoints(cv::Size picture, cv::Size cell_px);
+/// Centres of the cells of a grid over a image.
+std::vector<cv::Point2f> gridPoints(cv::Size image, cv::Size cell_px);
 
 }  // namespace redbee

@@ -14,7 +14,7 @@ constexpr double kMinOverlap = 0.6;
 constexpr int kLearningFrames = 5;
 constexpr float kDifferenceUnit = 30;  // grey levels: what is halfway up within either side of the decision
 constexpr int kAveragePx = 15;
-constexpr float kDecisionShare = 0.38F;
+constexpr float kDecisionFraction = 0.38F;
 constexpr uint8_t kMog2Foreground = 255;
 
 double overlap(const cv::Matx33d& H, cv::Size size) {
@@ -55,11 +55,11 @@ void HomographyMog2::anchorHere(const cv::Mat& background) {
   model_->apply(background, mask);
 }
 
-cv::Mat HomographyMog2::learn(const cv::Mat& picture) {
+cv::Mat HomographyMog2::learn(const cv::Mat& image) {
   cv::Mat background;
   model_->getBackgroundImage(background);
-  const cv::Mat unseen = unseenBy(anchor_.inv(), picture.size());
-  cv::Mat laid = stabilise(picture, anchor_.inv());
+  const cv::Mat unseen = unseenBy(anchor_.inv(), image.size());
+  cv::Mat laid = stabilise(image, anchor_.inv());
   background.copyTo(laid, unseen);
   cv::Mat mask;
   model_->apply(laid, mask);
@@ -87,7 +87,7 @@ RivalOutput HomographyMog2::judge(const RivalInput& input) {
     input.colour.copyTo(here, unseenBy(anchor_, here.size()));
     anchorHere(here);
   }
-  output.score = averagedScore(learn(input.colour), kAveragePx, kDecisionShare);
+  output.score = averagedScore(learn(input.colour), kAveragePx, kDecisionFraction);
   output.background = *registration;
   output.status = ++learned_ < kLearningFrames ? RivalStatus::kLearning : RivalStatus::kGood;
   return output;

@@ -1,10 +1,10 @@
-// One homography and OpenCV's MOG2 on the stabilised picture (Zivkovic 2004): what most people build first.
+// One homography and OpenCV's MOG2 on the stabilised image (Zivkovic 2004): what most people build first.
 //
-// OpenCV's model cannot be moved. So it stands on the grid of an anchor frame, onto which pictures are laid
-// by the homographies since; what a picture does not show is fed with the model's own background. Once less
+// OpenCV's model cannot be moved. So it stands on the grid of an anchor frame, onto which images are laid
+// by the homographies since; what a image does not show is fed with the model's own background. Once less
 // than kMinOverlap of the anchor's view is left, a new model is begun on the current frame, with the old
-// one's background as its first picture. Score: the mask (shadows are background) decides on which half of
-// the scale a pixel lies, its difference to the background picture where within; then averaged over a box,
+// one's background as its first image. Score: the mask (shadows are background) decides on which half of
+// the scale a pixel lies, its difference to the background image where within; then averaged over a box,
 // with kDecisionScore where the mean F1 of the development clips is best. History, box and decision are tuned
 // (EXPERIMENTS.md), the variances' threshold is OpenCV's.
 #pragma once
@@ -25,7 +25,7 @@ class HomographyMog2 : public Rival {
   RivalOutput judge(const RivalInput& input) override;
 
   void anchorHere(const cv::Mat& background);
-  cv::Mat learn(const cv::Mat& picture);
+  cv::Mat learn(const cv::Mat& image);
 
   Registrar registrar_;
   cv::Ptr<cv::BackgroundSubtractorMOG2> model_;

@@ -19,7 +19,7 @@ constexpr float kMatch = 2;             // squared sigmas
 constexpr float kForegroundSigmas = 2;  // the square root of the authors' 4
 constexpr float kJudgedFromAge = 1;
 constexpr int kAveragePx = 21;
-constexpr float kDecisionShare = 0.26F;
+constexpr float kDecisionFraction = 0.26F;
 
 float squared(float x) { return x * x; }
 
@@ -117,15 +117,15 @@ RivalOutput Mcd::judge(const RivalInput& input) {
     output.status = RivalStatus::kGood;
     output.background = *registration;
   }
-  output.score = averagedScore(updateAndScore(grey), kAveragePx, kDecisionShare);
+  output.score = averagedScore(updateAndScore(grey), kAveragePx, kDecisionFraction);
   return output;
 }
 
 GreyGaussian Mcd::modelAt(size_t which, double column, double row) const {
   const int left = static_cast<int>(std::floor(column));
   const int top = static_cast<int>(std::floor(row));
-  const auto right_share = static_cast<float>(column - left);
-  const auto lower_share = static_cast<float>(row - top);
+  const auto right_fraction = static_cast<float>(column - left);
+  const auto lower_fraction = static_cast<float>(row - top);
   std::array<GreyGaussian, 4> around{};
   std::array<float, 4> weights{};
   for (size_t i = 0; i < 4; ++i) {
@@ -133,7 +133,8 @@ GreyGaussian Mcd::modelAt(size_t which, double column, double row) const {
     const int r = top + static_cast<int>(i / 2);
     if (c < 0 || r < 0 || c >= blocks_.width || r >= blocks_.height) continue;
     around[i] = model(r, c)[which];
-    weights[i] = (i % 2 == 0 ? 1 - right_share : right_share) * (i / 2 == 0 ? 1 - lower_share : lower_share);
+    weights[i] = (i % 2 == 0 ? 1 - right_fraction : right_fraction) *
+                 (i / 2 == 0 ? 1 - lower_fraction : lower_fraction);
   }
   return blendGaussians(around, weights);
 }

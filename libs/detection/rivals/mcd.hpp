@@ -28,7 +28,7 @@ using DualModel = std::array<GreyGaussian, 2>;
 
 /// The Gaussian at a place between four blocks: means weighted, the spread of the means counted into the
 /// variance, the age less where the variance is large (equations 8 to 11). `weights` sum to at most 1; what
-/// is missing lies outside of the picture. Age 0 where all is missing.
+/// is missing lies outside of the image. Age 0 where all is missing.
 GreyGaussian blendGaussians(const std::array<GreyGaussian, 4>& models, const std::array<float, 4>& weights);
 
 /// What the pixels of a block are judged against.
@@ -60,7 +60,7 @@ class Mcd : public Rival {
     return models_[static_cast<size_t>(row * blocks_.width + column)];
   }
 
-  cv::Size blocks_;                ///< whole blocks of the picture; what remains at its edge is not judged
+  cv::Size blocks_;                ///< whole blocks of the image; what remains at its edge is not judged
   std::vector<DualModel> models_;  ///< row by row
 };
 

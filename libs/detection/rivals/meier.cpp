@@ -13,9 +13,9 @@ namespace {
 constexpr double kThresholdPx = 1.0;  // chosen by reason: the score sweeps it
 constexpr float kReachPx = 24;
 constexpr int kAveragePx = 15;
-constexpr float kDecisionShare = 0.58F;
-constexpr double kDirectionError = 0.05;  // of the parallax
-constexpr double kNearestShare = 0.15;    // of the height
+constexpr float kDecisionFraction = 0.58F;
+constexpr double kDirectionError = 0.05;   // of the parallax
+constexpr double kNearestFraction = 0.15;  // of the height
 constexpr double kGroundSlack = 0.1;
 constexpr double kNearestBaselines = 4;
 
@@ -56,7 +56,7 @@ RivalOutput Meier::judge(const RivalInput& input) {
   std::optional<EgoMotion> motion;
   std::optional<cv::Matx33d> background;
   if (input.motion) {
-    motion.emplace(*input.motion, input.K, kNearestShare, kGroundSlack);
+    motion.emplace(*input.motion, input.K, kNearestFraction, kGroundSlack);
     cv::eigen2cv(planeHomography(input.K, *input.motion), background.emplace());
   } else {
     motion = EgoMotion::fromTracks(tracks, input.K, kNearestBaselines);
@@ -71,7 +71,7 @@ RivalOutput Meier::judge(const RivalInput& input) {
   ClusterParameters clusters;
   clusters.reach_px = kReachPx;
   output.score = averagedScore(paintClusters(input.grey.size(), strayPoints(tracks, *motion), clusters),
-                               kAveragePx, kDecisionShare);
+                               kAveragePx, kDecisionFraction);
   return output;
 }
 

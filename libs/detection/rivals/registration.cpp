@@ -6,10 +6,10 @@ namespace redbee {
 namespace {
 
 // What chance gives does not come near; water and foliage leave little more that follows one plane.
-constexpr double kMinInlierShare = 0.03;
+constexpr double kMinInlierRatio = 0.03;
 constexpr size_t kMinInliers = 8;
 
-/// Homographies that turn the picture over, or shrink it to nothing, are no camera motion.
+/// Homographies that turn the image over, or shrink it to nothing, are no camera motion.
 bool isCameraMotion(const cv::Matx33d& H) {
   constexpr double kMostMagnification = 4.0;
   const double area = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0);
@@ -20,7 +20,7 @@ bool isCameraMotion(const cv::Matx33d& H) {
 
 std::optional<cv::Matx33d> registerTracks(const GridTracks& tracks, double inlier_px) {
   const auto enough =
-      kMinInliers + static_cast<size_t>(kMinInlierShare * static_cast<double>(tracks.sampled));
+      kMinInliers + static_cast<size_t>(kMinInlierRatio * static_cast<double>(tracks.sampled));
   if (tracks.previous.size() < enough) return std::nullopt;
   std::vector<uint8_t> inlier;
   const cv::Mat found = cv::findHomography(tracks.previous, tracks.current, cv::RANSAC, inlier_px, inlier);

@@ -1,4 +1,4 @@
-// Two successive pictures brought onto each other by one homography: pyramidal Lucas-Kanade on a grid, then
+// Two successive images brought onto each other by one homography: pyramidal Lucas-Kanade on a grid, then
 // RANSAC, both OpenCV's, as the authors of these methods use them.
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace redbee {
 
 /// Homography of `tracks`, previous to current, by RANSAC with this inlier distance [px]. Nothing where fewer
-/// than 3 % of the points sampled (and 8 more) follow it, or it turns or scales the picture as no camera does
+/// than 3 % of the points sampled (and 8 more) follow it, or it turns or scales the image as no camera does
 /// (the authors do not check).
 std::optional<cv::Matx33d> registerTracks(const GridTracks& tracks, double inlier_px = 1.0);
 
@@ -20,8 +20,8 @@ class Registrar {
 
   void reset() { flow_.reset(); }
   bool hasPrevious() const { return flow_.hasPrevious(); }
-  /// Registers the picture (CV_8U) before to this one, which is then the one before. Nothing for the first
-  /// picture and where registerTracks() fails.
+  /// Registers the image (CV_8U) before to this one, which is then the one before. Nothing for the first
+  /// image and where registerTracks() fails.
   std::optional<cv::Matx33d> advance(const cv::Mat& grey) { return registerTracks(flow_.advance(grey)); }
 
  private:

@@ -77,7 +77,7 @@ RivalOutput Rival::step(const RivalInput& input) {
   RivalOutput output;
   if (!fits(input)) {
     reset();
-    output.status = RivalStatus::kBadPicture;
+    output.status = RivalStatus::kBadImage;
   } else {
     const bool first = !last_utime_;
     const bool follows = !first && input.utime > *last_utime_ &&

@@ -1,7 +1,7 @@
 // Other detectors of moving objects from a moving camera, behind one interface, to be measured against ours.
 //
 // Written from their descriptions; each header says where it departs from them and where its parameters come
-// from. All see ideal (undistorted) pictures in order of time.
+// from. All see ideal (undistorted) images in order of time.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,14 +26,14 @@ struct RivalInput {
 
 enum class RivalStatus {
   kGood,
-  kLearning,    ///< nothing is known yet to compare with
-  kLost,        ///< the pictures could not be registered, or do not follow on each other: it begins anew
-  kBadPicture,  ///< empty or of the wrong type; nothing was learned from it
+  kLearning,  ///< nothing is known yet to compare with
+  kLost,      ///< the images could not be registered, or do not follow on each other: it begins anew
+  kBadImage,  ///< empty or of the wrong type; nothing was learned from it
 };
 
 struct RivalOutput {
   RivalStatus status = RivalStatus::kLearning;
-  /// CV_8U, the picture's size: graded evidence of motion, all 0 unless kGood. 128 is where the published
+  /// CV_8U, the image's size: graded evidence of motion, all 0 unless kGood. 128 is where the published
   /// (or tuned) decision lies.
   cv::Mat score;
   /// The background's homography, previous to current, as the rival sees it; the identity unless kGood.
@@ -50,12 +50,12 @@ class Rival {
   virtual bool wantsMotion() const { return false; }
 
   /// A gap, a repeated or earlier time, a change of size and a lost registration each start it anew from this
-  /// picture, and the status says so.
+  /// image, and the status says so.
   RivalOutput step(const RivalInput& input);
 
  private:
   virtual void reset() = 0;
-  /// Judges a picture that follows on the last one, or is the first since reset(). `score` may be left empty
+  /// Judges a image that follows on the last one, or is the first since reset(). `score` may be left empty
   /// unless kGood.
   virtual RivalOutput judge(const RivalInput& input) = 0;
 

@@ -11,7 +11,7 @@ namespace redbee {
 namespace {
 
 constexpr double kAlpha = 800;
-constexpr double kKeptShare = 0.7;
+constexpr double kKeptFraction = 0.7;
 
 double smallestGreatestCorrelation(const Eigen::MatrixXd& gram) {
   Eigen::MatrixXd off = gram.cwiseAbs();
@@ -47,7 +47,7 @@ void keepLargest(Eigen::Ref<Eigen::VectorXd> column) {
   std::vector<Eigen::Index> order(static_cast<size_t>(column.size()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return column(a) > column(b); });
-  const double enough = kKeptShare * column.sum();
+  const double enough = kKeptFraction * column.sum();
   double sum = 0;
   for (const Eigen::Index i : order) {
     const double value = column(i);

@@ -1,4 +1,4 @@
-// Pictures brought into the current frame's place.
+// Images brought into the current frame's place.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -6,7 +6,7 @@
 
 namespace redbee {
 
-/// A picture or a map of any depth as the current frame sees it; `H` previous to current. 0 where it does not
+/// A image or a map of any depth as the current frame sees it; `H` previous to current. 0 where it does not
 /// reach.
 inline cv::Mat stabilise(const cv::Mat& previous, const cv::Matx33d& H,
                          int interpolation = cv::INTER_LINEAR) {
@@ -15,7 +15,7 @@ inline cv::Mat stabilise(const cv::Mat& previous, const cv::Matx33d& H,
   return stabilised;
 }
 
-/// 255 where a current pixel, or a neighbour of it, was outside of the previous picture, else 0.
+/// 255 where a current pixel, or a neighbour of it, was outside of the previous image, else 0.
 inline cv::Mat unseenBy(const cv::Matx33d& H, cv::Size size) {
   const cv::Mat seen = stabilise(cv::Mat(size, CV_8U, cv::Scalar(255)), H, cv::INTER_NEAREST);
   cv::Mat unseen;

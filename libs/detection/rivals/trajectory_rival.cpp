@@ -24,16 +24,16 @@ constexpr TrajectoryRivalParameters kLrrParameters{24, 0.2};
 constexpr TrajectoryRivalParameters kSscParameters{24, 0.1};
 constexpr double kReachPx = 16;  // tracks are lost, and where they were must not go without a score
 constexpr int kAveragePx = 25;
-constexpr float kDecisionShare = 0.38F;
-constexpr double kRegisteredPx = 1;  // tracks this close to the background's motions register the picture
+constexpr float kDecisionFraction = 0.38F;
+constexpr double kRegisteredPx = 1;  // tracks this close to the background's motions register the image
 constexpr Eigen::Index kAffineRank = 3;
 
-cv::Mat fillFromNearest(cv::Size picture, const Eigen::MatrixXd& X, const std::vector<uint8_t>& scores) {
-  cv::Mat empty(picture, CV_8U, cv::Scalar(255));
+cv::Mat fillFromNearest(cv::Size image, const Eigen::MatrixXd& X, const std::vector<uint8_t>& scores) {
+  cv::Mat empty(image, CV_8U, cv::Scalar(255));
   const auto pixelOf = [&](Eigen::Index i) {
     const Eigen::Vector2d p = X.col(i).tail<2>();
-    return cv::Point(std::clamp(cvRound(p.x()), 0, picture.width - 1),
-                     std::clamp(cvRound(p.y()), 0, picture.height - 1));
+    return cv::Point(std::clamp(cvRound(p.x()), 0, image.width - 1),
+                     std::clamp(cvRound(p.y()), 0, image.height - 1));
   };
   for (Eigen::Index i = 0; i < X.cols(); ++i) empty.at<uint8_t>(pixelOf(i)) = 0;
   cv::Mat distance, cell;
@@ -41,7 +41,7 @@ cv::Mat fillFromNearest(cv::Size picture, const Eigen::MatrixXd& X, const std::v
   std::vector<uint8_t> score_of_cell(scores.size() + 1, 0);
   for (Eigen::Index i = 0; i < X.cols(); ++i)
     score_of_cell[static_cast<size_t>(cell.at<int>(pixelOf(i)))] = scores[static_cast<size_t>(i)];
-  cv::Mat map = cv::Mat::zeros(picture, CV_8U);
+  cv::Mat map = cv::Mat::zeros(image, CV_8U);
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.cols; ++x) {
       if (distance.at<float>(y, x) <= kReachPx)
@@ -76,14 +76,14 @@ GridTracks lastStepOfBackground(const Eigen::MatrixXd& X, const Eigen::VectorXd&
 
 }  // namespace
 
-std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_share) {
+std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_fraction) {
   std::vector<long> members;
   members.reserve(static_cast<size_t>(count));
   for (int label = 0; label < count; ++label)
     members.push_back(std::count(labels.begin(), labels.end(), label));
   const long largest = *std::max_element(members.begin(), members.end());
   const double enough =
-      std::min(least_share * static_cast<double>(labels.size()), static_cast<double>(largest));
+      std::min(least_fraction * static_cast<double>(labels.size()), static_cast<double>(largest));
   std::vector<int> background;
   for (int label = 0; label < count; ++label) {
     if (static_cast<double>(members[static_cast<size_t>(label)]) >= enough) background.push_back(label);
@@ -147,13 +147,13 @@ RivalOutput TrajectoryRival::judge(const RivalInput& input) {
   if (X.cols() < 4 * kMotions) return output;
   const std::vector<int> labels = clustering_(X, kMotions);
   const Eigen::VectorXd distance = distanceFromBackground(
-      tracks, X, labels, backgroundLabels(labels, kMotions, parameters_.background_share));
+      tracks, X, labels, backgroundLabels(labels, kMotions, parameters_.background_fraction));
   std::vector<uint8_t> scores;
   for (const double px : distance)
     scores.push_back(gradedScore((static_cast<float>(px) - kTrackingErrorPx) / kDistanceUnitPx));
   output.status = RivalStatus::kGood;
   output.score =
-      averagedScore(fillFromNearest(input.grey.size(), tracks, scores), kAveragePx, kDecisionShare);
+      averagedScore(fillFromNearest(input.grey.size(), tracks, scores), kAveragePx, kDecisionFraction);
   output.background = registerTracks(lastStepOfBackground(tracks, distance)).value_or(cv::Matx33d::eye());
   return output;
 }

@@ -27,7 +27,7 @@ using TrajectoryClustering = std::function<std::vector<int>(const Eigen::MatrixX
 
 /// Labels of the clusters with at least this share of all tracks; the largest one's where none has. Labels
 /// lie from 0 to `count` - 1.
-std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_share);
+std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_fraction);
 
 /// Root mean square distance [px] of each of `tracks` from the affine motion of those columns of `X` that
 /// have `of[i]` true; infinite where they are too few to have one.
@@ -43,8 +43,8 @@ Eigen::VectorXd distanceFromBackground(const Eigen::MatrixXd& tracks, const Eige
 Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, int cell_px);
 
 struct TrajectoryRivalParameters {
-  int clustered_px = 24;           ///< px between the tracks that are clustered
-  double background_share = 0.15;  ///< of these: what a cluster needs to be the background's
+  int clustered_px = 24;              ///< px between the tracks that are clustered
+  double background_fraction = 0.15;  ///< of these: what a cluster needs to be the background's
 };
 
 class TrajectoryRival : public Rival {

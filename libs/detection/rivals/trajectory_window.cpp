@@ -54,9 +54,9 @@ size_t TrajectoryWindow::follow(const cv::Mat& grey) {
   return tracks_.size();
 }
 
-void TrajectoryWindow::thinAndSeed(const cv::Size& picture) {
+void TrajectoryWindow::thinAndSeed(const cv::Size& image) {
   const int cell = parameters_.grid_px;
-  const cv::Size cells((picture.width + cell - 1) / cell, (picture.height + cell - 1) / cell);
+  const cv::Size cells((image.width + cell - 1) / cell, (image.height + cell - 1) / cell);
   std::vector<bool> taken(static_cast<size_t>(cells.area()), false);
   const auto cellOf = [&](const cv::Point2f& p) {
     return static_cast<size_t>(static_cast<int>(p.y) / cell * cells.width + static_cast<int>(p.x) / cell);
@@ -70,7 +70,7 @@ void TrajectoryWindow::thinAndSeed(const cv::Size& picture) {
     taken[at] = true;
     kept.push_back(std::move(track));
   }
-  for (const cv::Point2f& seed : gridPoints(picture, {cell, cell})) {
+  for (const cv::Point2f& seed : gridPoints(image, {cell, cell})) {
     if (!taken[cellOf(seed)]) kept.push_back({seed});
   }
   tracks_ = std::move(kept);

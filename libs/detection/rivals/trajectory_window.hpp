@@ -21,8 +21,8 @@ class TrajectoryWindow {
   explicit TrajectoryWindow(const TrajectoryWindowParameters& parameters);
 
   void reset();
-  /// Follows all tracks into the picture (CV_8U, of one size between resets) and seeds empty cells. False
-  /// where fewer than a tenth of the tracks could be followed: it then begins anew from this picture.
+  /// Follows all tracks into the image (CV_8U, of one size between resets) and seeds empty cells. False
+  /// where fewer than a tenth of the tracks could be followed: it then begins anew from this image.
   bool advance(const cv::Mat& grey);
 
   /// 2F x N, px: x and y of frame f in rows 2f and 2f + 1, a column for every track that spans the whole
@@ -34,7 +34,7 @@ class TrajectoryWindow {
   using Track = std::deque<cv::Point2f>;
 
   size_t follow(const cv::Mat& grey);
-  void thinAndSeed(const cv::Size& picture);
+  void thinAndSeed(const cv::Size& image);
 
   TrajectoryWindowParameters parameters_;
   GridFlow flow_;

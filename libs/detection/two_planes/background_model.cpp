@@ -14,8 +14,8 @@ namespace {
 // The canvas must neither lose nor invent detail: beyond this change of area it is laid anew.
 constexpr double kMaxAreaRatio = 1.2;
 
-int marginPixels(const cv::Size& picture, double share) {
-  return static_cast<int>(std::lround(picture.width * share));
+int marginPixels(const cv::Size& image, double share) {
+  return static_cast<int>(std::lround(image.width * share));
 }
 
 Eigen::Matrix3d translation(double x, double y) {
@@ -37,13 +37,13 @@ double polygonArea(const std::array<Eigen::Vector2d, 4>& corners) {
 
 }  // namespace
 
-BackgroundModel::BackgroundModel(cv::Size picture, const SegmentationParameters& parameters)
-    : picture_(picture),
-      canvas_(picture.width + 2 * marginPixels(picture, parameters.canvas_margin),
-              picture.height + 2 * marginPixels(picture, parameters.canvas_margin)),
+BackgroundModel::BackgroundModel(cv::Size image, const SegmentationParameters& parameters)
+    : image_(image),
+      canvas_(image.width + 2 * marginPixels(image, parameters.canvas_margin),
+              image.height + 2 * marginPixels(image, parameters.canvas_margin)),
       learning_frames_(parameters.learning_frames),
-      to_canvas_(translation(marginPixels(picture, parameters.canvas_margin),
-                             marginPixels(picture, parameters.canvas_margin))),
+      to_canvas_(translation(marginPixels(image, parameters.canvas_margin),
+                             marginPixels(image, parameters.canvas_margin))),
       view_(to_canvas_.inverse()),
       mixture_(canvas_, parameters.mixture_history, parameters.mixture_threshold) {}
 
@@ -62,20 +62,20 @@ BackgroundVerdict BackgroundModel::learn(const cv::Mat& grey) {
     return to;
   };
   const cv::Mat valid =
-      warp(cv::Mat(picture_, CV_8U, cv::Scalar(255)), canvas_, current_to_canvas, cv::INTER_NEAREST);
+      warp(cv::Mat(image_, CV_8U, cv::Scalar(255)), canvas_, current_to_canvas, cv::INTER_NEAREST);
   const cv::Mat known_canvas = ~mixture_.unknown(learning_frames_);
   const cv::Mat foreground_canvas =
       mixture_.update(warp(grey, canvas_, current_to_canvas, cv::INTER_LINEAR), valid);
   BackgroundVerdict verdict;
-  const cv::Mat known = warp(known_canvas, picture_, view_, cv::INTER_NEAREST);
-  verdict.foreground = warp(foreground_canvas, picture_, view_, cv::INTER_NEAREST) & known;
+  const cv::Mat known = warp(known_canvas, image_, view_, cv::INTER_NEAREST);
+  verdict.foreground = warp(foreground_canvas, image_, view_, cv::INTER_NEAREST) & known;
   verdict.unknown = ~known;
   return verdict;
 }
 
 bool BackgroundModel::viewFitsCanvas() const {
-  const double w = picture_.width - 1;
-  const double h = picture_.height - 1;
+  const double w = image_.width - 1;
+  const double h = image_.height - 1;
   const Eigen::Matrix3d to_canvas = view_.inverse();
   std::array<Eigen::Vector2d, 4> corners = {{transfer(to_canvas, {0, 0}), transfer(to_canvas, {w, 0}),
                                              transfer(to_canvas, {w, h}), transfer(to_canvas, {0, h})}};

@@ -1,6 +1,6 @@
 // The background as one plane carries it: a Gaussian mixture that follows the plane's homography.
 //
-// The model lies on a canvas, the picture with a border, and the current frame is warped onto it. When the
+// The model lies on a canvas, the image with a border, and the current frame is warped onto it. When the
 // view leaves the canvas or changes its scale, the model moves into the current view, one nearest-neighbour
 // warp. With no border it moves every frame: the model is "carried along".
 #pragma once
@@ -14,23 +14,23 @@
 namespace redbee {
 
 struct BackgroundVerdict {
-  cv::Mat foreground;  ///< CV_8U in the current picture, 255 where the pixel is known and not background
+  cv::Mat foreground;  ///< CV_8U in the current image, 255 where the pixel is known and not background
   cv::Mat unknown;     ///< CV_8U, 255 where the plane has not been seen for long enough
 };
 
 class BackgroundModel {
  public:
-  BackgroundModel(cv::Size picture, const SegmentationParameters& parameters);
+  BackgroundModel(cv::Size image, const SegmentationParameters& parameters);
 
   /// The view moves by H (previous to current, pixels) and nothing is learned.
   void carry(const Eigen::Matrix3d& H);
-  /// Judges the picture (8-bit grey) by what was learned before it, then learns it. carry() comes first.
+  /// Judges the image (8-bit grey) by what was learned before it, then learns it. carry() comes first.
   BackgroundVerdict learn(const cv::Mat& grey);
 
  private:
   bool viewFitsCanvas() const;
 
-  cv::Size picture_;
+  cv::Size image_;
   cv::Size canvas_;
   int learning_frames_;
   Eigen::Matrix3d to_canvas_;  ///< of a view that the canvas was laid around: the border's offset

@@ -39,11 +39,11 @@ double histogramEntropy(const std::vector<int>& histogram) {
   return entropy;
 }
 
-cv::Mat flowOrder(const PointTracks& tracks, const Eigen::Matrix3d& ground, cv::Size picture,
+cv::Mat flowOrder(const PointTracks& tracks, const Eigen::Matrix3d& ground, cv::Size image,
                   const SegmentationParameters& parameters) {
   const int side = parameters.sample_grid_px * parameters.entropy_cell_points;
-  const int columns = (picture.width + side - 1) / side;
-  const int rows = (picture.height + side - 1) / side;
+  const int columns = (image.width + side - 1) / side;
+  const int rows = (image.height + side - 1) / side;
   const Cell empty{std::vector<int>(static_cast<size_t>(parameters.entropy_bins), 0), 0};
   std::vector<Cell> cells(static_cast<size_t>(columns * rows), empty);
   for (size_t i = 0; i < tracks.current.size(); ++i) {
@@ -58,10 +58,10 @@ cv::Mat flowOrder(const PointTracks& tracks, const Eigen::Matrix3d& ground, cv::
     if (!(flow.norm() > parameters.flow_noise_px)) continue;
     ++cell.histogram[static_cast<size_t>(directionBin(flow, parameters.entropy_bins))];
   }
-  cv::Mat map(picture, CV_32F);
+  cv::Mat map(image, CV_32F);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      const cv::Rect area = cv::Rect(column * side, row * side, side, side) & cv::Rect({}, picture);
+      const cv::Rect area = cv::Rect(column * side, row * side, side, side) & cv::Rect({}, image);
       map(area).setTo(order(cells[static_cast<size_t>(row * columns + column)], parameters));
     }
   }

@@ -11,7 +11,7 @@ namespace redbee {
 namespace {
 
 // Zivkovic's published constants, in grey levels squared where they are variances.
-constexpr float kBackgroundShare = 0.9F;
+constexpr float kBackgroundFraction = 0.9F;
 constexpr float kComplexityPrior = 0.05F;
 constexpr float kMatchThreshold = 9.0F;
 constexpr float kInitialVariance = 15.0F;
@@ -58,7 +58,7 @@ bool GaussianMixture::learn(Pixel& pixel, float value) const {
       const float difference = value - gaussian.mean;
       const float distance2 = difference * difference;
       background =
-          background || (seen_weight < kBackgroundShare && distance2 < threshold_ * gaussian.variance);
+          background || (seen_weight < kBackgroundFraction && distance2 < threshold_ * gaussian.variance);
       if (distance2 < kMatchThreshold * gaussian.variance) {
         matched = true;
         gaussian.weight += rate;
@@ -100,7 +100,7 @@ cv::Mat GaussianMixture::unknown(int frames) const {
 void GaussianMixture::move(const Eigen::Matrix3d& H) {
   cv::Mat index(size_, CV_32S);
   for (int i = 0; i < size_.area(); ++i) index.at<int>(i / size_.width, i % size_.width) = i + 1;
-  // OpenCV remaps no 32-bit integers; floats hold every index of a picture below 2^24 pixels exactly.
+  // OpenCV remaps no 32-bit integers; floats hold every index of a image below 2^24 pixels exactly.
   index.convertTo(index, CV_32F);
   const cv::Mat source = carryMap(index, H, cv::INTER_NEAREST);
   std::vector<Pixel> moved(pixels_.size());

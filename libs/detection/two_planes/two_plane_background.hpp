@@ -17,7 +17,7 @@ class TwoPlaneBackground {
   /// The view moves (homographies previous to current). A front plane that was not there before starts with
   /// the ground's model, so that it is not blind; one that is gone is forgotten.
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front);
-  /// The first picture after a reset is learned without carry().
+  /// The first image after a reset is learned without carry().
   BackgroundVerdict learn(const cv::Mat& grey);
 
  private:

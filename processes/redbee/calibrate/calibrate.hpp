@@ -12,7 +12,7 @@ class App;
 namespace redbee {
 
 struct CalibrateOptions {
-  std::filesystem::path log;  ///< LCM log with pictures and IMU; or the next two
+  std::filesystem::path log;  ///< LCM log with images and IMU; or the next two
   std::filesystem::path
       target_corners;         ///< CSV of a target's corners, plain or .gz (calibration_target_csv.hpp)
   std::filesystem::path imu;  ///< CSV of the IMU beside it

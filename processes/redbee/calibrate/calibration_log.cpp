@@ -8,7 +8,7 @@
 
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/codec.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/files/progress.hpp"
@@ -26,7 +26,7 @@ bool decodes(const LogEvent& event, Message& message) {
   return decodeMessage(event.data.data(), static_cast<int>(event.data.size()), message);
 }
 
-/// Follows points over several frames at once, where the picture moves slowly: a facade's parallax then
+/// Follows points over several frames at once, where the image moves slowly: a facade's parallax then
 /// outgrows the tracking noise, and the rotation too. Frames in between only carry the starting guess along.
 class LongBaseline {
  public:
@@ -100,12 +100,11 @@ class LogIntake {
     const Channels& channels = configuration_.channels;
     if (event.channel == channels.imu) return takeImu(event);
     if (event.channel == channels.altimeter && configuration_.has_altimeter) return takeAltitude(event);
-    if (event.channel == channels.camera) return takePicture(event);
+    if (event.channel == channels.camera) return takeImage(event);
   }
 
   void finish() const {
-    if (input_.frames.empty())
-      throw InputError(log_, "holds no picture on " + configuration_.channels.camera);
+    if (input_.frames.empty()) throw InputError(log_, "holds no image on " + configuration_.channels.camera);
     if (input_.imu.empty()) throw InputError(log_, "holds no IMU sample on " + configuration_.channels.imu);
     if (damaged_ > 0)
       std::fprintf(stderr, "warning: %s: %d damaged messages skipped\n", log_.c_str(), damaged_);
@@ -126,19 +125,19 @@ class LogIntake {
     input_.altimeter.push_back({message.utime, message.height, message.sigma});
   }
 
-  void takePicture(const LogEvent& event) {
+  void takeImage(const LogEvent& event) {
     image_t message;
     if (!decodes(event, message)) return noteDamaged();
     const auto grey = decodeGrey(message);
     if (!grey) return noteDamaged();
     if (grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
-      throw InputError(log_, "event " + std::to_string(event.number) + ": picture of " +
+      throw InputError(log_, "event " + std::to_string(event.number) + ": image of " +
                                  std::to_string(grey->cols) + "x" + std::to_string(grey->rows) +
                                  ", configured are " + std::to_string(configuration_.camera.width) + "x" +
                                  std::to_string(configuration_.camera.height));
     }
     const int64_t previous = input_.frames.empty() ? message.utime : input_.frames.back();
-    // A picture that comes twice or late would be tracked backwards.
+    // A image that comes twice or late would be tracked backwards.
     if (!input_.frames.empty() && message.utime <= previous) return;
     const cv::Mat ideal = rectifier_.toIdeal(*grey);
     PointTracks points = tracker_.advance(ideal, std::nullopt);

@@ -8,9 +8,9 @@
 
 namespace redbee {
 
-/// Reads IMU, altimeter and pictures, and follows points from each picture to the next; fills imu, altimeter,
+/// Reads IMU, altimeter and images, and follows points from each image to the next; fills imu, altimeter,
 /// frames and ground of `input`. Damaged messages and events are skipped with a warning. Throws InputError
-/// where the log holds no pictures or no IMU, or pictures of another size than configured.
+/// where the log holds no images or no IMU, or images of another size than configured.
 void readCalibrationLog(const std::filesystem::path& log, const Configuration& configuration, bool quiet,
                         calibration::CalibrationInput& input);
 

@@ -9,7 +9,7 @@
 namespace redbee {
 
 /// Columns: ts [ns], tag rows, tag columns, tag size [m], tag spacing, pixel x, y [px, raw], target point x,
-/// y, z [m], tag id, corner. Rows of one picture share ts and stand together, times increasing. A name that
+/// y, z [m], tag id, corner. Rows of one image share ts and stand together, times increasing. A name that
 /// ends in .gz is unpacked. Throws InputError with file and line.
 std::vector<calibration::TargetView> readTargetCorners(const std::filesystem::path& csv);
 

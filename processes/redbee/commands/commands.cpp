@@ -71,13 +71,13 @@ void addOverlayCommand(CLI::App& app) {
   command->add_option("--config", options->configuration, "the vehicle's YAML file")->required();
   command->add_option("--results", options->results, "folder of detect or collect")->required();
   command->add_option("--out", options->video, "the MP4 to write")->required();
-  command->add_option("--stills", options->stills, "folder for single pictures too");
+  command->add_option("--stills", options->stills, "folder for single images too");
   command->callback([options] { renderOverlay(*options); });
 }
 
 void addReportCommand(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
-  auto* command = app.add_subcommand("report", "one page of figures and pictures about a run");
+  auto* command = app.add_subcommand("report", "one page of figures and images about a run");
   command->add_option("--log", options->log, "the flight")->required();
   command->add_option("--config", options->configuration, "the vehicle's YAML file")->required();
   command->add_option("--results", options->results, "folder of detect or collect")->required();
@@ -96,8 +96,8 @@ void addEvaluateCommand(CLI::App& app) {
       ->required();
   command->add_option("--detections", options->results, "folder of detect or collect")->required();
   command->add_option("--log", options->log,
-                      "the flight: for pictures of hits and misses, and for masks named by frame number");
-  command->add_option("--camera", options->camera_channel, "channel of the log's pictures")
+                      "the flight: for images of hits and misses, and for masks named by frame number");
+  command->add_option("--camera", options->camera_channel, "channel of the log's images")
       ->capture_default_str();
   command->add_option("--frames", options->frames, "only the first so many frames of the recording")
       ->check(CLI::PositiveNumber);
@@ -122,7 +122,7 @@ void addDoctorCommand(CLI::App& app) {
   auto* command = app.add_subcommand(
       "doctor", "what stands between this machine and a running stack, with the mend of each");
   command->add_option("--lcm-url", options->url)->capture_default_str();
-  command->add_option("--camera", options->camera_channel, "channel of the pictures")->capture_default_str();
+  command->add_option("--camera", options->camera_channel, "channel of the images")->capture_default_str();
   command->add_option("--imu", options->imu_channel, "channel of the IMU")->capture_default_str();
   command->callback([options] {
     if (runDoctor(*options) > 0) throw CLI::RuntimeError(1);

@@ -42,12 +42,12 @@ void addAsl(CLI::App& import) {
 void addVideo(CLI::App& import) {
   auto options = std::make_shared<VideoImportOptions>();
   auto* command = import.add_subcommand("video", "any video, with or without an IMU recording");
-  command->add_option("file", options->video, "the video, or a folder of pictures (with --fps)")->required();
+  command->add_option("file", options->video, "the video, or a folder of images (with --fps)")->required();
   command->add_option("--imu", options->imu,
                       "CSV, first line names the columns: t_s,gx,gy,gz,ax,ay,az "
                       "(s on the video's clock, rad/s, m/s^2)");
   command->add_option("--width", options->width, "px; 0 keeps the video's")->capture_default_str();
-  command->add_option("--fps", options->fps, "frames a second of a folder of pictures");
+  command->add_option("--fps", options->fps, "frames a second of a folder of images");
   command->add_option("--out", options->log, "the log to write")->required();
   command->callback([options] {
     Progress progress("importing " + options->video.string(), "frames");

@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_error.hpp"
@@ -87,8 +87,8 @@ void runSimulate(const SimulateOptions& options) {
   TruthFolder truth(options.truth);
   for (int k = 0; k < scenario.frames; ++k) {
     const simulation::SimulatedFrame frame = simulator.frame(k);
-    merger.addFrame(rawGreyMessage(frame.utime, frame.picture.grey));
-    truth.add(k, frame.utime, frame.picture.mask, simulator.homography(k));
+    merger.addFrame(rawGreyMessage(frame.utime, frame.image.grey));
+    truth.add(k, frame.utime, frame.image.mask, simulator.homography(k));
     progress.update(k + 1, scenario.frames);
   }
   ImportSummary summary;

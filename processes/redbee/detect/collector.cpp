@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kQueue = 256;
 
-std::string pictureName(int64_t utime) { return std::to_string(utime) + ".png"; }
+std::string imageName(int64_t utime) { return std::to_string(utime) + ".png"; }
 
 std::string_view bytesOf(const std::vector<uint8_t>& data) {
   return {reinterpret_cast<const char*>(data.data()), data.size()};
@@ -50,7 +50,7 @@ nlohmann::json stageJson(const process_health_t& health) {
 /// Per frame of the run [ms], the stages' own figures added to `stages`.
 nlohmann::json cpuJson(const ProcessUsage& usage, int64_t frames, nlohmann::json& stages) {
   const auto per_frame = [&](double milliseconds) { return milliseconds / static_cast<double>(frames); };
-  CpuShare sum;
+  CpuTime sum;
   for (const auto& [stage, share] : usage.stages) {
     sum.work += share.work;
     sum.publishing += share.publishing;
@@ -87,8 +87,8 @@ void ResultCollector::takeForeground(const foreground_t& message) {
   foreground_sequence_.note(message.sequence);
   status_[message.utime] = message.status;
   try {
-    writeAtomically(folder_ / "probability" / pictureName(message.utime), bytesOf(message.probability));
-    writeAtomically(folder_ / "mask" / pictureName(message.utime), bytesOf(message.mask));
+    writeAtomically(folder_ / "probability" / imageName(message.utime), bytesOf(message.probability));
+    writeAtomically(folder_ / "mask" / imageName(message.utime), bytesOf(message.mask));
   } catch (const InputError& error) {
     if (first_failure_.empty()) first_failure_ = error.what();
   }

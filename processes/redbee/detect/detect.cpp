@@ -92,17 +92,17 @@ int64_t runDetect(const DetectOptions& options) {
   Progress progress("detecting in " + options.log.filename().string(), "MB", options.quiet);
   Pace pace(options.rate);
   const auto start = Clock::now();
-  int64_t pictures = 0;
-  const auto enough = [&] { return options.frames > 0 && pictures >= options.frames; };
+  int64_t images = 0;
+  const auto enough = [&] { return options.frames > 0 && images >= options.frames; };
   while (const auto event = enough() ? std::nullopt : log.next()) {
     if (!isInput(configuration.channels, event->channel)) continue;
     pace.wait(event->utime);
     bus->publish(event->channel, event->data);
     stack.settle();
-    pictures += event->channel == configuration.channels.camera ? 1 : 0;
+    images += event->channel == configuration.channels.camera ? 1 : 0;
     progress.update(log.position() >> 20, log.size() >> 20);
   }
-  if (pictures == 0) {
+  if (images == 0) {
     throw InputError(options.log, "holds no message on " + configuration.channels.camera);
   }
   stack.finish();

@@ -14,8 +14,8 @@ namespace redbee {
 /// What this process has used so far.
 struct ProcessUsage {
   int64_t peak_resident_bytes = 0;
-  double cpu_s = 0;                        ///< all threads, in and out of the kernel
-  std::map<std::string, CpuShare> stages;  ///< by the name of the stage: of its thread, all frames
+  double cpu_s = 0;                       ///< all threads, in and out of the kernel
+  std::map<std::string, CpuTime> stages;  ///< by the name of the stage: of its thread, all frames
 };
 
 inline ProcessUsage processUsage() {

@@ -35,8 +35,8 @@ std::optional<fs::path> baseOf(const fs::path& folder) {
   return std::nullopt;
 }
 
-/// Positions of the recording's pictures by name; empty where they are not at hand.
-std::map<std::string, int64_t> pictureNumbers(const fs::path& folder) {
+/// Positions of the recording's images by name; empty where they are not at hand.
+std::map<std::string, int64_t> imageNumbers(const fs::path& folder) {
   std::vector<std::string> stems;
   if (fs::is_directory(folder)) {
     for (const auto& entry : fs::directory_iterator(folder)) stems.push_back(entry.path().stem().string());
@@ -65,7 +65,7 @@ bool looksLikeFrameNumber(const fs::path& file) {
 
 cv::Mat readPng(const fs::path& file, cv::Size size) {
   cv::Mat map = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-  if (map.empty()) throw InputError(file, "not a readable picture");
+  if (map.empty()) throw InputError(file, "not a readable image");
   if (map.size() != size) {
     throw InputError(file, "has " + std::to_string(map.cols) + "x" + std::to_string(map.rows) +
                                " px, the run's maps " + std::to_string(size.width) + "x" +
@@ -135,16 +135,16 @@ ClipTruth::ClipTruth(const fs::path& folder) : nothing_moves_(false) {
 
 void ClipTruth::findMasks(const fs::path& folder) {
   const std::vector<fs::path> files = pngsOf(folder);
-  const auto pictures = pictureNumbers(folder_ / "frames");
-  by_number_ = !pictures.empty() || std::any_of(files.begin(), files.end(), looksLikeFrameNumber);
+  const auto images = imageNumbers(folder_ / "frames");
+  by_number_ = !images.empty() || std::any_of(files.begin(), files.end(), looksLikeFrameNumber);
   for (const fs::path& file : files) {
-    if (pictures.empty()) {
+    if (images.empty()) {
       masks_[by_number_ ? numberIn(file) : microseconds(numberIn(file))] = file;
       continue;
     }
-    const auto picture = pictures.find(file.stem().string());
-    if (picture == pictures.end()) throw InputError(file, "frames/ holds no picture of this name");
-    masks_[picture->second] = file;
+    const auto image = images.find(file.stem().string());
+    if (image == images.end()) throw InputError(file, "frames/ holds no image of this name");
+    masks_[image->second] = file;
   }
 }
 
@@ -213,11 +213,11 @@ ObjectTruth ClipTruth::objectsFromIdentities(const Frame& frame, const cv::Mat& 
 ObjectTruth ClipTruth::objectsFromBoxes(const Frame& frame, cv::Size size) const {
   ObjectTruth truth;
   truth.ignored = cv::Mat::zeros(size, CV_8U);
-  const cv::Rect picture({}, size);
+  const cv::Rect image({}, size);
   forEachIn(ignored_, frame.index,
-            [&](const TruthObject& area) { truth.ignored(pixelsOf(area.box) & picture) = kUnknown; });
+            [&](const TruthObject& area) { truth.ignored(pixelsOf(area.box) & image) = kUnknown; });
   forEachIn(boxes_, frame.index, [&](const TruthObject& object) {
-    truth.ignored(pixelsOf(object.box) & picture) = 0;
+    truth.ignored(pixelsOf(object.box) & image) = 0;
     truth.objects.push_back(object);
   });
   return truth;

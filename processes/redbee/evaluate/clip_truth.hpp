@@ -8,10 +8,10 @@
 //   place of
 //               id/, every frame of the recording labelled; ignore.csv: frame_index, x, y, w, h: areas not
 //               known
-//   frames/     the pictures of the recording, where masks have their names
+//   frames/     the images of the recording, where masks have their names
 //
 // A mask's name is the frame's time [ns]. It is a frame's number (from 0) instead where numbers are padded
-// with zeros or follow letters, and the name of one of the pictures in frames/ where there is such a folder.
+// with zeros or follow letters, and the name of one of the images in frames/ where there is such a folder.
 // Without id/ and boxes.csv, each connected region of a mask is an object.
 #pragma once
 
@@ -49,7 +49,7 @@ class ClipTruth {
   /// none of the frames has are kept (a frame that the run has lost is still to be answered for); a number
   /// beyond the last frame is an InputError.
   std::vector<Frame> frames(const std::vector<int64_t>& utimes) const;
-  /// Throws InputError where a picture cannot be read or has not `size`.
+  /// Throws InputError where a image cannot be read or has not `size`.
   Labels read(const Frame& frame, cv::Size size) const;
 
  private:

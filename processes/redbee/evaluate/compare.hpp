@@ -21,7 +21,7 @@ struct CompareOptions {
 std::vector<Table> comparisonTables(const Comparison& comparison);
 /// One line per clip, row of extrinsics, method and measure that was taken.
 std::string comparisonCsv(const Comparison& comparison);
-/// The tables, the curves of each clip, and pictures of hits and misses, on one page that stands alone.
+/// The tables, the curves of each clip, and images of hits and misses, on one page that stands alone.
 std::string comparisonPage(const Comparison& comparison, const std::vector<Table>& tables);
 
 /// Prints the tables; leaves tables.txt, tables.md, cells.csv and report.html in the out folder.

@@ -19,7 +19,7 @@ constexpr const char* kStyle =
     "white-space:nowrap}td:first-child,th:first-child{text-align:left}.note{color:#666;font-size:.9em;margin:"
     ".2em 0}"
     ".curves "
-    "svg{width:32%;height:auto}.pictures{display:flex;flex-wrap:wrap;gap:6px}figure{margin:0;width:24%}"
+    "svg{width:32%;height:auto}.images{display:flex;flex-wrap:wrap;gap:6px}figure{margin:0;width:24%}"
     "figure "
     "img{width:100%;display:block}figcaption{font-size:.8em;color:#555}h1{font-size:1.5em}h2{margin-top:2em}"
     "h3{margin-bottom:.3em}.hit{color:#3cbe46}.false{color:#eb3232}.miss{color:#1e78eb}.untold{color:#"
@@ -43,19 +43,19 @@ std::string curves(const Comparison& comparison, const ListedClip& clip, const s
   return any ? plot.svg() : "";
 }
 
-std::string captionOf(const fs::path& picture) {
-  const std::string stem = picture.stem().string();
+std::string captionOf(const fs::path& image) {
+  const std::string stem = image.stem().string();
   const size_t dash = stem.find('-');
   return stem.substr(0, dash) + " frame, " + stem.substr(dash + 1) + " us";
 }
 
-std::string pictures(const fs::path& folder) {
+std::string images(const fs::path& folder) {
   std::vector<fs::path> files;
   if (fs::is_directory(folder)) {
     for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  std::string html = "<div class=\"pictures\">\n";
+  std::string html = "<div class=\"images\">\n";
   for (const fs::path& file : files) {
     html += "<figure>" + jpegElement(contentOf(file), captionOf(file)) + "<figcaption>" + captionOf(file) +
             "</figcaption></figure>\n";
@@ -88,7 +88,7 @@ void writeSet(std::ostream& html, const Comparison& comparison, const std::strin
       if (cell == nullptr) continue;
       html << "<h3>" << escapeHtml(clip.name + ", " + method) << "<small>" << escapeHtml(cellLine(*cell))
            << "</small></h3>\n"
-           << pictures(comparison.folder(clip, row, method) / "pictures");
+           << images(comparison.folder(clip, row, method) / "images");
     }
   }
 }

@@ -122,8 +122,7 @@ Table decisionTable(const Comparison& comparison, const std::string& set, const 
 
 Table objectTable(const Comparison& comparison, const std::string& set, const std::string& row) {
   Table table;
-  table.title =
-      headingOf(set, row) + ": objects found % / false alarms a frame / their area, % of the picture";
+  table.title = headingOf(set, row) + ": objects found % / false alarms a frame / their area, % of the image";
   table.columns = {"method"};
   for (const ListedClip& clip : comparison.clipsOf(set)) table.columns.push_back(clip.name);
   for (const std::string& method : comparison.methods()) {

@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "processes/redbee/evaluate/clip_truth.hpp"
-#include "processes/redbee/evaluate/flight_pictures.hpp"
+#include "processes/redbee/evaluate/flight_images.hpp"
 #include "processes/redbee/evaluate/hits_and_misses.hpp"
 #include "processes/redbee/evaluate/measures_files.hpp"
 #include "processes/redbee/pages/svg_plot.hpp"
@@ -34,7 +34,7 @@ MapFiles mapsIn(const fs::path& folder) {
 
 cv::Mat readMap(const fs::path& file) {
   cv::Mat map = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-  if (map.empty()) throw InputError(file, "not a readable picture");
+  if (map.empty()) throw InputError(file, "not a readable image");
   return map;
 }
 
@@ -106,7 +106,7 @@ void print(const ClipMeasures& clip) {
   } else {
     std::printf("%10s %8s %11s %7s", "-", "-", "-", "-");
   }
-  std::printf(" %9.2f %10.3f%% %8lld\n", objects.falseAlarmsPerFrame(), 100 * objects.falseAreaShare(),
+  std::printf(" %9.2f %10.3f%% %8lld\n", objects.falseAlarmsPerFrame(), 100 * objects.falseAreaFraction(),
               static_cast<long long>(clip.truth_without_result));
 }
 
@@ -134,7 +134,7 @@ ClipMeasures measureClip(const EvaluateOptions& options) {
   clip.name = fs::weakly_canonical(options.results).filename().string();
   clip.frames_limit = options.frames;
   const auto labelled = labelledFrames(
-      truth, options.log.empty() ? timesOf(maps) : pictureTimes(options.log, options.camera_channel),
+      truth, options.log.empty() ? timesOf(maps) : imageTimes(options.log, options.camera_channel),
       options.frames);
   for (const ClipTruth::Frame& frame : labelled) {
     if (maps.count(frame.utime) == 0) ++clip.truth_without_result;

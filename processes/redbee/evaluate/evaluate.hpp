@@ -15,7 +15,7 @@ struct EvaluateOptions {
   /// See ClipTruth; "none": nothing moves. Of several clips: their folders side by side.
   std::filesystem::path truth;
   std::filesystem::path results;  ///< with probability/<us>.png and mask/<us>.png
-  std::filesystem::path log;      ///< the flight; empty: no pictures, and frame numbers are those of the maps
+  std::filesystem::path log;      ///< the flight; empty: no images, and frame numbers are those of the maps
   std::string camera_channel = "CAMERA";  ///< of the log
   int64_t frames = 0;                     ///< only the first so many of the recording; 0: all
 };
@@ -40,12 +40,12 @@ struct ClipMeasures {
   int64_t truth_without_result = 0;  ///< labelled frames that the run has no map of; counted as empty maps
 };
 
-/// One clip. Throws InputError where a folder or a picture cannot be read, or where no labelled frame has a
+/// One clip. Throws InputError where a folder or a image cannot be read, or where no labelled frame has a
 /// map.
 ClipMeasures measureClip(const EvaluateOptions& options);
 
-/// Prints the measures; leaves measures.json, pr.csv, pr.svg, frames.csv and, with a log, pictures of the
-/// best and the worst frames (pictures/*.jpg) in the results folder. A truth folder whose subfolders are
+/// Prints the measures; leaves measures.json, pr.csv, pr.svg, frames.csv and, with a log, images of the
+/// best and the worst frames (images/*.jpg) in the results folder. A truth folder whose subfolders are
 /// clips is measured clip by clip against the results' subfolders of the same names, and the means are given.
 void runEvaluate(const EvaluateOptions& options);
 

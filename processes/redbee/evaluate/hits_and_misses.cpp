@@ -6,8 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "processes/redbee/evaluate/flight_pictures.hpp"
-#include "redbee/bus/picture.hpp"
+#include "processes/redbee/evaluate/flight_images.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_error.hpp"
 
@@ -39,25 +39,25 @@ bool isFarFrom(const std::vector<size_t>& chosen, size_t candidate, size_t dista
   });
 }
 
-void tint(cv::Mat& picture, const cv::Mat& where, const cv::Scalar& colour) {
+void tint(cv::Mat& image, const cv::Mat& where, const cv::Scalar& colour) {
   cv::Mat coloured;
-  cv::addWeighted(picture, 0.35, cv::Mat(picture.size(), CV_8UC3, colour), 0.65, 0, coloured);
-  coloured.copyTo(picture, where);
+  cv::addWeighted(image, 0.35, cv::Mat(image.size(), CV_8UC3, colour), 0.65, 0, coloured);
+  coloured.copyTo(image, where);
 }
 
-void hatch(cv::Mat& picture, const cv::Mat& where) {
+void hatch(cv::Mat& image, const cv::Mat& where) {
   cv::Mat lines = cv::Mat::zeros(where.size(), CV_8U);
   for (int y = 0; y < lines.rows; ++y) {
     for (int x = (8 - y % 8) % 8; x < lines.cols; x += 8) lines.at<uint8_t>(y, x) = 255;
   }
-  picture.setTo(cv::Scalar(200, 200, 200), lines & where);
+  image.setTo(cv::Scalar(200, 200, 200), lines & where);
 }
 
-void writeJpeg(const std::filesystem::path& file, const cv::Mat& picture) {
+void writeJpeg(const std::filesystem::path& file, const cv::Mat& image) {
   constexpr int kWidth = 480;
-  cv::Mat small = picture;
-  if (picture.cols > kWidth) {
-    cv::resize(picture, small, {kWidth, picture.rows * kWidth / picture.cols}, 0, 0, cv::INTER_AREA);
+  cv::Mat small = image;
+  if (image.cols > kWidth) {
+    cv::resize(image, small, {kWidth, image.rows * kWidth / image.cols}, 0, 0, cv::INTER_AREA);
   }
   std::vector<uint8_t> jpeg;
   cv::imencode(".jpg", small, jpeg, {cv::IMWRITE_JPEG_QUALITY, 80});
@@ -89,35 +89,35 @@ TellingFrames chooseTellingFrames(const std::vector<FrameOutcome>& frames, size_
 }
 
 cv::Mat drawHitsAndMisses(const cv::Mat& grey, const cv::Mat& detected, const ClipTruth::Labels& truth) {
-  cv::Mat picture;
-  cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+  cv::Mat image;
+  cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
   if (truth.mask.empty()) {
-    tint(picture, detected, kUntold);
-    if (!truth.objects.ignored.empty()) hatch(picture, truth.objects.ignored);
+    tint(image, detected, kUntold);
+    if (!truth.objects.ignored.empty()) hatch(image, truth.objects.ignored);
   } else {
-    tint(picture, detected & (truth.mask == 255), kHit);
-    tint(picture, detected & (truth.mask == 0), kFalse);
-    tint(picture, (detected == 0) & (truth.mask == 255), kMiss);
-    hatch(picture, (truth.mask != 255) & (truth.mask != 0));
+    tint(image, detected & (truth.mask == 255), kHit);
+    tint(image, detected & (truth.mask == 0), kFalse);
+    tint(image, (detected == 0) & (truth.mask == 255), kMiss);
+    hatch(image, (truth.mask != 255) & (truth.mask != 0));
   }
   for (const TruthObject& object : truth.objects.objects) {
-    if (object.box.area() > 0) cv::rectangle(picture, object.box, cv::Scalar(255, 255, 255), 1);
+    if (object.box.area() > 0) cv::rectangle(image, object.box, cv::Scalar(255, 255, 255), 1);
   }
-  return picture;
+  return image;
 }
 
 void writeHitsAndMisses(const EvaluateOptions& options, const ClipTruth& truth, const ClipMeasures& clip) {
-  const auto folder = options.results / "pictures";
+  const auto folder = options.results / "images";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   const TellingFrames telling = chooseTellingFrames(clip.frames, kOfEach);
-  const auto times = pictureTimes(options.log, options.camera_channel);
+  const auto times = imageTimes(options.log, options.camera_channel);
   std::map<int64_t, const char*> wanted;
   for (const size_t i : telling.best) wanted[clip.frames[i].utime] = "best";
   for (const size_t i : telling.worst) wanted[clip.frames[i].utime] = "worst";
   std::map<int64_t, ClipTruth::Frame> labelled;
   for (const ClipTruth::Frame& frame : truth.frames(times)) labelled[frame.utime] = frame;
-  forEachPicture(options.log, options.camera_channel, [&](const image_t& message) {
+  forEachImage(options.log, options.camera_channel, [&](const image_t& message) {
     const auto kind = wanted.find(message.utime);
     const auto grey = kind == wanted.end() ? std::nullopt : decodeGrey(message);
     if (!grey) return;
@@ -125,7 +125,7 @@ void writeHitsAndMisses(const EvaluateOptions& options, const ClipTruth& truth, 
     cv::Mat mask = cv::imread((options.results / "mask" / (stamp + ".png")).string(), cv::IMREAD_GRAYSCALE);
     if (mask.empty()) mask = cv::Mat::zeros(grey->size(), CV_8U);
     if (mask.size() != grey->size())
-      throw InputError(options.results / "mask", "does not fit the flight's pictures");
+      throw InputError(options.results / "mask", "does not fit the flight's images");
     const auto labels = truth.read(labelled.at(message.utime), grey->size());
     writeJpeg(folder / (std::string(kind->second) + "-" + stamp + ".jpg"),
               drawHitsAndMisses(*grey, mask, labels));

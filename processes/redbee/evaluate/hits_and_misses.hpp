@@ -1,4 +1,4 @@
-// Pictures of where a method was right and where it was wrong.
+// Images of where a method was right and where it was wrong.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -23,7 +23,7 @@ TellingFrames chooseTellingFrames(const std::vector<FrameOutcome>& frames, size_
 /// told).
 cv::Mat drawHitsAndMisses(const cv::Mat& grey, const cv::Mat& detected, const ClipTruth::Labels& truth);
 
-/// pictures/best-<us>.jpg and worst-<us>.jpg in the results folder; earlier ones are removed.
+/// images/best-<us>.jpg and worst-<us>.jpg in the results folder; earlier ones are removed.
 void writeHitsAndMisses(const EvaluateOptions& options, const ClipTruth& truth, const ClipMeasures& clip);
 
 }  // namespace redbee

@@ -36,7 +36,7 @@ nlohmann::json objectJson(const ClipMeasures& clip) {
           {"found", objects.counts().found},
           {"recall", toldOnly(told, objects.recall())},
           {"false_alarms_per_frame", objects.falseAlarmsPerFrame()},
-          {"false_area_percent", 100 * objects.falseAreaShare()}};
+          {"false_area_percent", 100 * objects.falseAreaFraction()}};
 }
 
 void writeCurve(const std::filesystem::path& results, const ClipMeasures& clip) {

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "redbee/bus/codec.hpp"
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
@@ -58,14 +58,14 @@ void forEachOverlay(const std::filesystem::path& log_file, const std::filesystem
     progress.update(log.position() >> 20, log.size() >> 20);
     image_t message;
     if (!decodeMessage(event->data.data(), static_cast<int>(event->data.size()), message)) continue;
-    const auto picture = decodeColour(message);
+    const auto image = decodeColour(message);
     const auto mask_file = results / "mask" / (std::to_string(message.utime) + ".png");
-    if (!picture || !std::filesystem::exists(mask_file)) continue;
+    if (!image || !std::filesystem::exists(mask_file)) continue;
     const cv::Mat mask = cv::imread(mask_file.string(), cv::IMREAD_GRAYSCALE);
-    if (mask.size() != picture->size()) throw InputError(mask_file, "does not fit the flight's pictures");
+    if (mask.size() != image->size()) throw InputError(mask_file, "does not fit the flight's images");
     OverlayStatus status;
     status.utime = message.utime;
-    draw(message.utime, drawOverlay(*picture, mask, at(detections, message.utime), status));
+    draw(message.utime, drawOverlay(*image, mask, at(detections, message.utime), status));
   }
 }
 

@@ -13,7 +13,7 @@ struct OverlayOptions {
   std::filesystem::path configuration;
   std::filesystem::path results;  ///< of detect or collect
   std::filesystem::path video;    ///< the MP4 to write
-  std::filesystem::path stills;   ///< folder for every `kStillPeriod`th picture as PNG; empty: none
+  std::filesystem::path stills;   ///< folder for every `kStillPeriod`th image as PNG; empty: none
   static constexpr int kStillPeriod = 24;
 };
 

@@ -83,7 +83,8 @@ void addReferenceExtrinsicsCommand(CLI::App& app) {
   auto milliseconds = std::make_shared<double>(1e3 * options->disturbance.timeshift_s);
   command->add_option("--rotation-deg", *degrees, "about a random axis")->capture_default_str();
   command->add_option("--timeshift-ms", *milliseconds, "earlier or later")->capture_default_str();
-  command->add_option("--height-share", options->disturbance.height_share, "of the start height, up or down")
+  command
+      ->add_option("--height-share", options->disturbance.height_fraction, "of the start height, up or down")
       ->capture_default_str();
   command->callback([options, degrees, milliseconds] {
     options->disturbance.rotation_rad = *degrees * kDegree;

@@ -17,7 +17,7 @@
 namespace redbee {
 namespace {
 
-constexpr int kPictures = 6;
+constexpr int kImages = 6;
 constexpr const char* kStyle =
     "body{font:15px/1.5 sans-serif;max-width:1040px;margin:2em auto;padding:0 1em;color:#222}"
     "table{border-collapse:collapse}td,th{padding:.25em .8em;border-bottom:1px solid #ddd;text-align:right}"
@@ -64,9 +64,9 @@ std::vector<std::string> headlines(const nlohmann::json& summary,
   return lines;
 }
 
-std::string pictures(const ReportOptions& options, int64_t frames) {
+std::string images(const ReportOptions& options, int64_t frames) {
   std::string html;
-  const int64_t period = std::max<int64_t>(1, frames / kPictures);
+  const int64_t period = std::max<int64_t>(1, frames / kImages);
   int64_t count = 0;
   forEachOverlay(options.log, options.configuration, options.results, [&](int64_t, const cv::Mat& drawn) {
     if (count++ % period != period / 2) return;
@@ -112,7 +112,7 @@ void writeReport(const ReportOptions& options) {
   for (const std::string& row : stageRows(summary)) std::printf("  %s\n", row.c_str());
   html << "</ul>\n<h2>Processes</h2>\n"
        << tableHtml(summary) << "<h2>What moves</h2>\n"
-       << pictures(options, summary.at("frames").get<int64_t>()) << "</html>\n";
+       << images(options, summary.at("frames").get<int64_t>()) << "</html>\n";
   writeAtomically(options.page, html.str());
   std::printf("%s\n", options.page.c_str());
 }

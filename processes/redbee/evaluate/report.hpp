@@ -1,4 +1,4 @@
-// redbee report: one page of figures and pictures about a run.
+// redbee report: one page of figures and images about a run.
 #pragma once
 
 #include <filesystem>

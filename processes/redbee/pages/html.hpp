@@ -1,4 +1,4 @@
-// What our HTML pages share. They stand alone: style and pictures are inside of them.
+// What our HTML pages share. They stand alone: style and images are inside of them.
 #pragma once
 
 #include <cstdint>

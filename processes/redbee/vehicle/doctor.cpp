@@ -46,7 +46,7 @@ Finding sensorFinding(const std::string& channel, int count, double seconds) {
 Finding findReceiveBuffer(const std::string& url) {
   const UdpBufferCheck check = checkReceiveBuffer(url);
   if (check.enough) return {true, "receive buffer: the kernel grants what the URL asks for", ""};
-  return {false, "receive buffer: too small for pictures", check.advice};
+  return {false, "receive buffer: too small for images", check.advice};
 }
 
 Finding findMulticast(const std::string& url) {

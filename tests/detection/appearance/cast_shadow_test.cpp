@@ -10,22 +10,22 @@ const cv::Size kSize(24, 18);
 
 /// A checked floor.
 cv::Mat floor() {
-  cv::Mat picture(kSize, CV_32FC4);
+  cv::Mat image(kSize, CV_32FC4);
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
       const float check = (x / 2 + y / 2) % 2 == 0 ? 1.0F : 0.8F;
-      picture.at<cv::Vec4f>(y, x) = cv::Vec4f(90, 120, 150, 0) * check;
+      image.at<cv::Vec4f>(y, x) = cv::Vec4f(90, 120, 150, 0) * check;
     }
   }
-  return picture;
+  return image;
 }
 
-/// Least and greatest answer over the picture.
-std::pair<float, float> extremes(const cv::Mat& picture) {
+/// Least and greatest answer over the image.
+std::pair<float, float> extremes(const cv::Mat& image) {
   const cv::Mat background = floor();
-  ShadowTest test(picture, background, kNoise);
+  ShadowTest test(image, background, kNoise);
   float least = 1, greatest = 0;
-  for (int y = 0; y < picture.rows; ++y) {
+  for (int y = 0; y < image.rows; ++y) {
     for (const float shadow : test.row(y)) {
       least = std::min(least, shadow);
       greatest = std::max(greatest, shadow);
@@ -58,7 +58,7 @@ TEST(ShadowTest, ShadeOfAnotherTextureIsNoShadow) {
   EXPECT_LT(extremes(moved).first, 0.5F);
 }
 
-TEST(ShadowTest, APictureOfOneColumnIsJudged) {
+TEST(ShadowTest, AImageOfOneColumnIsJudged) {
   const cv::Mat column = 0.7 * floor().colRange(0, 1);
   const cv::Mat background = floor().colRange(0, 1).clone();
   ShadowTest test(column, background, kNoise);

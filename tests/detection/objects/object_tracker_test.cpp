@@ -5,7 +5,7 @@
 namespace redbee {
 namespace {
 
-const cv::Size kPicture(640, 480);
+const cv::Size kImage(640, 480);
 const Eigen::Matrix3d kStill = Eigen::Matrix3d::Identity();
 
 Detection component(int x, int y) {
@@ -29,17 +29,17 @@ TEST(ObjectTracker, MoverThatStopsKeepsItsIdentity) {
   int id = 0;
   for (int k = 0; k < 20; ++k, x += 3) {
     tracker.carry(kStill);
-    id = tracker.update({component(x, 200)}, kPicture).at(0).id;
+    id = tracker.update({component(x, 200)}, kImage).at(0).id;
   }
   for (int k = 0; k < parameters.max_missed_frames; ++k) {
     tracker.carry(kStill);
-    const auto told = tracker.update({}, kPicture);
+    const auto told = tracker.update({}, kImage);
     ASSERT_EQ(told.size(), 1U) << "lost after " << k << " frames";
     EXPECT_FALSE(told[0].seen);
     EXPECT_EQ(told[0].id, id);
   }
   tracker.carry(kStill);
-  const auto told = tracker.update({component(x, 200)}, kPicture);
+  const auto told = tracker.update({component(x, 200)}, kImage);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].id, id);
   EXPECT_TRUE(told[0].seen);
@@ -48,22 +48,22 @@ TEST(ObjectTracker, MoverThatStopsKeepsItsIdentity) {
 TEST(ObjectTracker, IdentityEndsAfterTheStatedPatience) {
   const SegmentationParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
-  tracker.update({component(100, 200)}, kPicture);
-  for (int k = 0; k < parameters.max_missed_frames; ++k) tracker.update({}, kPicture);
-  EXPECT_TRUE(tracker.update({}, kPicture).empty());
+  tracker.update({component(100, 200)}, kImage);
+  for (int k = 0; k < parameters.max_missed_frames; ++k) tracker.update({}, kImage);
+  EXPECT_TRUE(tracker.update({}, kImage).empty());
 }
 
 TEST(ObjectTracker, WhileNothingCouldBeJudgedNothingWasMissed) {
   const SegmentationParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
-  const int id = tracker.update({component(100, 200)}, kPicture).at(0).id;
+  const int id = tracker.update({component(100, 200)}, kImage).at(0).id;
   for (int k = 0; k < parameters.max_missed_frames; ++k) {
-    const auto told = tracker.skip(kPicture);
+    const auto told = tracker.skip(kImage);
     ASSERT_EQ(told.size(), 1U);
     EXPECT_FALSE(told[0].seen);
   }
-  for (int k = 0; k < parameters.max_missed_frames; ++k) tracker.update({}, kPicture);
-  const auto told = tracker.update({component(104, 200)}, kPicture);
+  for (int k = 0; k < parameters.max_missed_frames; ++k) tracker.update({}, kImage);
+  const auto told = tracker.update({component(104, 200)}, kImage);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].id, id);
 }
@@ -71,30 +71,30 @@ TEST(ObjectTracker, WhileNothingCouldBeJudgedNothingWasMissed) {
 TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItForgets) {
   const SegmentationParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
-  tracker.update({component(100, 200)}, kPicture);
-  for (int k = 0; k < 2 * parameters.max_missed_frames; ++k) ASSERT_EQ(tracker.skip(kPicture).size(), 1U);
-  EXPECT_TRUE(tracker.skip(kPicture).empty());
+  tracker.update({component(100, 200)}, kImage);
+  for (int k = 0; k < 2 * parameters.max_missed_frames; ++k) ASSERT_EQ(tracker.skip(kImage).size(), 1U);
+  EXPECT_TRUE(tracker.skip(kImage).empty());
 }
 
 TEST(ObjectTracker, AFlickerIsNotWaitedForWhileNothingCanBeJudged) {
   SegmentationParameters parameters;
   parameters.confirm_frames = 2;
   ObjectTracker tracker(parameters);
-  tracker.update({component(100, 200)}, kPicture);
-  tracker.skip(kPicture);
-  EXPECT_TRUE(tracker.update({component(100, 200)}, kPicture).empty());
+  tracker.update({component(100, 200)}, kImage);
+  tracker.skip(kImage);
+  EXPECT_TRUE(tracker.update({component(100, 200)}, kImage).empty());
 }
 
 TEST(ObjectTracker, FollowsTheGroundWhileTheCameraMoves) {
   ObjectTracker tracker(atOnce());
-  const int id = tracker.update({component(100, 200)}, kPicture).at(0).id;
+  const int id = tracker.update({component(100, 200)}, kImage).at(0).id;
   Eigen::Matrix3d pan = kStill;
   pan(0, 2) = 50;
   for (int k = 0; k < 5; ++k) {
     tracker.carry(pan);
-    tracker.update({}, kPicture);
+    tracker.update({}, kImage);
   }
-  const auto told = tracker.update({component(350, 200)}, kPicture);
+  const auto told = tracker.update({component(350, 200)}, kImage);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].id, id);
 }
@@ -106,7 +106,7 @@ TEST(ObjectTracker, TwoObjectsThatPassKeepTheirIdentities) {
   int right = 0;
   for (int k = 0; k < 30; ++k) {
     tracker.carry(kStill);
-    told = tracker.update({component(100 + 6 * k, 200), component(300 - 6 * k, 225)}, kPicture);
+    told = tracker.update({component(100 + 6 * k, 200), component(300 - 6 * k, 225)}, kImage);
     ASSERT_EQ(told.size(), 2U);
     if (k == 0) {
       left = told[0].id;
@@ -120,18 +120,18 @@ TEST(ObjectTracker, FlickerIsNotTold) {
   SegmentationParameters parameters;
   parameters.confirm_frames = 3;
   ObjectTracker tracker(parameters);
-  EXPECT_TRUE(tracker.update({component(100, 200)}, kPicture).empty());
-  EXPECT_TRUE(tracker.update({component(101, 200)}, kPicture).empty());
-  EXPECT_EQ(tracker.update({component(102, 200)}, kPicture).size(), 1U);
+  EXPECT_TRUE(tracker.update({component(100, 200)}, kImage).empty());
+  EXPECT_TRUE(tracker.update({component(101, 200)}, kImage).empty());
+  EXPECT_EQ(tracker.update({component(102, 200)}, kImage).size(), 1U);
 }
 
 TEST(FindComponents, SmallAndUnknownRegionsAreNoObjects) {
   SegmentationParameters parameters;
-  cv::Mat probability = cv::Mat::zeros(kPicture, CV_8U);
+  cv::Mat probability = cv::Mat::zeros(kImage, CV_8U);
   probability(cv::Rect(100, 100, 20, 30)).setTo(204);
   probability(cv::Rect(300, 100, 4, 4)).setTo(204);
   probability(cv::Rect(500, 100, 20, 30)).setTo(204);
-  cv::Mat unknown = cv::Mat::zeros(kPicture, CV_8U);
+  cv::Mat unknown = cv::Mat::zeros(kImage, CV_8U);
   unknown(cv::Rect(480, 80, 80, 80)).setTo(255);
   const ForegroundComponents found = findComponents(probability, unknown, parameters);
   ASSERT_EQ(found.components.size(), 1U);
@@ -144,11 +144,11 @@ TEST(FindComponents, AnObjectReachesAsFarAsTheLowerThresholdAndIsSureSomewhere) 
   SegmentationParameters parameters;
   parameters.threshold = 0.5;
   parameters.extent_threshold = 0.3;
-  cv::Mat probability = cv::Mat::zeros(kPicture, CV_8U);
+  cv::Mat probability = cv::Mat::zeros(kImage, CV_8U);
   probability(cv::Rect(100, 100, 20, 30)).setTo(100);  // 0.39
   probability(cv::Rect(105, 105, 4, 4)).setTo(200);
   probability(cv::Rect(300, 100, 20, 30)).setTo(100);
-  const ForegroundComponents found = findComponents(probability, cv::Mat::zeros(kPicture, CV_8U), parameters);
+  const ForegroundComponents found = findComponents(probability, cv::Mat::zeros(kImage, CV_8U), parameters);
   ASSERT_EQ(found.components.size(), 1U);
   EXPECT_EQ(found.components[0].box, cv::Rect(100, 100, 20, 30));
 }

@@ -38,10 +38,10 @@ PointTracks cellOf(double flow_px, bool coherent) {
 
 TEST(FlowEntropy, OrderedFlowScoresOneAndDisorderedFlowLittle) {
   const SegmentationParameters parameters;
-  const cv::Size picture(64, 64);
-  EXPECT_FLOAT_EQ(flowOrder(cellOf(2, true), kStill, picture, parameters).at<float>(30, 30), 1);
+  const cv::Size image(64, 64);
+  EXPECT_FLOAT_EQ(flowOrder(cellOf(2, true), kStill, image, parameters).at<float>(30, 30), 1);
   const double flattest = parameters.entropy_floor / std::log2(parameters.entropy_bins);
-  EXPECT_LT(flowOrder(cellOf(2, false), kStill, picture, parameters).at<float>(30, 30), 1.1 * flattest);
+  EXPECT_LT(flowOrder(cellOf(2, false), kStill, image, parameters).at<float>(30, 30), 1.1 * flattest);
 }
 
 TEST(FlowEntropy, FlowBelowTheNoiseHasNoDirection) {
@@ -111,7 +111,8 @@ TEST_F(Parallax, StaticPointsAtAnyDepthBeforeTheGroundAreExplained) {
     const Eigen::Vector3d ray = K_.inverse() * Eigen::Vector3d(150, 300, 1);
     const Eigen::Vector3d X = share * motion_.h_a / motion_.m_a.dot(ray) * ray;
     const Eigen::Vector2d now = project(motion_.R_ba * X + motion_.t_ba);
-    EXPECT_LT(judge({150, 300}, now).sigmasSquared(), 0.01) << "at " << share << " of the way to the ground";
+    EXPECT_LT(judge({150, 300}, now).squaredMahalanobis(), 0.01)
+        << "at " << share << " of the way to the ground";
   }
 }
 
@@ -122,8 +123,8 @@ TEST_F(Parallax, MotionAcrossTheLineOrBelowTheGroundIsNot) {
   const Eigen::Vector2d nearer = project(motion_.R_ba * (0.5 * X) + motion_.t_ba);
   const Eigen::Vector2d along = (nearer - ground).normalized();
   const Eigen::Vector2d across(-along.y(), along.x());
-  EXPECT_GT(judge({150, 300}, ground + 3 * across).sigmasSquared(), 30);
-  EXPECT_GT(judge({150, 300}, ground - 3 * along).sigmasSquared(), 20);
+  EXPECT_GT(judge({150, 300}, ground + 3 * across).squaredMahalanobis(), 30);
+  EXPECT_GT(judge({150, 300}, ground - 3 * along).squaredMahalanobis(), 20);
 }
 
 TEST_F(Parallax, ASecondPlaneShowsWhereStaticSurfacesGo) {
@@ -140,7 +141,7 @@ TEST_F(Parallax, ASecondPlaneShowsWhereStaticSurfacesGo) {
     return segment
         .judge({static_cast<float>(on_ground.x()), static_cast<float>(on_ground.y())},
                {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance)
-        .sigmasSquared();
+        .squaredMahalanobis();
   };
   const Eigen::Vector2d parallax = transfer(planeHomography(K_, facade), before) - on_ground;
   const Eigen::Vector2d across = Eigen::Vector2d(-parallax.y(), parallax.x()).normalized();
@@ -162,13 +163,13 @@ PointTracks tracksWithFront(const cv::Rect& front) {
   return tracks;
 }
 
-TEST(RunsOutOfPicture, StructuresDoAndIslandsDoNot) {
+TEST(RunsOutOfImage, StructuresDoAndIslandsDoNot) {
   Eigen::Matrix3d shift = kStill;
   shift(0, 2) = 5;
-  const cv::Size picture(640, 480);
-  EXPECT_TRUE(runsOutOfPicture(tracksWithFront({0, 300, 640, 180}), kStill, shift, picture));
-  EXPECT_FALSE(runsOutOfPicture(tracksWithFront({200, 150, 200, 150}), kStill, shift, picture));
-  EXPECT_FALSE(runsOutOfPicture(tracksWithFront({}), kStill, shift, picture)) << "nothing follows it";
+  const cv::Size image(640, 480);
+  EXPECT_TRUE(runsOutOfImage(tracksWithFront({0, 300, 640, 180}), kStill, shift, image));
+  EXPECT_FALSE(runsOutOfImage(tracksWithFront({200, 150, 200, 150}), kStill, shift, image));
+  EXPECT_FALSE(runsOutOfImage(tracksWithFront({}), kStill, shift, image)) << "nothing follows it";
 }
 
 /// The flow [px] in the middle of a square of 10 px that has moved 3 px to the right over still ground.
@@ -195,17 +196,17 @@ TEST(MotionFlow, AFinerOneSeesAMoverThatAPatchOfACoarserOneHides) {
   EXPECT_GT(cv::norm(flowOfSmallMover(1, 4) - cv::Vec2f(-3, 0)), 1.5);
 }
 
-TEST(MotionFlow, NoFinerThanThePictureThatItIsFor) {
+TEST(MotionFlow, NoFinerThanTheImageThatItIsFor) {
   EXPECT_EQ(flowOfSmallMover(2, 1), flowOfSmallMover(2, 2));
   EXPECT_EQ(flowOfSmallMover(4, 1), flowOfSmallMover(4, 2));
 }
 
-TEST(GuidedFilter, KeepsToTheEdgesOfThePicture) {
-  cv::Mat picture(40, 40, CV_8U, cv::Scalar(60));
-  picture.colRange(20, 40).setTo(180);
+TEST(GuidedFilter, KeepsToTheEdgesOfTheImage) {
+  cv::Mat image(40, 40, CV_8U, cv::Scalar(60));
+  image.colRange(20, 40).setTo(180);
   cv::Mat map = cv::Mat::zeros(40, 40, CV_32F);
   map.colRange(22, 40).setTo(1);
-  const cv::Mat filtered = guidedFilter(picture, map, 4, 10);
+  const cv::Mat filtered = guidedFilter(image, map, 4, 10);
   EXPECT_LT(filtered.at<float>(20, 18), 0.1);
   EXPECT_GT(filtered.at<float>(20, 21), 0.5) << "filled up to the edge";
 }

@@ -21,7 +21,7 @@ HomographyFlow drift() {
   return flow;
 }
 
-/// Flow back to the earlier picture where the registration is off by `error` and `parallax` stands above the
+/// Flow back to the earlier image where the registration is off by `error` and `parallax` stands above the
 /// ground.
 template <typename Parallax>
 cv::Mat flowOf(const HomographyFlow& error, const Parallax& parallax) {
@@ -35,7 +35,7 @@ cv::Mat flowOf(const HomographyFlow& error, const Parallax& parallax) {
   return flow;
 }
 
-/// Greatest difference over the picture, of one component.
+/// Greatest difference over the image, of one component.
 float worst(const HomographyFlow& found, const HomographyFlow& truth, int component) {
   float difference = 0;
   for (const float x : {0.0F, 319.0F}) {
@@ -69,7 +69,7 @@ TEST(RegistrationError, WithoutParallaxAllOfItIsFound) {
   EXPECT_LT(worst(found, drift(), 1), 0.02F);
 }
 
-TEST(RegistrationError, WhatMovesOnAFifthOfThePictureDoesNotBendIt) {
+TEST(RegistrationError, WhatMovesOnAFifthOfTheImageDoesNotBendIt) {
   const ParallaxSegment none(std::nullopt, kCamera, SegmentationParameters{});
   const cv::Mat flow =
       flowOf(drift(), [](int x, int y) { return x < 140 && y > 120 ? cv::Vec2f(3, -2) : cv::Vec2f(0, 0); });
@@ -91,7 +91,7 @@ TEST(RegistrationError, FlightToTheSideTellsWhatIsAcrossWhateverTheDepths) {
   EXPECT_LT(worst(found, across, 0), 0.05F) << "along the parallax only the perspective can be told";
 }
 
-TEST(RegistrationError, APictureOfWhichNothingWasSeenHasNone) {
+TEST(RegistrationError, AImageOfWhichNothingWasSeenHasNone) {
   const ParallaxSegment none(std::nullopt, kCamera, SegmentationParameters{});
   const cv::Mat flow(kSize, CV_32FC2, cv::Scalar(4, 4));
   const cv::Mat unseen(kSize, CV_8U, cv::Scalar(255));

@@ -51,14 +51,14 @@ Eigen::MatrixXd twoMotions(bool perspective) {
 
 Eigen::MatrixXd unit(const Eigen::MatrixXd& X) { return X / X.cwiseAbs().maxCoeff(); }
 
-double rightShare(const std::vector<int>& labels) {
+double rightFraction(const std::vector<int>& labels) {
   double same = 0;
   for (size_t i = 0; i < labels.size(); ++i) same += labels[i] == (i < kEach ? 0 : 1) ? 1 : 0;
   const double share = same / static_cast<double>(labels.size());
   return std::max(share, 1 - share);
 }
 
-TEST(Ssc, SeparatesTwoMotions) { EXPECT_GT(rightShare(sscClusters(unit(twoMotions(false)), 2)), 0.95); }
+TEST(Ssc, SeparatesTwoMotions) { EXPECT_GT(rightFraction(sscClusters(unit(twoMotions(false)), 2)), 0.95); }
 
 TEST(Ssc, SolutionMeetsItsConstraints) {
   const Eigen::MatrixXd X = unit(twoMotions(false));
@@ -79,7 +79,7 @@ TEST(Ssc, StopsWhereItIsToldTo) {
   EXPECT_FALSE(answer.converged);
 }
 
-TEST(Lrr, SeparatesTwoMotions) { EXPECT_GT(rightShare(lrrClusters(unit(twoMotions(false)), 2)), 0.95); }
+TEST(Lrr, SeparatesTwoMotions) { EXPECT_GT(rightFraction(lrrClusters(unit(twoMotions(false)), 2)), 0.95); }
 
 TEST(Lrr, SolutionMeetsItsConstraintAndIsOfLowRank) {
   Eigen::MatrixXd X(2 * kFrames + 1, 2 * kEach);
@@ -104,7 +104,7 @@ TEST(Lrr, AWildColumnGoesIntoTheErrors) {
 }
 
 TEST(RandomizedVoting, SeparatesTwoMotions) {
-  EXPECT_GT(rightShare(randomizedVotingClusters(twoMotions(true), 2)), 0.95);
+  EXPECT_GT(rightFraction(randomizedVotingClusters(twoMotions(true), 2)), 0.95);
 }
 
 TEST(RandomizedVoting, TooFewPointsAreOneMotion) {
@@ -126,7 +126,7 @@ TEST(SpectralClusters, TooFewPointsAreOneCluster) {
   EXPECT_EQ(spectralClusters(Eigen::MatrixXd::Ones(3, 3), 2), std::vector<int>(3, 0));
 }
 
-TEST(Background, IsWhatHasItsShareOfTheTracks) {
+TEST(Background, IsWhatHasItsFractionOfTheTracks) {
   const std::vector<int> labels{0, 0, 0, 0, 0, 0, 1, 1, 1, 3};
   EXPECT_EQ(backgroundLabels(labels, 4, 0.5), std::vector<int>{0});
   EXPECT_EQ(backgroundLabels(labels, 4, 0.3), (std::vector<int>{0, 1}));
@@ -183,17 +183,17 @@ TEST(Thinned, KeepsTheFirstInEachCell) {
 }
 
 TEST(TrajectoryWindow, IsAsLongAsItCanBeWhileItFills) {
-  cv::Mat picture(120, 160, CV_8U);
+  cv::Mat image(120, 160, CV_8U);
   cv::RNG random(1);
-  random.fill(picture, cv::RNG::UNIFORM, 0, 255);
-  cv::GaussianBlur(picture, picture, {5, 5}, 0);
+  random.fill(image, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(image, image, {5, 5}, 0);
   TrajectoryWindowParameters parameters;
   parameters.frames = 5;
   parameters.least_frames = 3;
   TrajectoryWindow window(parameters);
   for (int round = 0; round < 2; ++round) {
     for (int k = 1; k <= 7; ++k) {
-      EXPECT_TRUE(window.advance(picture));
+      EXPECT_TRUE(window.advance(image));
       const Eigen::MatrixXd X = window.trajectories();
       EXPECT_EQ(X.cols() > 0, k >= 3) << k;
       EXPECT_EQ(X.rows(), 2 * std::min(k, 5)) << k;

@@ -152,11 +152,11 @@ TEST(RecursiveDensity, EqualsTheDensityOfAllValues) {
 
 TEST(RecursiveDensity, WhatComesIntoViewIsNotJudged) {
   RecursiveDensity density({40, 30}, {});
-  cv::Mat picture(30, 40, CV_8UC3, cv::Scalar(100, 100, 100));
-  for (int k = 0; k < 10; ++k) density.update(picture);
+  cv::Mat image(30, 40, CV_8UC3, cv::Scalar(100, 100, 100));
+  for (int k = 0; k < 10; ++k) density.update(image);
   density.carry(cv::Matx33d(1, 0, -10, 0, 1, 0, 0, 0, 1));
-  picture.setTo(cv::Scalar(200, 200, 200));
-  const cv::Mat below = density.update(picture);
+  image.setTo(cv::Scalar(200, 200, 200));
+  const cv::Mat below = density.update(image);
   EXPECT_GT(below.at<float>(15, 10), 1);
   EXPECT_EQ(below.at<float>(15, 35), 0);
 }

@@ -10,7 +10,7 @@
 #include "redbee/detection/rivals/flow_clusters.hpp"
 #include "redbee/detection/rivals/flow_residual.hpp"
 #include "redbee/detection/rivals/graded_score.hpp"
-#include "redbee/detection/rivals/picture_history.hpp"
+#include "redbee/detection/rivals/image_history.hpp"
 #include "redbee/detection/rivals/registration.hpp"
 #include "redbee/detection/rivals/trajectory_window.hpp"
 #include "tests/detection/rivals/scene.hpp"
@@ -37,7 +37,7 @@ TEST(Registrar, FindsTheGroundsHomography) {
   }
 }
 
-TEST(Registrar, UnrelatedPicturesAreNotRegistered) {
+TEST(Registrar, UnrelatedImagesAreNotRegistered) {
   Registrar registrar;
   registrar.advance(scene()[0].input.grey);
   cv::Mat noise(scene()[0].input.grey.size(), CV_8U);
@@ -45,7 +45,7 @@ TEST(Registrar, UnrelatedPicturesAreNotRegistered) {
   EXPECT_FALSE(registrar.advance(noise));
 }
 
-TEST(Registrar, ATenthOfThePictureIsEnough) {
+TEST(Registrar, ATenthOfTheImageIsEnough) {
   GridTracks tracks;
   std::mt19937 random(7);
   std::uniform_real_distribution<float> anywhere(-12, 12);
@@ -64,20 +64,20 @@ TEST(Registrar, ATenthOfThePictureIsEnough) {
   EXPECT_LT(meanTransferError(H, trueStep(1), 640, 480), 1);
 }
 
-TEST(PictureHistory, TheOldestAnswersToTheNewest) {
+TEST(ImageHistory, TheOldestAnswersToTheNewest) {
   const auto shift = [](double x) { return cv::Matx33d(1, 0, x, 0, 1, 0, 0, 0, 1); };
-  const auto picture = [](int grey) { return cv::Mat(2, 2, CV_8U, cv::Scalar(grey)); };
-  PictureHistory history(2);
+  const auto image = [](int grey) { return cv::Mat(2, 2, CV_8U, cv::Scalar(grey)); };
+  ImageHistory history(2);
   EXPECT_TRUE(history.empty());
-  history.push(picture(1));
+  history.push(image(1));
   history.carry(shift(3));
   EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 1);
   EXPECT_EQ(history.oldestToNewest()(0, 2), 3);
-  history.push(picture(2));
+  history.push(image(2));
   history.carry(shift(4));
   EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 1);
   EXPECT_EQ(history.oldestToNewest()(0, 2), 7);
-  history.push(picture(3));
+  history.push(image(3));
   history.carry(shift(5));
   EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 2) << "two are kept";
   EXPECT_EQ(history.oldestToNewest()(0, 2), 9);

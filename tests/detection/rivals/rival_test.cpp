@@ -1,5 +1,5 @@
 // All rivals behind their one interface: a patch that moves stands out, what stands still does not, and
-// whatever interrupts the pictures is said and survived.
+// whatever interrupts the images is said and survived.
 #include "redbee/detection/rivals/rival.hpp"
 
 #include <gtest/gtest.h>
@@ -81,18 +81,18 @@ INSTANTIATE_TEST_SUITE_P(All, Rivals, ::testing::ValuesIn(rivalNames()), testNam
 TEST_P(Rivals, APatchThatMovesStandsOut) {
   const RankStatistic statistic = watch(*rival_, patchScene());
   std::cout << GetParam() << ": AUC " << statistic.auc() << ", at the decision: patch "
-            << statistic.shareAbove(true, kDecisionScore) << ", rest "
-            << statistic.shareAbove(false, kDecisionScore) << "\n";
+            << statistic.fractionAbove(true, kDecisionScore) << ", rest "
+            << statistic.fractionAbove(false, kDecisionScore) << "\n";
   const Expected expected = expectedOf(GetParam());
   EXPECT_GT(statistic.auc(), expected.auc);
-  EXPECT_GT(statistic.shareAbove(true, kDecisionScore), expected.patch);
-  EXPECT_LT(statistic.shareAbove(false, kDecisionScore), expected.rest);
+  EXPECT_GT(statistic.fractionAbove(true, kDecisionScore), expected.patch);
+  EXPECT_LT(statistic.fractionAbove(false, kDecisionScore), expected.rest);
 }
 
 TEST_P(Rivals, NothingStandsOutWhereAllIsStill) {
   const RankStatistic statistic = watch(*rival_, stillScene());
-  std::cout << GetParam() << ": at the decision " << statistic.shareAbove(false, kDecisionScore) << "\n";
-  EXPECT_LT(statistic.shareAbove(false, kDecisionScore), 0.02);
+  std::cout << GetParam() << ": at the decision " << statistic.fractionAbove(false, kDecisionScore) << "\n";
+  EXPECT_LT(statistic.fractionAbove(false, kDecisionScore), 0.02);
 }
 
 TEST_P(Rivals, TheBackgroundsHomographyIsTheCameras) {
@@ -111,7 +111,8 @@ TEST_P(Rivals, WorksWithoutAnImu) {
   std::vector<SceneFrame> scene = patchScene();
   for (SceneFrame& frame : scene) frame.input.motion.reset();
   const RankStatistic statistic = watch(*rival_, scene);
-  EXPECT_GT(statistic.shareAbove(true, kDecisionScore), 4 * statistic.shareAbove(false, kDecisionScore));
+  EXPECT_GT(statistic.fractionAbove(true, kDecisionScore),
+            4 * statistic.fractionAbove(false, kDecisionScore));
 }
 
 TEST_P(Rivals, SameInputGivesSameScores) {
@@ -121,20 +122,20 @@ TEST_P(Rivals, SameInputGivesSameScores) {
   }
 }
 
-TEST_P(Rivals, BadPicturesAreSaid) {
-  EXPECT_EQ(rival_->step({}).status, RivalStatus::kBadPicture) << "even the first";
+TEST_P(Rivals, BadImagesAreSaid) {
+  EXPECT_EQ(rival_->step({}).status, RivalStatus::kBadImage) << "even the first";
   rival_->step(input(0));
   RivalInput bad = input(1);
   bad.grey.release();
   const RivalOutput empty = rival_->step(bad);
-  EXPECT_EQ(empty.status, RivalStatus::kBadPicture);
+  EXPECT_EQ(empty.status, RivalStatus::kBadImage);
   EXPECT_EQ(empty.score.size(), input(0).grey.size());
   expectNothingClaimed(empty);
   bad.grey = cv::Mat(input(1).grey.size(), CV_32F, cv::Scalar(0));
-  EXPECT_EQ(rival_->step(bad).status, RivalStatus::kBadPicture);
+  EXPECT_EQ(rival_->step(bad).status, RivalStatus::kBadImage);
 }
 
-TEST_P(Rivals, BlackPicturesAreNeverGood) {
+TEST_P(Rivals, BlackImagesAreNeverGood) {
   for (size_t k = 0; k < 9; ++k) rival_->step(input(k));
   for (size_t k = 9; k < 12; ++k) {
     RivalInput black = input(k);
@@ -185,8 +186,8 @@ INSTANTIATE_TEST_SUITE_P(TableOne, TrajectoryRivals, ::testing::Values("lrr", "s
 
 TEST_P(TrajectoryRivals, ScoreNearlyAllOfThePatch) {
   const RankStatistic statistic = watch(*makeRival(GetParam()), patchScene());
-  std::cout << GetParam() << ": scored " << statistic.shareAbove(true, 1) << " of the patch\n";
-  EXPECT_GT(statistic.shareAbove(true, 1), 0.95);
+  std::cout << GetParam() << ": scored " << statistic.fractionAbove(true, 1) << " of the patch\n";
+  EXPECT_GT(statistic.fractionAbove(true, 1), 0.95);
 }
 
 TEST(RivalNames, AreDistinctAndMade) {

@@ -109,7 +109,7 @@ class RankStatistic {
     return good / (below * patch);
   }
   /// Share of the rest, or of the patch, that scores at least this.
-  double shareAbove(bool patch, size_t score) const {
+  double fractionAbove(bool patch, size_t score) const {
     double above = 0, all = 0;
     for (size_t s = 0; s < 256; ++s) {
       all += counts_[patch ? 1 : 0][s];

@@ -4,16 +4,16 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "redbee/detection/picture_check.hpp"
+#include "redbee/detection/image_check.hpp"
 
 namespace redbee {
 namespace {
 
 cv::Mat noise(cv::Size size, int seed, double mean, double sigma) {
-  cv::Mat picture(size, CV_8U);
+  cv::Mat image(size, CV_8U);
   cv::RNG rng(static_cast<uint64_t>(seed));
-  rng.fill(picture, cv::RNG::NORMAL, mean, sigma);
-  return picture;
+  rng.fill(image, cv::RNG::NORMAL, mean, sigma);
+  return image;
 }
 
 TEST(GaussianMixture, LearnsTwoValuesAndSeesAThird) {
@@ -56,9 +56,9 @@ TEST_P(CanvasMargin, FollowsAPanAndKnowsWhatItHasNotSeen) {
   BackgroundVerdict verdict;
   for (int k = 0; k < 40; ++k) {
     if (k > 0) model.carry(pan);
-    cv::Mat picture = world(cv::Rect(kStep * k, 0, view.width, view.height)).clone();
-    if (k == 39) picture(cv::Rect(40, 20, 10, 10)).setTo(255);
-    verdict = model.learn(picture);
+    cv::Mat image = world(cv::Rect(kStep * k, 0, view.width, view.height)).clone();
+    if (k == 39) image(cv::Rect(40, 20, 10, 10)).setTo(255);
+    verdict = model.learn(image);
   }
   const int fresh = kStep * parameters.learning_frames;
   EXPECT_EQ(cv::countNonZero(verdict.unknown), fresh * view.height);
@@ -67,8 +67,8 @@ TEST_P(CanvasMargin, FollowsAPanAndKnowsWhatItHasNotSeen) {
   EXPECT_EQ(cv::countNonZero(verdict.foreground(cv::Rect(40, 20, 10, 10))), 100);
 }
 
-TEST(PictureCheck, RefusesNoiseAndKeepsANoisyScene) {
-  PictureCheck check{SegmentationParameters{}};
+TEST(ImageCheck, RefusesNoiseAndKeepsANoisyScene) {
+  ImageCheck check{SegmentationParameters{}};
   cv::RNG random(3);
   cv::Mat noise(240, 320, CV_8U);
   random.fill(noise, cv::RNG::UNIFORM, 0, 255);
@@ -80,13 +80,13 @@ TEST(PictureCheck, RefusesNoiseAndKeepsANoisyScene) {
   EXPECT_TRUE(check.accepts(scene + grain)) << "a dark scene of little contrast, the sensor's grain on it";
 }
 
-TEST(PictureCheck, RefusesBlankAndFrozenPictures) {
-  PictureCheck check{SegmentationParameters{}};
-  // Blurred, since pure noise is no picture either.
+TEST(ImageCheck, RefusesBlankAndFrozenImages) {
+  ImageCheck check{SegmentationParameters{}};
+  // Blurred, since pure noise is no image either.
   const auto scene = [](int seed) {
-    cv::Mat picture;
-    cv::GaussianBlur(noise({64, 48}, seed, 120, 60), picture, cv::Size(), 1.5);
-    return picture;
+    cv::Mat image;
+    cv::GaussianBlur(noise({64, 48}, seed, 120, 60), image, cv::Size(), 1.5);
+    return image;
   };
   const cv::Mat good = scene(1);
   EXPECT_TRUE(check.accepts(good));

@@ -167,7 +167,7 @@ TEST_F(Commands, OverlayAndReportAreWritten) {
   EXPECT_NE(page.find("Error@50%"), std::string::npos);
 }
 
-TEST_F(Commands, ALogWithoutPicturesIsRefused) {
+TEST_F(Commands, ALogWithoutImagesIsRefused) {
   DetectOptions options = options_;
   options.log = folder_ / "empty.lcm";
   std::ofstream(options.log) << "";

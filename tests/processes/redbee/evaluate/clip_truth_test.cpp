@@ -24,9 +24,9 @@ cv::Mat maskWith(const cv::Rect& box, int value = 255) {
   return mask;
 }
 
-void write(const fs::path& file, const cv::Mat& picture) {
+void write(const fs::path& file, const cv::Mat& image) {
   fs::create_directories(file.parent_path());
-  cv::imwrite(file.string(), picture);
+  cv::imwrite(file.string(), image);
 }
 
 class ClipTruthTest : public ::testing::Test {
@@ -61,7 +61,7 @@ TEST_F(ClipTruthTest, MasksNumberedWithZerosMeetTheFramesInThisPlace) {
   EXPECT_THROW(ClipTruth(truth()).frames({0, 40'000}), InputError);
 }
 
-TEST_F(ClipTruthTest, MasksNamedAfterPicturesMeetTheFramesOfThesePictures) {
+TEST_F(ClipTruthTest, MasksNamedAfterImagesMeetTheFramesOfTheseImages) {
   for (const char* name : {"img000001", "img000002", "img000003", "img000004"}) {
     write(truth() / "frames" / (std::string(name) + ".jpg"), maskWith({0, 0, 4, 4}));
   }
@@ -117,7 +117,7 @@ TEST_F(ClipTruthTest, WithoutTruthAllThatIsDetectedIsFalse) {
   writeRun(maskWith({0, 0, 16, 12}));
   const ClipMeasures clip = measureClip({"none", folder_ / "run", {}});
   EXPECT_FALSE(clip.has_movers);
-  EXPECT_DOUBLE_EQ(clip.objects.falseAreaShare(), 0.25);
+  EXPECT_DOUBLE_EQ(clip.objects.falseAreaFraction(), 0.25);
   EXPECT_DOUBLE_EQ(clip.objects.falseAlarmsPerFrame(), 1);
 }
 

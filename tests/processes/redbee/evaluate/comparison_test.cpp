@@ -85,11 +85,11 @@ TEST_F(ComparisonTest, EveryMeasureIsInTheCsv) {
             std::string::npos);
 }
 
-TEST_F(ComparisonTest, ThePageHoldsTablesCurvesAndPictures) {
+TEST_F(ComparisonTest, ThePageHoldsTablesCurvesAndImages) {
   writeCell("flown/a/calibrated/ours", "0.2", "0.8");
   writeText(folder_ / "cells/flown/a/calibrated/ours/pr.csv",
             "threshold,precision,recall\n255,1,0\n1,0.5,1\n");
-  writeText(folder_ / "cells/flown/a/calibrated/ours/pictures/best-7.jpg", "jpeg");
+  writeText(folder_ / "cells/flown/a/calibrated/ours/images/best-7.jpg", "jpeg");
   const std::string page = comparisonPage(comparison(), comparisonTables(comparison()));
   EXPECT_NE(page.find("0.200 / 0.800"), std::string::npos);
   EXPECT_NE(page.find("<svg"), std::string::npos);

@@ -1,4 +1,4 @@
-#include "processes/redbee/evaluate/flight_pictures.hpp"
+#include "processes/redbee/evaluate/flight_images.hpp"
 
 #include <algorithm>
 
@@ -8,8 +8,8 @@
 
 namespace redbee {
 
-void forEachPicture(const std::filesystem::path& log_file, const std::string& channel,
-                    const std::function<void(const image_t& message)>& take) {
+void forEachImage(const std::filesystem::path& log_file, const std::string& channel,
+                  const std::function<void(const image_t& message)>& take) {
   LogReader log(log_file);
   while (const auto event = log.next()) {
     image_t message;
@@ -20,9 +20,9 @@ void forEachPicture(const std::filesystem::path& log_file, const std::string& ch
   }
 }
 
-std::vector<int64_t> pictureTimes(const std::filesystem::path& log, const std::string& channel) {
+std::vector<int64_t> imageTimes(const std::filesystem::path& log, const std::string& channel) {
   std::vector<int64_t> times;
-  forEachPicture(log, channel, [&](const image_t& message) { times.push_back(message.utime); });
+  forEachImage(log, channel, [&](const image_t& message) { times.push_back(message.utime); });
   if (times.empty()) throw InputError(log, "holds no message on " + channel);
   std::sort(times.begin(), times.end());
   return times;

@@ -84,15 +84,15 @@ using Said = std::map<int, inertial_homography_t>;  ///< by frame
 
 /// What a test may do to a flight.
 struct Plot {
-  int back_at = kBackAt;                         ///< below 0: the process is not killed
-  bool deaf = false;                             ///< what was kept does not reach the process that comes back
-  std::function<void(inertial_state_t&)> forge;  ///< of the last state that was said, before it is offered
+  int back_at = kBackAt;  ///< below 0: the process is not killed
+  bool deaf = false;      ///< what was kept does not reach the process that comes back
+  std::function<void(filter_snapshot_t&)> forge;  ///< of the last state that was said, before it is offered
   std::function<void(int, visual_homography_t&)> deceive;
 };
 
 struct Heard {
   Said homographies;
-  std::vector<inertial_state_t> states;
+  std::vector<filter_snapshot_t> states;
   int offers = 0;
   std::string log;
 };
@@ -102,10 +102,10 @@ class Trial {
   Trial(const Sky& sky, const Plot& plot) : sky_(sky), plot_(plot) {
     bus_->subscribe<inertial_homography_t>(
         "INERTIAL_HOMOGRAPHY", 64, [&](const inertial_homography_t& m) { said_[frame_] = m; }, nullptr);
-    bus_->subscribe<inertial_state_t>(
-        "INERTIAL_STATE", 64, [&](const inertial_state_t& m) { states_.push_back(m); }, nullptr);
-    bus_->subscribe<inertial_state_t>(
-        "KEPT_STATE", 64, [&](const inertial_state_t&) { ++offers_; }, nullptr);
+    bus_->subscribe<filter_snapshot_t>(
+        "FILTER_SNAPSHOT", 64, [&](const filter_snapshot_t& m) { states_.push_back(m); }, nullptr);
+    bus_->subscribe<filter_snapshot_t>(
+        "WARM_START", 64, [&](const filter_snapshot_t&) { ++offers_; }, nullptr);
   }
 
   Heard fly() {
@@ -131,12 +131,12 @@ class Trial {
   }
   void comeBack() {
     Configuration configuration = sky_.configuration;
-    if (plot_.deaf) configuration.channels.kept_state = "NOWHERE";
+    if (plot_.deaf) configuration.channels.warm_start = "NOWHERE";
     start(configuration);
     if (!plot_.forge) return;
-    inertial_state_t forged = states_.back();
+    filter_snapshot_t forged = states_.back();
     plot_.forge(forged);
-    bus_->publish("INERTIAL_STATE", forged);
+    bus_->publish("FILTER_SNAPSHOT", forged);
   }
 
   void publishFrame() {
@@ -153,9 +153,9 @@ class Trial {
       const AltitudeSample& a = sky_.altitudes[altitude_at_];
       bus_->publish("ALTIMETER", altimeter_t{a.utime, a.height_m, a.sigma_m});
     }
-    image_t picture{};
-    picture.utime = utime;
-    bus_->publish("CAMERA", picture);
+    image_t image{};
+    image.utime = utime;
+    bus_->publish("CAMERA", image);
     settle();
     bus_->publish("VISUAL_HOMOGRAPHY", vision());
     settle();
@@ -198,7 +198,7 @@ class Trial {
   size_t imu_at_ = 0;
   size_t altitude_at_ = 0;
   Said said_;
-  std::vector<inertial_state_t> states_;
+  std::vector<filter_snapshot_t> states_;
   int offers_ = 0;
 };
 
@@ -234,7 +234,7 @@ Errors operator+(const Errors& a, const Errors& b) {
 }
 Errors operator/(const Errors& a, double n) { return {a.first_px / n, a.second_px / n, a.height / n}; }
 
-TEST(KeptState, ARestartedProcessKnowsWhatTheFlightHasLearned) {
+TEST(WarmStart, ARestartedProcessKnowsWhatTheFlightHasLearned) {
   Errors before;
   Errors without;
   Errors with;
@@ -263,7 +263,7 @@ TEST(KeptState, ARestartedProcessKnowsWhatTheFlightHasLearned) {
 
 struct Forgery {
   const char* name;
-  std::function<void(inertial_state_t&)> forge;
+  std::function<void(filter_snapshot_t&)> forge;
   const char* said;
 };
 
@@ -315,18 +315,18 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return each.param.name; });
 
 /// Else a process that dies as soon as it is started would overwrite what was known.
-TEST(KeptState, IsNotSaidBeforeAnythingWasLearned) {
+TEST(WarmStart, IsNotSaidBeforeAnythingWasLearned) {
   const Sky sky(1);
   Plot deaf;
   deaf.deaf = true;
-  for (const inertial_state_t& state : fly(sky, deaf).states) {
+  for (const filter_snapshot_t& state : fly(sky, deaf).states) {
     EXPECT_TRUE(state.utime < testing::frameTime(kKilledAt) ||
                 state.utime > testing::frameTime(kBackAt + 12));
     EXPECT_GT(state.utime, testing::frameTime(12));
   }
 }
 
-TEST(KeptState, ServesForSecondsAndNoLonger) {
+TEST(WarmStart, ServesForSecondsAndNoLonger) {
   const Sky sky(1);
   Plot plot;
   plot.back_at = kKilledAt + 40;
@@ -339,7 +339,7 @@ TEST(KeptState, ServesForSecondsAndNoLonger) {
 }
 
 /// One machine flies, the other replays its recording: nothing is offered where nobody has died.
-TEST(KeptState, IsOfferedToNobodyWhereNobodyDies) {
+TEST(WarmStart, IsOfferedToNobodyWhereNobodyDies) {
   const Sky sky(1);
   Plot nobody;
   nobody.back_at = -1;
@@ -350,20 +350,20 @@ TEST(KeptState, IsOfferedToNobodyWhereNobodyDies) {
 }
 
 /// A filter that has gone wrong is contradicted by vision: its state must not outlive it.
-TEST(KeptState, WhatVisionContradictsIsNotSaid) {
+TEST(WarmStart, WhatVisionContradictsIsNotSaid) {
   const Sky sky(1);
   constexpr int kWrongFrom = 180;
   Plot plot;
   plot.deceive = [](int k, visual_homography_t& m) {
     if (k < kWrongFrom) return;
-    // A picture that turns to and fro as the gyro says it does not.
+    // A image that turns to and fro as the gyro says it does not.
     const Eigen::Vector3d roll(0, 0, k % 2 == 0 ? 0.5 : -0.5);
     const Eigen::Matrix3d K = testing::testCamera().K();
     fill(m.H, normaliseHomography(K * expSO3(roll) * K.inverse() * matrix3(m.H)));
   };
   const Heard heard = fly(sky, plot);
   int after = 0;
-  for (const inertial_state_t& state : heard.states) {
+  for (const filter_snapshot_t& state : heard.states) {
     after += state.utime > testing::frameTime(kWrongFrom + 1) && state.utime < testing::frameTime(kKilledAt);
   }
   EXPECT_GT(heard.states.size(), 150U);
@@ -372,11 +372,11 @@ TEST(KeptState, WhatVisionContradictsIsNotSaid) {
 }
 
 /// Plausible, and yet wrong by a factor of two: no test tells. It costs no more than a wrong configuration.
-TEST(KeptState, AWrongHeightThatCouldBeRightIsCorrected) {
+TEST(WarmStart, AWrongHeightThatCouldBeRightIsCorrected) {
   for (const bool altimeter : {false, true}) {
     const Sky sky(2, altimeter);
     Plot plot;
-    plot.forge = [](inertial_state_t& m) { m.height *= 2; };
+    plot.forge = [](filter_snapshot_t& m) { m.height *= 2; };
     const Heard heard = fly(sky, plot);
     const Errors errors = errorsFrom(sky, heard.homographies, kBackAt + 1);
     tell(altimeter ? "twice, altimeter" : "twice as high", errors);

@@ -1,10 +1,10 @@
-#include "redbee/detection/picture_check.hpp"
+#include "redbee/detection/image_check.hpp"
 
 namespace redbee {
 namespace {
 
 /// Of neighbouring pixels in a row: 1 where they have nothing to do with each other, a few hundredths in a
-/// picture of something.
+/// image of something.
 constexpr double kMaxRoughness = 0.7;
 
 /// Mean squared difference of neighbours over what it is for independent ones, twice the variance.
@@ -17,7 +17,7 @@ double roughness(const cv::Mat& grey, double deviation) {
 
 }  // namespace
 
-bool PictureCheck::accepts(const cv::Mat& grey) {
+bool ImageCheck::accepts(const cv::Mat& grey) {
   if (grey.empty()) return false;
   const bool frozen = previous_.size() == grey.size() && cv::norm(previous_, grey, cv::NORM_INF) == 0;
   previous_ = grey.clone();

@@ -1,4 +1,4 @@
-#include "processes/motion_segmentation/kept_identities.hpp"
+#include "processes/motion_segmentation/track_id_store.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-KeptIdentities::KeptIdentities(std::filesystem::path file) : file_(std::move(file)) {
+TrackIdStore::TrackIdStore(std::filesystem::path file) : file_(std::move(file)) {
   std::ifstream stream(file_);
   if (!stream) return;
   if (!(stream >> before_) || before_ < 0) {
@@ -20,7 +20,7 @@ KeptIdentities::KeptIdentities(std::filesystem::path file) : file_(std::move(fil
   highest_ = before_;
 }
 
-int KeptIdentities::told(int id) {
+int TrackIdStore::globalId(int id) {
   const int number = before_ + id;
   if (number > highest_) {
     highest_ = number;
@@ -29,7 +29,7 @@ int KeptIdentities::told(int id) {
   return number;
 }
 
-void KeptIdentities::keep() {
+void TrackIdStore::keep() {
   if (file_.empty()) return;
   try {
     writeAtomically(file_, std::to_string(highest_) + "\n");

@@ -1,4 +1,4 @@
-// The pictures of the last few frames, each with the homography from it to the newest.
+// The images of the last few frames, each with the homography from it to the newest.
 #pragma once
 
 #include <deque>
@@ -6,28 +6,28 @@
 
 namespace redbee {
 
-class PictureHistory {
+class ImageHistory {
  public:
   /// `frames`: how many are kept, at least 1.
-  explicit PictureHistory(size_t frames) : frames_(frames) {}
+  explicit ImageHistory(size_t frames) : frames_(frames) {}
 
   void clear() { entries_.clear(); }
   bool empty() const { return entries_.empty(); }
-  /// A new frame is about to come; `H`: from the one before to it. The kept pictures then answer to it.
+  /// A new frame is about to come; `H`: from the one before to it. The kept images then answer to it.
   void carry(const cv::Matx33d& H) {
     for (Entry& entry : entries_) entry.to_newest = H * entry.to_newest;
   }
-  /// The newest frame's picture, which shares its memory.
-  void push(const cv::Mat& picture) {
-    entries_.push_back({picture, cv::Matx33d::eye()});
+  /// The newest frame's image, which shares its memory.
+  void push(const cv::Mat& image) {
+    entries_.push_back({image, cv::Matx33d::eye()});
     if (entries_.size() > frames_) entries_.pop_front();
   }
-  const cv::Mat& oldest() const { return entries_.front().picture; }
+  const cv::Mat& oldest() const { return entries_.front().image; }
   const cv::Matx33d& oldestToNewest() const { return entries_.front().to_newest; }
 
  private:
   struct Entry {
-    cv::Mat picture;
+    cv::Mat image;
     cv::Matx33d to_newest;
   };
   size_t frames_;

@@ -1,4 +1,4 @@
-#include "redbee/inertial/inertial_knowledge.hpp"
+#include "redbee/inertial/filter_snapshot.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr double kMaxTilt = 3.2;          // rad, of its sigma
 constexpr double kUnitTolerance = 1e-6;
 constexpr double kDoubt = 2;
 
-double ageAt(const InertialKnowledge& known, int64_t utime) { return seconds(utime - known.utime); }
+double ageAt(const FilterSnapshot& known, int64_t utime) { return seconds(utime - known.utime); }
 
 /// False for what is not a number.
 bool isSigma(const Eigen::Vector3d& sigma, double limit) {
@@ -36,12 +36,12 @@ bool isSensorError(const Eigen::Vector3d& error, const Eigen::Vector3d& sigma, d
   return error.norm() <= limit && isSigma(sigma, limit);
 }
 
-bool isHeight(const InertialKnowledge& known) {
+bool isHeight(const FilterSnapshot& known) {
   return known.height_m >= kMinCameraHeight && known.height_m <= kMaxHeight && known.height_sigma_m > 0 &&
          known.height_sigma_m <= known.height_m;
 }
 
-bool couldBeLearned(const InertialKnowledge& known, const InertialParameters& parameters) {
+bool couldBeLearned(const FilterSnapshot& known, const InertialParameters& parameters) {
   const Eigen::Matrix3d turned = known.R_CI * parameters.extrinsics.R_CI.transpose();
   return isHeight(known) && std::abs(known.up.norm() - 1) < kUnitTolerance &&
          isSigma(known.up_sigma, kMaxTilt) && known.velocity.norm() <= kMaxVelocity &&
@@ -57,36 +57,36 @@ bool couldBeLearned(const InertialKnowledge& known, const InertialParameters& pa
 
 }  // namespace
 
-const char* toString(KnowledgeVerdict verdict) {
+const char* toString(SnapshotCheck verdict) {
   switch (verdict) {
-    case KnowledgeVerdict::kBelieved:
+    case SnapshotCheck::kBelieved:
       return "believed";
-    case KnowledgeVerdict::kNotWanted:
+    case SnapshotCheck::kNotWanted:
       return "not wanted";
-    case KnowledgeVerdict::kImplausible:
+    case SnapshotCheck::kImplausible:
       return "implausible";
-    case KnowledgeVerdict::kFuture:
+    case SnapshotCheck::kFuture:
       return "from the future";
-    case KnowledgeVerdict::kStale:
+    case SnapshotCheck::kStale:
       return "too old";
   }
   return "unknown";
 }
 
-bool isRecent(const InertialKnowledge& known, int64_t utime) {
+bool isRecent(const FilterSnapshot& known, int64_t utime) {
   const double age = ageAt(known, utime);
   return age >= 0 && age <= kMaxAge;
 }
 
-KnowledgeVerdict judge(const InertialKnowledge& known, int64_t utime, const InertialParameters& parameters) {
+SnapshotCheck judge(const FilterSnapshot& known, int64_t utime, const InertialParameters& parameters) {
   if (!isPlausibleTime(known.utime) || !couldBeLearned(known, parameters)) {
-    return KnowledgeVerdict::kImplausible;
+    return SnapshotCheck::kImplausible;
   }
-  if (ageAt(known, utime) < 0) return KnowledgeVerdict::kFuture;
-  return isRecent(known, utime) ? KnowledgeVerdict::kBelieved : KnowledgeVerdict::kStale;
+  if (ageAt(known, utime) < 0) return SnapshotCheck::kFuture;
+  return isRecent(known, utime) ? SnapshotCheck::kBelieved : SnapshotCheck::kStale;
 }
 
-InertialKnowledge aged(InertialKnowledge known, int64_t utime) {
+FilterSnapshot aged(FilterSnapshot known, int64_t utime) {
   const double age = ageAt(known, utime);
   for (Eigen::Vector3d* sigma : {&known.up_sigma, &known.velocity_sigma, &known.gyro_bias_sigma,
                                  &known.accel_bias_sigma, &known.R_CI_sigma}) {

@@ -7,16 +7,16 @@ namespace redbee {
 
 /// The tracker counts its objects from 1. What is told of them goes on from the highest number that was told
 /// before, which a file keeps: where nothing kept it, from 1.
-class KeptIdentities {
+class TrackIdStore {
  public:
   /// Keeps nothing.
-  KeptIdentities() = default;
+  TrackIdStore() = default;
   /// Goes on from what the file says. A file that cannot be read or holds no number counts as none, and is
   /// said in the log.
-  explicit KeptIdentities(std::filesystem::path file);
+  explicit TrackIdStore(std::filesystem::path file);
 
   /// The number to tell. A file that cannot be written is said in the log, once: the flight goes on.
-  int told(int id);
+  int globalId(int id);
 
  private:
   void keep();

@@ -16,12 +16,12 @@ namespace redbee {
 /// `patience_us`. Who has been waited for in vain is not waited for again until it speaks. So the answer
 /// depends on the messages alone while none is lost, and a dead publisher costs one wait.
 template <typename Message>
-class CompanionBuffer {
+class MessageSynchronizer {
  public:
-  enum class Answer { kHere, kWait, kGivenUp };
+  enum class Status { kReady, kPending, kTimedOut };
 
   /// `expected` false: never waited for (a vehicle without this source).
-  CompanionBuffer(int64_t patience_us, bool expected, size_t capacity = 64)
+  MessageSynchronizer(int64_t patience_us, bool expected, size_t capacity = 64)
       : patience_us_(patience_us), expected_(expected), alive_(expected), capacity_(capacity) {}
 
   /// Messages that are later by more than kSetBack are forgotten: either time was set back, or they were
@@ -36,14 +36,14 @@ class CompanionBuffer {
   }
 
   /// `newest_utime`: the latest message time that the node has seen on any channel.
-  Answer ask(int64_t utime, int64_t newest_utime) {
-    if (messages_.count(utime) > 0) return Answer::kHere;
-    if (!alive_) return Answer::kGivenUp;
+  Status status(int64_t utime, int64_t newest_utime) {
+    if (messages_.count(utime) > 0) return Status::kReady;
+    if (!alive_) return Status::kTimedOut;
     const bool overtaken = messages_.upper_bound(utime) != messages_.end();
-    if (!overtaken && newest_utime - utime <= patience_us_) return Answer::kWait;
+    if (!overtaken && newest_utime - utime <= patience_us_) return Status::kPending;
     if (!overtaken) alive_ = false;
-    ++given_up_;
-    return Answer::kGivenUp;
+    ++timed_out_;
+    return Status::kTimedOut;
   }
 
   const Message* find(int64_t utime) const {
@@ -51,17 +51,17 @@ class CompanionBuffer {
     return it == messages_.end() ? nullptr : &it->second;
   }
   const std::map<int64_t, Message>& messages() const { return messages_; }
-  void forgetUpTo(int64_t utime) { messages_.erase(messages_.begin(), messages_.upper_bound(utime)); }
+  void eraseThrough(int64_t utime) { messages_.erase(messages_.begin(), messages_.upper_bound(utime)); }
   void clear() { messages_.clear(); }
   /// Companions that were waited for in vain.
-  int64_t givenUp() const { return given_up_; }
+  int64_t timedOut() const { return timed_out_; }
 
  private:
   int64_t patience_us_;
   bool expected_;
   bool alive_;
   size_t capacity_;
-  int64_t given_up_ = 0;
+  int64_t timed_out_ = 0;
   std::map<int64_t, Message> messages_;
 };
 

@@ -1,4 +1,4 @@
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,13 +16,13 @@ cv::Mat ramp() {
   return grey;
 }
 
-TEST(Picture, RawGreyComesBackUnchanged) {
+TEST(Image, RawGreyComesBackUnchanged) {
   const auto decoded = decodeGrey(rawGreyMessage(7, ramp()));
   ASSERT_TRUE(decoded);
   EXPECT_EQ(cv::norm(*decoded, ramp(), cv::NORM_INF), 0);
 }
 
-TEST(Picture, RowsMayBePadded) {
+TEST(Image, RowsMayBePadded) {
   image_t message = rawGreyMessage(7, ramp());
   cv::Mat padded(48, 80, CV_8U, cv::Scalar(1));
   ramp().copyTo(padded(cv::Rect(0, 0, 64, 48)));
@@ -34,13 +34,13 @@ TEST(Picture, RowsMayBePadded) {
   EXPECT_EQ(cv::norm(*decoded, ramp(), cv::NORM_INF), 0);
 }
 
-TEST(Picture, JpegComesBackNearly) {
+TEST(Image, JpegComesBackNearly) {
   const auto decoded = decodeGrey(jpegMessage(7, ramp(), 95));
   ASSERT_TRUE(decoded);
   EXPECT_LT(cv::norm(*decoded, ramp(), cv::NORM_L1) / ramp().total(), 2.0);
 }
 
-TEST(Picture, LiesAboutTheSizeAreRefused) {
+TEST(Image, LiesAboutTheSizeAreRefused) {
   const auto refused = [](image_t message, auto&& lie) {
     lie(message);
     return !decodeGrey(message) && !decodeColour(message);
@@ -56,7 +56,7 @@ TEST(Picture, LiesAboutTheSizeAreRefused) {
   EXPECT_TRUE(refused(jpeg, [](image_t& m) { m.data.assign(m.data.size(), 0); }));
 }
 
-TEST(Picture, AJpegThatIsCutShortIsRefused) {
+TEST(Image, AJpegThatIsCutShortIsRefused) {
   const image_t whole = jpegMessage(7, ramp(), 90);
   for (const size_t size : {whole.data.size() / 3, whole.data.size() / 2, whole.data.size() - 2}) {
     image_t cut = whole;
@@ -71,7 +71,7 @@ TEST(Picture, AJpegThatIsCutShortIsRefused) {
   EXPECT_TRUE(decodeGrey(padded)) << "cameras pad";
 }
 
-TEST(Picture, SmallerOnesAreTheMeanOfBlocks) {
+TEST(Image, SmallerOnesAreTheMeanOfBlocks) {
   // Smooth, so that a JPEG's own way of shrinking, which leaves out the finest waves, finds nothing to leave
   // out.
   for (const int downscale : {2, 4}) {
@@ -93,20 +93,20 @@ TEST(Picture, SmallerOnesAreTheMeanOfBlocks) {
   }
 }
 
-TEST(Picture, ASizeThatDoesNotDivideIsRefused) {
+TEST(Image, ASizeThatDoesNotDivideIsRefused) {
   EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()(cv::Rect(0, 0, 63, 48))), 2));
   EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()(cv::Rect(0, 0, 64, 46))), 4));
   EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()), 3));
 }
 
-TEST(Picture, OneBitAPixelIsEnoughForAMask) {
+TEST(Image, OneBitAPixelIsEnoughForAMask) {
   const cv::Mat mask = ramp() > 90;
   const std::vector<uint8_t> png = encodeBilevelPng(mask);
   EXPECT_EQ(cv::norm(cv::imdecode(png, cv::IMREAD_GRAYSCALE), mask, cv::NORM_INF), 0);
   EXPECT_LT(png.size(), encodePng(mask).size());
 }
 
-TEST(Picture, HeaderOfAJpegTellsItsSize) {
+TEST(Image, HeaderOfAJpegTellsItsSize) {
   const image_t jpeg = jpegMessage(7, ramp(), 90);
   EXPECT_EQ(jpegSize(jpeg.data.data(), jpeg.data.size()), cv::Size(64, 48));
   for (size_t cut = 0; cut < 40; ++cut) EXPECT_FALSE(jpegSize(jpeg.data.data(), cut).has_value()) << cut;

@@ -1,4 +1,4 @@
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ std::optional<size_t> jpegFrameHeader(const uint8_t* data, size_t size) {
   return std::nullopt;
 }
 
-/// libjpeg fills what is missing of a picture with grey and says nothing. Cameras may pad behind the end
+/// libjpeg fills what is missing of a image with grey and says nothing. Cameras may pad behind the end
 /// marker, and a thumbnail has one of its own, before the frame header.
 bool isWholeJpeg(const std::vector<uint8_t>& data) {
   const std::array<uint8_t, 2> end_of_image = {0xFF, 0xD9};
@@ -66,7 +66,7 @@ std::optional<cv::Mat> decodeJpeg(const image_t& message, bool colour, int downs
   return decoded;
 }
 
-/// The message's bytes as a picture, without a copy.
+/// The message's bytes as a image, without a copy.
 std::optional<cv::Mat> viewRaw(const image_t& message, int channels) {
   const int64_t row = static_cast<int64_t>(message.width) * channels;
   if (message.row_stride < row || static_cast<int64_t>(message.row_stride) * message.height != message.size) {
@@ -148,14 +148,14 @@ image_t rawGreyMessage(int64_t utime, const cv::Mat& grey) {
   return message;
 }
 
-image_t jpegMessage(int64_t utime, const cv::Mat& picture, int quality) {
+image_t jpegMessage(int64_t utime, const cv::Mat& image, int quality) {
   image_t message;
   message.utime = utime;
-  message.width = picture.cols;
-  message.height = picture.rows;
+  message.width = image.cols;
+  message.height = image.rows;
   message.row_stride = 0;
   message.pixelformat = kMjpeg;
-  cv::imencode(".jpg", picture, message.data, {cv::IMWRITE_JPEG_QUALITY, quality});
+  cv::imencode(".jpg", image, message.data, {cv::IMWRITE_JPEG_QUALITY, quality});
   message.size = static_cast<int32_t>(message.data.size());
   message.nmetadata = 0;
   return message;

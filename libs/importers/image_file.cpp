@@ -1,4 +1,4 @@
-#include "redbee/importers/picture_file.hpp"
+#include "redbee/importers/image_file.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -6,14 +6,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-#include "redbee/bus/picture.hpp"
+#include "redbee/bus/image.hpp"
 #include "redbee/files/input_error.hpp"
 
 namespace redbee {
 namespace {
 
 std::vector<uint8_t> readWhole(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw InputError(file, "no such picture");
+  if (!std::filesystem::is_regular_file(file)) throw InputError(file, "no such image");
   std::ifstream in(file, std::ios::binary);
   std::vector<uint8_t> bytes(static_cast<size_t>(std::filesystem::file_size(file)));
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -48,7 +48,7 @@ image_t untouchedJpeg(const std::filesystem::path& file, int64_t utime, std::vec
 
 }  // namespace
 
-image_t loadPicture(const std::filesystem::path& file, int64_t utime, const PictureOptions& options) {
+image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options) {
   std::vector<uint8_t> bytes = readWhole(file);
   if (startsWith(bytes, {0xFF, 0xD8})) return untouchedJpeg(file, utime, std::move(bytes));
   if (!startsWith(bytes, {0x89, 'P', 'N', 'G'})) throw InputError(file, "is neither JPEG nor PNG");
@@ -58,23 +58,23 @@ image_t loadPicture(const std::filesystem::path& file, int64_t utime, const Pict
   if (std::search(tail, bytes.end(), end_chunk.begin(), end_chunk.end()) == bytes.end()) {
     throw InputError(file, "PNG is cut short: no end chunk");
   }
-  const cv::Mat picture = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  if (picture.empty()) throw InputError(file, "PNG cannot be decoded");
-  if (picture.type() != CV_8UC1 && picture.type() != CV_8UC3) {
+  const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  if (image.empty()) throw InputError(file, "PNG cannot be decoded");
+  if (image.type() != CV_8UC1 && image.type() != CV_8UC3) {
     throw InputError(file, "PNG is neither 8-bit grey nor 8-bit colour");
   }
-  if (picture.channels() == 1 && options.lossless_grey) return rawGreyMessage(utime, picture);
-  return jpegMessage(utime, picture, options.jpeg_quality);
+  if (image.channels() == 1 && options.lossless_grey) return rawGreyMessage(utime, image);
+  return jpegMessage(utime, image, options.jpeg_quality);
 }
 
-void OneResolution::check(const std::filesystem::path& file, const image_t& picture) {
+void OneResolution::check(const std::filesystem::path& file, const image_t& image) {
   if (width_ == 0) {
-    width_ = picture.width;
-    height_ = picture.height;
+    width_ = image.width;
+    height_ = image.height;
   }
-  if (picture.width != width_ || picture.height != height_) {
-    throw InputError(file, "is " + std::to_string(picture.width) + "x" + std::to_string(picture.height) +
-                               " px, the pictures before it " + std::to_string(width_) + "x" +
+  if (image.width != width_ || image.height != height_) {
+    throw InputError(file, "is " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                               " px, the images before it " + std::to_string(width_) + "x" +
                                std::to_string(height_));
   }
 }

@@ -10,7 +10,7 @@ namespace redbee {
 struct InertialParameters;
 
 /// Sigmas are one standard deviation each, by component.
-struct InertialKnowledge {
+struct FilterSnapshot {
   int64_t utime = 0;    ///< us, camera clock: the frame that it holds for
   double height_m = 0;  ///< of the camera above the ground plane
   double height_sigma_m = 0;
@@ -28,24 +28,24 @@ struct InertialKnowledge {
   Eigen::Vector3d R_CI_sigma = Eigen::Vector3d::Zero();  ///< rad, left perturbation
 };
 
-enum class KnowledgeVerdict {
+enum class SnapshotCheck {
   kBelieved,
   kNotWanted,    ///< the filter has moved, and flies by what it has learned itself
   kImplausible,  ///< not finite, or nothing that a filter with these parameters could have learned
   kFuture,       ///< of a frame later than the filter's
   kStale,        ///< too old to say where the drone is
 };
-const char* toString(KnowledgeVerdict verdict);
+const char* toString(SnapshotCheck verdict);
 
 /// True while height, vertical and velocity of then say something about the frame at `utime`.
-bool isRecent(const InertialKnowledge& known, int64_t utime);
+bool isRecent(const FilterSnapshot& known, int64_t utime);
 
 /// May a filter with these parameters, at its first frame `utime`, go on from it?
-KnowledgeVerdict judge(const InertialKnowledge& known, int64_t utime, const InertialParameters& parameters);
+SnapshotCheck judge(const FilterSnapshot& known, int64_t utime, const InertialParameters& parameters);
 
 /// What is left of it at the frame at `utime`; precondition: isRecent(). Nobody has measured since: the drone
 /// may have accelerated and turned, and the sigmas grow by that. They are doubled besides: what follows a
 /// fault is not to be surer than it can show.
-InertialKnowledge aged(InertialKnowledge known, int64_t utime);
+FilterSnapshot aged(FilterSnapshot known, int64_t utime);
 
 }  // namespace redbee

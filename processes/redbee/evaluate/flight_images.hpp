@@ -11,12 +11,12 @@
 
 namespace redbee {
 
-/// Calls `take` for each picture message on `channel`, in the log's order; messages that do not decode are
+/// Calls `take` for each image message on `channel`, in the log's order; messages that do not decode are
 /// passed over. Throws InputError where the log cannot be read.
-void forEachPicture(const std::filesystem::path& log, const std::string& channel,
-                    const std::function<void(const image_t& message)>& take);
+void forEachImage(const std::filesystem::path& log, const std::string& channel,
+                  const std::function<void(const image_t& message)>& take);
 
 /// Times of the flight's frames [us], sorted. Throws InputError where there are none.
-std::vector<int64_t> pictureTimes(const std::filesystem::path& log, const std::string& channel);
+std::vector<int64_t> imageTimes(const std::filesystem::path& log, const std::string& channel);
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// Pictures inside image_t messages.
+// Images inside image_t messages.
 #pragma once
 
 #include <cstdint>
@@ -21,18 +21,18 @@ enum PixelFormat : int32_t {
 /// Width and height that a JPEG's header declares; nothing where there is no such header. Decodes nothing.
 std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size);
 
-/// The picture as 8-bit grey, or as BGR. Nothing where the message lies about its size or format, or is cut
+/// The image as 8-bit grey, or as BGR. Nothing where the message lies about its size or format, or is cut
 /// short: sizes are compared with the header's before anything is decoded.
 std::optional<cv::Mat> decodeGrey(const image_t& message);
 std::optional<cv::Mat> decodeColour(const image_t& message);
-/// The same at a size 1, 2 or 4 times smaller, which must divide the picture's. A JPEG is not decoded to its
+/// The same at a size 1, 2 or 4 times smaller, which must divide the image's. A JPEG is not decoded to its
 /// full size first: at half size it costs half.
 std::optional<cv::Mat> decodeGrey(const image_t& message, int downscale);
 std::optional<cv::Mat> decodeColour(const image_t& message, int downscale);
 
 image_t rawGreyMessage(int64_t utime, const cv::Mat& grey);
-/// `picture`: grey or BGR.
-image_t jpegMessage(int64_t utime, const cv::Mat& picture, int quality);
+/// `image`: grey or BGR.
+image_t jpegMessage(int64_t utime, const cv::Mat& image, int quality);
 
 /// 8-bit single-channel PNG, made for speed: maps with few values shrink to a few hundred bytes.
 std::vector<uint8_t> encodePng(const cv::Mat& map);

@@ -1,4 +1,4 @@
-// Picture files into image_t messages.
+// Image files into image_t messages.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace redbee {
 
-struct PictureOptions {
+struct ImageOptions {
   bool lossless_grey = true;  ///< grey PNGs become raw GRAY (a JPEG would add noise that the flight did not
                               ///< have); false: MJPEG
   int jpeg_quality = 95;      ///< of what is encoded here
 };
 
 /// A JPEG keeps its bytes untouched; a PNG becomes raw grey or MJPEG. Throws InputError(naming the
-/// file) where it is missing, cut short or no 8-bit picture.
-image_t loadPicture(const std::filesystem::path& file, int64_t utime, const PictureOptions& options);
+/// file) where it is missing, cut short or no 8-bit image.
+image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options);
 
-/// Refuses a picture of another size than the first one's.
+/// Refuses a image of another size than the first one's.
 class OneResolution {
  public:
-  void check(const std::filesystem::path& file, const image_t& picture);
+  void check(const std::filesystem::path& file, const image_t& image);
 
  private:
   int width_ = 0;
