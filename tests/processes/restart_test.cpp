@@ -157,22 +157,22 @@ TEST(ProcessesStart, WithoutVisionNoWrongMaskIsCalledGood) {
 TEST(RestartedTracker, GivesNoIdentityTwice) {
   const testing::ScratchFolder folder;
   TrackIdStore first(folder.path() / "identities");
-  EXPECT_EQ(first.told(1), 1);
-  EXPECT_EQ(first.told(7), 7);
-  EXPECT_EQ(first.told(3), 3);
+  EXPECT_EQ(first.globalId(1), 1);
+  EXPECT_EQ(first.globalId(7), 7);
+  EXPECT_EQ(first.globalId(3), 3);
   TrackIdStore second(folder.path() / "identities");
-  EXPECT_EQ(second.told(1), 8);
+  EXPECT_EQ(second.globalId(1), 8);
   TrackIdStore third(folder.path() / "identities");
-  EXPECT_EQ(third.told(2), 10);
+  EXPECT_EQ(third.globalId(2), 10);
 }
 
 TEST(RestartedTracker, WhatCannotBeReadOrWrittenEndsNoFlight) {
   const testing::ScratchFolder folder;
   std::ofstream(folder.path() / "identities") << "seven";
-  EXPECT_EQ(TrackIdStore(folder.path() / "identities").told(1), 1);
+  EXPECT_EQ(TrackIdStore(folder.path() / "identities").globalId(1), 1);
   TrackIdStore nowhere(folder.path() / "no such folder" / "identities");
-  EXPECT_EQ(nowhere.told(1), 1);
-  EXPECT_EQ(nowhere.told(2), 2);
+  EXPECT_EQ(nowhere.globalId(1), 1);
+  EXPECT_EQ(nowhere.globalId(2), 2);
 }
 
 TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
