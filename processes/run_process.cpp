@@ -5,25 +5,25 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "processes/common_options.hpp"
 #include "redbee/bus/build_version.hpp"
-#include "redbee/bus/receive_buffer.hpp"
 
 namespace redbee {
 
 int runProcess(int argc, char** argv, const std::string& name, const NodeFactory& factory) {
   CLI::App app("REDBEE " REDBEE_VERSION ", " + name, name);
-  std::string configuration_file;
-  std::string url = kDefaultLcmUrl;
+  std::filesystem::path configuration_file;
+  std::string url;
   std::string state_folder;
   app.set_version_flag("--version", buildVersion());
-  app.add_option("--config", configuration_file, "the vehicle's YAML file")->required();
-  app.add_option("--lcm-url", url, "where the messages are")->capture_default_str();
-  app.add_option("--state-dir", state_folder, "keep there what must survive a restart of this process");
+  addConfigurationOption(app, configuration_file);
+  addLcmUrlOption(app, url);
+  app.add_option("--state-dir", state_folder, "folder for the state that survives a restart of this process");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "%s: %s (--help tells the use)\n", name.c_str(), error.what());
+    std::fprintf(stderr, "%s: %s (see %s --help)\n", name.c_str(), error.what(), name.c_str());
     return 2;
   }
   // One process of several on a small computer: its neighbours need the other cores.
@@ -33,8 +33,8 @@ int runProcess(int argc, char** argv, const std::string& name, const NodeFactory
     const auto bus = makeLcmBus(url);
     const auto node = factory(*bus, configuration);
     if (!state_folder.empty()) node->keepStateIn(state_folder);
-    spdlog::info("{}: configuration {} ({}), {}", name, configuration_file, configurationHash(configuration),
-                 url);
+    spdlog::info("{}: configuration {} ({}), {}", name, configuration_file.string(),
+                 configurationHash(configuration), url);
     runNode(*bus, *node, configuration.channels.health, stopOnSignals());
     return 0;
   } catch (const ConfigurationError& error) {

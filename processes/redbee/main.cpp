@@ -1,3 +1,9 @@
-#include "processes/redbee/commands/commands.hpp"
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 
-int main(int argc, char** argv) { return redbee::runTool(argc, argv); }
+#include "processes/redbee/commands/command.hpp"
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("redbee"));
+  return redbee::runTool(argc, argv);
+}

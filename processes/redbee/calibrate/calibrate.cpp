@@ -1,6 +1,5 @@
 #include "processes/redbee/calibrate/calibrate.hpp"
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -123,36 +122,6 @@ int runCalibrate(const CalibrateOptions& options) {
   printVerdicts(result);
   std::printf("results in %s\n", options.out.c_str());
   return 0;
-}
-
-void addCalibrateCommand(CLI::App& app) {
-  auto options = std::make_shared<CalibrateOptions>();
-  auto* command =
-      app.add_subcommand("calibrate", "camera-IMU rotation, time shift and plane height from a recording");
-  auto* log = command->add_option("--log", options->log,
-                                  "a flight over flat ground, half a minute with turns about all axes");
-  auto* corners =
-      command->add_option("--target-corners", options->target_corners,
-                          "instead of a flight: corners of a target with 3-D points, CSV or CSV.gz");
-  corners->excludes(log);
-  command->add_option("--imu", options->imu, "IMU samples beside the corners, CSV")
-      ->needs(corners)
-      ->excludes(log);
-  command
-      ->add_option("--config", options->configuration,
-                   "the vehicle's YAML file; its extrinsics are the nominal ones")
-      ->required();
-  command->add_option("--out", options->out, "folder for the results")->required();
-  auto* height = command
-                     ->add_option("--height", options->height_m,
-                                  "m, camera above the ground at the first frame, measured")
-                     ->check(CLI::PositiveNumber);
-  command->add_option("--height-sigma", options->height_sigma_m, "m, its standard deviation")
-      ->check(CLI::PositiveNumber)
-      ->needs(height)
-      ->capture_default_str();
-  command->add_flag("--no-altimeter", options->no_altimeter, "leave a recorded altimeter out");
-  command->callback([options] { runCalibrate(*options); });
 }
 
 }  // namespace redbee

@@ -5,10 +5,6 @@
 #include <filesystem>
 #include <optional>
 
-namespace CLI {
-class App;
-}
-
 namespace redbee {
 
 struct CalibrateOptions {
@@ -28,7 +24,5 @@ struct CalibrateOptions {
 /// them, and prints the verdicts. 0. Throws InputError or ConfigurationError, one line each, on bad input and
 /// where nothing can be calibrated.
 int runCalibrate(const CalibrateOptions& options);
-
-void addCalibrateCommand(CLI::App& app);
 
 }  // namespace redbee

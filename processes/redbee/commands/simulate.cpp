@@ -1,106 +1,27 @@
-#include "processes/redbee/commands/simulate.hpp"
+#include <CLI/CLI.hpp>
+#include <memory>
 
-#include <cstdio>
-#include <map>
-#include <opencv2/imgcodecs.hpp>
-#include <sstream>
-
-#include "redbee/bus/image.hpp"
-#include "redbee/configuration/configuration.hpp"
-#include "redbee/files/atomic_file.hpp"
-#include "redbee/files/input_error.hpp"
-#include "redbee/files/progress.hpp"
-#include "redbee/importers/flight_merger.hpp"
-#include "redbee/simulation/scenarios.hpp"
+#include "processes/common_options.hpp"
+#include "processes/redbee/commands/command.hpp"
+#include "processes/redbee/evaluate/simulate_flight.hpp"
 
 namespace redbee {
 namespace {
 
-using ScenarioMaker = simulation::Scenario (*)(unsigned seed);
-
-const std::map<std::string, ScenarioMaker>& scenarios() {
-  static const std::map<std::string, ScenarioMaker> makers = {
-      {"ground_only", simulation::groundOnly},   {"two_planes", simulation::twoPlanes},
-      {"waving_water", simulation::wavingWater}, {"calibration", simulation::calibrationFlight},
-      {"walkers", simulation::walkers},
-  };
-  return makers;
-}
-
-/// Truth on disk, in the layout of a flight folder's labels.
-class TruthFolder {
- public:
-  explicit TruthFolder(const std::filesystem::path& folder) : folder_(folder) {
-    if (folder_.empty()) return;
-    std::filesystem::create_directories(folder_ / "mask");
-    homographies_ << "#timestamp [ns],frame,H11,H12,H13,H21,H22,H23,H31,H32,H33 (pixels of frame k-1 -> "
-                     "pixels of frame k)\n";
-    homographies_.precision(12);
-  }
-
-  void add(int k, int64_t utime, const cv::Mat& mask, const Eigen::Matrix3d& H) {
-    if (folder_.empty()) return;
-    const std::string stamp = std::to_string(utime * 1000);
-    cv::imwrite((folder_ / "mask" / (stamp + ".png")).string(), mask);
-    homographies_ << stamp << ',' << k;
-    for (int i = 0; i < 9; ++i) homographies_ << ',' << H(i / 3, i % 3);
-    homographies_ << '\n';
-  }
-
-  void close() const {
-    if (!folder_.empty()) writeAtomically(folder_ / "homography.csv", homographies_.str());
-  }
-
- private:
-  std::filesystem::path folder_;
-  std::ostringstream homographies_;
-};
-
-Configuration configurationOf(const simulation::Scenario& scenario, const SimulateOptions& options) {
-  Configuration configuration;
-  configuration.vehicle = "simulated-" + options.scenario + "-" + std::to_string(options.seed);
-  configuration.camera = scenario.intrinsics;
-  configuration.inertial.extrinsics = scenario.extrinsics;
-  configuration.inertial.noise = scenario.imu.noise;
-  return configuration;
-}
+const Command kSimulate(
+    CommandGroup::kFlights, "simulate", "simulate a flight with exact ground truth", [](CLI::App& command) {
+      auto options = std::make_shared<SimulateOptions>();
+      command.add_option("--scenario", options->scenario, "one of: " + scenarioNames())
+          ->capture_default_str();
+      command.add_option("--seed", options->seed, "of the random numbers: equal seeds give equal flights")
+          ->capture_default_str();
+      command.add_option("--seconds", options->seconds, "duration of the flight, s")
+          ->check(CLI::Range(0.2, 600.0))
+          ->capture_default_str();
+      addOutOption(command, options->log, "log to write; its configuration is written beside it");
+      command.add_option("--truth", options->truth, "folder for ground-truth masks and homographies");
+      command.callback([options] { runSimulate(*options); });
+    });
 
 }  // namespace
-
-std::string scenarioNames() {
-  std::string names;
-  for (const auto& [name, maker] : scenarios()) names += (names.empty() ? "" : ", ") + name;
-  return names;
-}
-
-void runSimulate(const SimulateOptions& options) {
-  const auto maker = scenarios().find(options.scenario);
-  if (maker == scenarios().end()) {
-    throw InputError("--scenario " + options.scenario + ": unknown; known are " + scenarioNames());
-  }
-  simulation::Scenario scenario = maker->second(options.seed);
-  scenario.frames = std::max(1, static_cast<int>(options.seconds * scenario.fps));
-  const simulation::FlightSimulator simulator(scenario);
-
-  Progress progress("simulating " + options.scenario, "frames");
-  FlightMerger merger(options.log, ImportChannels(), simulator.imu(), simulator.altimeter());
-  TruthFolder truth(options.truth);
-  for (int k = 0; k < scenario.frames; ++k) {
-    const simulation::SimulatedFrame frame = simulator.frame(k);
-    merger.addFrame(rawGreyMessage(frame.utime, frame.image.grey));
-    truth.add(k, frame.utime, frame.image.mask, simulator.homography(k));
-    progress.update(k + 1, scenario.frames);
-  }
-  ImportSummary summary;
-  merger.close(summary);
-  truth.close();
-  std::filesystem::path configuration = options.log;
-  configuration.replace_extension(".yaml");
-  writeAtomically(configuration, "# The simulated drone, with its true extrinsics.\n" +
-                                     emitYaml(configurationOf(scenario, options)));
-  progress.finish();
-  std::printf("%s: %d frames; %s: its configuration\n", options.log.c_str(), scenario.frames,
-              configuration.c_str());
-}
-
 }  // namespace redbee

@@ -2,17 +2,14 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <CLI/CLI.hpp>
 #include <limits>
 #include <memory>
 #include <vector>
 
-#include "processes/redbee/commands/commands.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
-#include "redbee/geometry/angle.hpp"
 #include "redbee/importers/sensor_yaml.hpp"
 
 namespace redbee {
@@ -67,30 +64,6 @@ void writeReferenceExtrinsics(const ReferenceExtrinsicsOptions& options) {
       std::filesystem::relative(options.configuration, std::filesystem::absolute(options.out).parent_path());
   writeAtomically(options.out, "# True extrinsics, disturbed by what a calibration leaves.\n" +
                                    yamlOf(extrinsics, include));
-}
-
-void addReferenceExtrinsicsCommand(CLI::App& app) {
-  auto options = std::make_shared<ReferenceExtrinsicsOptions>();
-  auto* command = app.add_subcommand(
-      "reference-extrinsics",
-      "a configuration with a rendered clip's true extrinsics, disturbed as a calibration would");
-  command->add_option("--flight", options->flight, "folder with groundtruth.yaml and labels")->required();
-  command->add_option("--config", options->configuration, "the vehicle's YAML file, to be included")
-      ->required();
-  command->add_option("--out", options->out, "the YAML file to write")->required();
-  command->add_option("--seed", options->seed, "any text; the flight folder's name unless given");
-  auto degrees = std::make_shared<double>(options->disturbance.rotation_rad / kDegree);
-  auto milliseconds = std::make_shared<double>(1e3 * options->disturbance.timeshift_s);
-  command->add_option("--rotation-deg", *degrees, "about a random axis")->capture_default_str();
-  command->add_option("--timeshift-ms", *milliseconds, "earlier or later")->capture_default_str();
-  command
-      ->add_option("--height-share", options->disturbance.height_fraction, "of the start height, up or down")
-      ->capture_default_str();
-  command->callback([options, degrees, milliseconds] {
-    options->disturbance.rotation_rad = *degrees * kDegree;
-    options->disturbance.timeshift_s = 1e-3 * *milliseconds;
-    writeReferenceExtrinsics(*options);
-  });
 }
 
 }  // namespace redbee

@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "processes/redbee/commands/simulate.hpp"
 #include "processes/redbee/evaluate/evaluate.hpp"
 #include "processes/redbee/evaluate/overlay_video.hpp"
 #include "processes/redbee/evaluate/report.hpp"
+#include "processes/redbee/evaluate/simulate_flight.hpp"
 #include "redbee/files/input_error.hpp"
 
 namespace redbee {

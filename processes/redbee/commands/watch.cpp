@@ -1,0 +1,22 @@
+#include "processes/redbee/vehicle/watch.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "processes/common_options.hpp"
+#include "processes/redbee/commands/command.hpp"
+
+namespace redbee {
+namespace {
+
+const Command kWatch(CommandGroup::kVehicle, "watch",
+                     "report at once when a process dies, and kill one that hangs, until SIGINT or SIGTERM",
+                     [](CLI::App& command) {
+                       auto options = std::make_shared<WatchOptions>();
+                       addConfigurationOption(command, options->configuration);
+                       addLcmUrlOption(command, options->url);
+                       command.callback([options] { runWatch(*options); });
+                     });
+
+}  // namespace
+}  // namespace redbee

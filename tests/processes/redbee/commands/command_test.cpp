@@ -1,0 +1,91 @@
+#include "processes/redbee/commands/command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace redbee {
+namespace {
+
+struct ToolOutput {
+  int exit_code = 0;
+  std::string out;
+  std::string error;
+};
+
+ToolOutput run(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "redbee");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  ToolOutput output;
+  output.exit_code = runTool(static_cast<int>(argv.size()), argv.data());
+  output.out = testing::internal::GetCapturedStdout();
+  output.error = testing::internal::GetCapturedStderr();
+  return output;
+}
+
+class EnvironmentVariable {
+ public:
+  EnvironmentVariable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
+  ~EnvironmentVariable() { unsetenv(name_); }
+  EnvironmentVariable(const EnvironmentVariable&) = delete;
+  EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+TEST(CommandLine, HelpListsEveryCommand) {
+  const ToolOutput help = run({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* name :
+       {"calibrate", "collect", "compare", "configuration", "detect", "doctor", "evaluate", "import",
+        "overlay", "record", "reference-extrinsics", "report", "simulate", "top", "watch"}) {
+    EXPECT_NE(help.out.find(std::string("\n  ") + name + " "), std::string::npos) << name;
+    const ToolOutput own = run({name, "--help"});
+    EXPECT_EQ(own.exit_code, 0) << name;
+    EXPECT_NE(own.out.find("--help"), std::string::npos) << name;
+  }
+}
+
+TEST(CommandLine, BadUseExitsWith2AndOneLine) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, {"nonsense"}, {"detect"}, {"detect", "--no-such-option"}}) {
+    const ToolOutput output = run(arguments);
+    EXPECT_EQ(output.exit_code, 2);
+    EXPECT_EQ(output.error.find('\n'), output.error.size() - 1) << output.error;
+    EXPECT_EQ(output.out, "");
+  }
+}
+
+TEST(CommandLine, BadInputExitsWith2AndOneLine) {
+  const ToolOutput no_file = run({"configuration", "--config", "/nowhere.yaml"});
+  EXPECT_EQ(no_file.exit_code, 2);
+  EXPECT_NE(no_file.error.find("/nowhere.yaml"), std::string::npos);
+  EXPECT_EQ(no_file.error.find('\n'), no_file.error.size() - 1);
+  const ToolOutput no_scenario = run({"simulate", "--scenario", "nowhere", "--out", "/nowhere.lcm"});
+  EXPECT_EQ(no_scenario.exit_code, 2);
+  EXPECT_NE(no_scenario.error.find("nowhere"), std::string::npos);
+}
+
+TEST(CommandLine, ResultsAndDetectionsAreOneOption) {
+  for (const char* name : {"evaluate", "overlay", "report"}) {
+    const std::string help = run({name, "--help"}).out;
+    EXPECT_NE(help.find("--results,--detections"), std::string::npos) << help;
+  }
+}
+
+TEST(CommandLine, TheEnvironmentSetsTheLcmUrl) {
+  const EnvironmentVariable url("LCM_DEFAULT_URL", "udpm://239.1.2.3:4567?ttl=0");
+  for (const char* name : {"collect", "doctor", "record", "top", "watch"}) {
+    const std::string help = run({name, "--help"}).out;
+    EXPECT_NE(help.find("LCM_DEFAULT_URL"), std::string::npos) << help;
+  }
+}
+
+}  // namespace
+}  // namespace redbee
