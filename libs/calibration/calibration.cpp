@@ -17,10 +17,10 @@
 namespace redbee::calibration {
 namespace {
 
-/// Closed forms that are less certain than this are no starting point.
+/// Closed-form results less certain than this are not used as initial values.
 constexpr double kAcceptedHandEyeSigma_rad = 3.0 * kDegree;
 constexpr double kAcceptedCorrelation = 0.5;
-/// How far residuals exceed independent tracking errors over ground that is flat but overgrown.
+/// Ratio of residuals to independent tracking errors over ground that is flat but overgrown.
 constexpr double kOrdinaryVisionScale = 2.0;
 
 JointPriors priorsFor(const CalibrationInput& input, const Mounting& mounting) {
@@ -38,7 +38,7 @@ JointPriors priorsFor(const CalibrationInput& input, const Mounting& mounting) {
   return priors;
 }
 
-/// What the rotations show, and the nominal values for what they do not.
+/// Values from the rotations, and the nominal ones for what they do not determine.
 Mounting mountingFrom(const RotationAlignment& alignment, const CalibrationInput& input) {
   Mounting mounting;
   mounting.R_CI = input.nominal.R_CI;
@@ -115,7 +115,7 @@ void addWarnings(CalibrationResult& result) {
   if (result.frames < result.frames_given) {
     result.warnings.push_back("used " + std::to_string(result.frames) + " of " +
                               std::to_string(result.frames_given) +
-                              " frames: the IMU does not cover the others without a hole");
+                              "  frames: the IMU does not cover the others without a gap");
   }
   if (4 * result.frames_spanned < 3 * result.frames) {
     result.warnings.push_back("only " + std::to_string(result.frames_spanned) + " of " +
@@ -123,13 +123,13 @@ void addWarnings(CalibrationResult& result) {
                               " frames are measured: little texture, or little ground in view");
   }
   if (result.imu_sigma_scale > 3) {
-    result.warnings.push_back("the IMU is noisier than its densities say, by " +
+    result.warnings.push_back("the IMU is noisier than its configured densities, by  " +
                               std::to_string(static_cast<int>(std::lround(result.imu_sigma_scale))) +
                               " times");
   }
   if (result.misfit_sigma_scale > 1.5) {
     result.warnings.push_back(
-        "the points do not follow one level plane: facades, slopes or bushes in view; deviations enlarged");
+        "the points do not lie on one level plane: facades, slopes or bushes in view; deviations inflated");
   }
   for (const SplitHalfEntry& entry : result.split_half) {
     if (entry.ratio() <= 4) continue;
@@ -158,8 +158,7 @@ CalibrationResult calibrate(const CalibrationInput& input, const std::function<v
   const JointPriors priors = priorsFor(input, mounting);
   const FlightSolution solution = solveFlight(recording, input, mounting, priors, input.start_height);
   if (!solution.usable) {
-    throw CalibrationError(
-        "the joint problem has no solution: the images and the IMU do not belong together");
+    throw CalibrationError("the joint problem has no solution: images and IMU are inconsistent");
   }
   done(0.7);
 

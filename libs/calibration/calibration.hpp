@@ -1,8 +1,8 @@
 // Offline calibration of a camera on an IMU, from a flight over flat ground or from a known target.
 //
 // Estimated: R_CI, time shift, lever arm, gyro and accelerometer bias, and over ground the height at the
-// first frame and the plane's tilt against gravity. What the recording does not show is refused: it keeps its
-// nominal value, and the verdict says so.
+// first frame and the plane's tilt against gravity. A parameter that the recording does not make observable
+// is refused: it keeps its nominal value.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,13 +22,13 @@
 
 namespace redbee::calibration {
 
-/// what() is one line: why nothing can be calibrated with this recording.
+/// what() is one line: why this recording cannot be used for a calibration.
 class CalibrationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Points followed from frame a to frame b; ideal pixels; times of the camera clock [us].
+/// Points tracked from frame a to frame b; ideal pixels; times of the camera clock [us].
 struct GroundMatch {
   int64_t utime_a = 0;
   int64_t utime_b = 0;
@@ -49,7 +49,7 @@ struct MeasuredHeight {
 
 struct CalibrationInput {
   CameraIntrinsics camera;
-  InertialExtrinsics nominal;  ///< a starting point for what the recording does not show
+  InertialExtrinsics nominal;  ///< used for what the recording does not make observable
   ImuNoise noise;
   double gravity = 9.81;           ///< m/s^2
   double gyro_bias_sigma = 0.01;   ///< rad/s, turn-on bias
@@ -75,8 +75,8 @@ struct CalibratedValues {
   double rotation_sigma_rad = 0;                         ///< of R_CI, about its least certain axis
 };
 
-/// Difference of the two halves' estimates and its standard deviation; only of parameters that both halves
-/// show.
+/// Difference of the two halves' estimates and its standard deviation; only of parameters that are observable
+/// in both.
 struct SplitHalfEntry {
   std::string name;
   std::string unit;
@@ -86,7 +86,7 @@ struct SplitHalfEntry {
   double ratio() const { return sigma > 0 ? difference / sigma : 0; }
 };
 
-/// How the recording excites the parameters.
+/// Excitation of the parameters by the recording.
 struct Excitation {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< rad/s, rms about the principal axes, descending
   double rate_variation = 0;                           ///< rad/s, rms of the turning rate about its mean
@@ -117,14 +117,15 @@ struct CalibrationResult {
   std::vector<ParameterReport> parameters;
   std::vector<SplitHalfEntry> split_half;  ///< empty where a half is too short
   Excitation excitation;
-  double vision_sigma_scale = 1;  ///< the homographies' stated deviations had to be multiplied by this
-  double imu_sigma_scale = 1;     ///< and the IMU's by this, for the residuals to be what they claim
-  /// Residuals far beyond tracking noise are no noise but a scene that is no plane; the reported deviations
-  /// were multiplied by this.
+  double vision_sigma_scale =
+      1;  ///< factor of the homographies' standard deviations that makes their residuals consistent
+  double imu_sigma_scale = 1;  ///< the same of the IMU's
+  /// Residuals far beyond tracking noise are not noise but a scene that is no plane: the reported deviations
+  /// were multiplied by this factor.
   double misfit_sigma_scale = 1;
-  double halves_sigma_scale =
-      1;           ///< the reported deviations were multiplied by this, since the halves differ so much
-  int frames = 0;  ///< used
+  double halves_sigma_scale = 1;  ///< the reported deviations were multiplied by this factor, by which the
+                                  ///< halves differ more than expected
+  int frames = 0;                 ///< used
   int frames_given = 0;
   int measurements = 0;    ///< homographies or target poses used
   int frames_spanned = 0;  ///< by these
@@ -136,8 +137,8 @@ struct CalibrationResult {
   const ParameterReport& parameter(const std::string& name) const;
 };
 
-/// Throws CalibrationError where there is too little to work on: no IMU during the frames, too little
-/// texture, too few frames. `progress` is told the share that is done, 0 to 1.
+/// Throws CalibrationError where the input is insufficient: no IMU during the frames, too little texture, too
+/// few frames. `progress` is called with the fraction done, 0 to 1.
 CalibrationResult calibrate(const CalibrationInput& input, const std::function<void(double)>& progress = {});
 
 }  // namespace redbee::calibration

@@ -1,6 +1,6 @@
 // Pose of the camera at an exposure, for automatic derivatives.
 //
-// A frame's state holds at t_cam + timeshift; the exposure is at t_cam + timeshift + s, with s to be found.
+// A frame's state is at t_cam + timeshift; the exposure is at t_cam + timeshift + s, with s to be estimated.
 // To first order
 //
 //     R_GI(s) = R_GI exp(w s)        p_GI(s) = p_GI + v_GI s        w: angular rate at the frame, bias taken
@@ -21,7 +21,7 @@ struct CameraAt {
   Vector3T<T> p_GC;
 };
 
-/// Small rotation exp(phi), exact to third order: what a time shift of milliseconds needs.
+/// Small rotation exp(phi), exact to third order: enough for a time shift of milliseconds.
 template <typename T>
 Eigen::Quaternion<T> smallRotation(const Vector3T<T>& phi) {
   const Vector3T<T> half = T(0.5) * phi;

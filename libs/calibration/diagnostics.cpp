@@ -56,8 +56,7 @@ void addScatter(Diagnostics& diagnostics, const FlightSolution& solution, const 
   }
 }
 
-/// Difference in pixels between where two poses put the target's origin neighbourhood: rotation and
-/// translation error at its distance.
+/// Difference [px] of two poses at the target's origin: rotation and translation error at its distance.
 double targetError(const JointState& state, const TargetPose& pose, double focal_px) {
   const FrameState& frame = state.frames[pose.frame];
   const Eigen::Quaterniond q_CG = state.q_CI * frame.q_GI.conjugate();

@@ -1,4 +1,4 @@
-// Series for the report: what the solution explains, and what the nominal values would have.
+// Series for the report: residuals of the solution, and of the nominal values.
 #pragma once
 
 #include "redbee/calibration/calibration.hpp"

@@ -8,14 +8,13 @@
 namespace redbee::calibration {
 namespace {
 
-/// While the ground is being told from other surfaces it is taken to be level.
+/// The ground is assumed level while it is being separated from other surfaces.
 constexpr double kLevelSigma_rad = 0.001;
 constexpr int kSelectionRounds = 3;
 constexpr int kScaleRounds = 2;
 
-/// A homography over several frames has as much noise as one between neighbours, and as little bias from what
-/// stands on the ground; but it shows the whole motion. Those between neighbours that lie inside one are left
-/// out.
+/// A homography over several frames has the same noise and bias as one between neighbours, but measures the
+/// whole motion. Those between neighbours that lie inside one are left out.
 std::vector<GroundHomography> withoutCovered(const std::vector<GroundHomography>& all) {
   std::set<size_t> covered;
   for (const GroundHomography& ground : all) {
@@ -34,7 +33,7 @@ size_t framesSpanned(const std::vector<GroundHomography>& all) {
   return frames;
 }
 
-/// Homographies of the ground among the points, near what the solution predicts.
+/// Homographies of the ground among the points, near the solution's prediction.
 std::vector<GroundHomography> groundNear(const FlightSolution& solution, const Recording& recording,
                                          const CalibrationInput& input) {
   std::vector<GroundHomography> ground;
@@ -58,9 +57,9 @@ bool solveOnce(FlightSolution& solution) {
   return true;
 }
 
-/// Variance components (Helmert 1907): each group's scale is what makes its residuals as large as the degrees
-/// of freedom that the fit left to it. Vision's is taken from the median, which homographies of other planes
-/// do not move. The IMU is never believed to be better than its densities say.
+/// Variance components (Helmert 1907): each group's scale makes its residuals consistent with its remaining
+/// degrees of freedom. Vision's is taken from the median, which homographies of other planes do not affect.
+/// The IMU's noise is never below its configured densities.
 void rescale(JointInput& input, const JointAnalysis& analysis) {
   const auto freedomFraction = [](const GroupFit& group) {
     return std::max(group.redundancy / std::max(group.measurements, 1), 0.05);
@@ -71,7 +70,7 @@ void rescale(JointInput& input, const JointAnalysis& analysis) {
   input.imu_variance_scale = std::clamp(input.imu_variance_scale * imu, 1.0, 1e6);
 }
 
-/// Solves over level ground and takes the points near that solution, in turn.
+/// Alternates between solving over level ground and selecting the points near that solution.
 bool selectGround(FlightSolution& solution, const Recording& recording, const CalibrationInput& input,
                   const Mounting& mounting) {
   const JointPriors wide = solution.input.priors;
@@ -81,7 +80,7 @@ bool selectGround(FlightSolution& solution, const Recording& recording, const Ca
   for (int round = 0; round < kSelectionRounds; ++round) {
     if (!solveOnce(solution)) return false;
     auto ground = groundNear(solution, recording, input);
-    // A solution so wrong that it finds no ground must not lose what there was.
+    // A solution so wrong that it finds no ground must not discard the homographies.
     if (3 * framesSpanned(ground) > recording.t_cam_s.size()) solution.input.ground = std::move(ground);
   }
   solution.input.priors = wide;

@@ -1,4 +1,4 @@
-// One recording, or a half of it, solved from first values to covariances.
+// Solution of one recording, or of a half of it: from initial values to covariances.
 #pragma once
 
 #include "redbee/calibration/initial_trajectory.hpp"
@@ -14,7 +14,7 @@ struct FlightSolution {
   bool usable = false;
 };
 
-/// Starts from `mounting`; `priors` are those of the joint problem, their height excepted, which is found,
+/// Starts from `mounting`; `priors` are those of the joint problem, except their height, which is estimated
 /// unless `start_height` is given.
 FlightSolution solveFlight(const Recording& recording, const CalibrationInput& input,
                            const Mounting& mounting, const JointPriors& priors,

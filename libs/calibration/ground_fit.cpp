@@ -12,15 +12,15 @@
 namespace redbee::calibration {
 namespace {
 
-/// px: scales of the robust loss, from what the prediction may be off to what tracking is.
+/// px: scales of the robust loss, from the prediction's error to the tracking noise.
 constexpr double kScales_px[] = {2.0, 1.0, 0.5, 0.35, 0.35};
 /// px: transfer error under the predicted fit within which a point is the ground's.
 constexpr double kReach_px = 0.6;
 constexpr double kSigmaFloor_px = 0.04;
 constexpr int kMinPoints = 40;
-/// Cells of a tenth of the image's width that must hold ground.
+/// Cells of a tenth of the image's width that must contain ground points.
 constexpr size_t kMinCells = 12;
-/// What the prediction leaves open apart from its three deviations, scaled units: keeps P regular.
+/// Uncertainty of the prediction beside its three deviations, scaled units: keeps P regular.
 constexpr double kFloor = 1e-4;
 
 Matrix8d priorInformation(const CameraIntrinsics& camera, const GroundPrediction& prediction,

@@ -1,8 +1,8 @@
-// The ground's homography among points of which many may lie on other things: facades, bushes, people.
+// The ground's homography among points of which many may lie on other surfaces: facades, bushes, people.
 //
-// A homography fitted to whatever agrees with it bends towards surfaces that stand on the ground and move
-// almost like it. Here the points are first fitted under a prediction that knows the camera's rotation and
-// the vertical, and little of the translation:
+// A homography fitted to its own inliers is biased towards surfaces that stand on the ground and move almost
+// like it. Here the points are first fitted under a prediction that constrains the camera's rotation and the
+// vertical, and the translation only weakly:
 //
 //     min  sum_i rho(x_b - H(h) x_a) + (h - h_0)' P^-1 (h - h_0)      P = J_R J_R' s_R^2 + J_t J_t' s_t^2 +
 //     J_m J_m' s_m^2

@@ -6,7 +6,7 @@
 //     H   = K_s (R + t m_a' / h_a) K_s^-1      K_s = T K, T Hartley's scaling
 //     r   = L' (vec(H / h33) - vec(H_measured))      L L' = information of the measured entries
 //
-// H_measured with its information stands for all ground points of the pair: the sum of their squared transfer
+// H_measured with its information represents all ground points of the pair: the sum of their squared transfer
 // errors is |r|^2 plus a constant, to second order around its minimum. A thousand points cost as much as
 // eight.
 #pragma once

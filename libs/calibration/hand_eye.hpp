@@ -6,7 +6,7 @@
 //
 // Least squares over many pairs: R_CI is the rotation that aligns the rates after their means are taken out
 // (Kabsch 1976), c what remains of the means. Weights follow from the residuals (Cauchy), so that pairs whose
-// plane was not the ground, or whose homography is wrong, do not count.
+// plane was not the ground, or whose homography is wrong, are ignored.
 #pragma once
 
 #include <Eigen/Core>

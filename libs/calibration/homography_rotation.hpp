@@ -1,4 +1,4 @@
-// What a homography of an unknown plane says of the camera's rotation.
+// The camera's rotation from a homography of an unknown plane.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +6,7 @@
 
 namespace redbee::calibration {
 
-/// Rotation of the camera between two frames a, b, as far as one homography shows it. All are rotation
+/// Rotation of the camera between two frames a, b, as far as one homography determines it. All are rotation
 /// vectors [rad] of R_CaCb, in the camera frame.
 struct RotationCandidates {
   /// Rotation nearest to K^-1 H K: off by half the cross product of translation / height and normal, but

@@ -1,4 +1,4 @@
-// A whole recording of an IMU, ready to be asked for rotations and samples between any two times.
+// A whole IMU recording: rotations and samples between any two times.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,14 +19,14 @@ class ImuHistory {
     Eigen::Vector3d accel;  ///< m/s^2, specific force in I
   };
 
-  /// Sorted by their own times; of samples at the same time the first counts; non-finite ones are left out.
+  /// Sorted by their own times; of samples at the same time the first is kept; non-finite ones are left out.
   ImuHistory(const std::vector<ImuSample>& samples, int64_t origin_utime);
 
   bool empty() const { return samples_.empty(); }
   size_t size() const { return samples_.size(); }
   double begin_s() const { return samples_.front().t_s; }
   double end_s() const { return samples_.back().t_s; }
-  /// True where samples reach from one time to the other without a hole longer than `max_gap_s`.
+  /// True where samples reach from one time to the other without a gap longer than `max_gap_s`.
   bool covers(double from_s, double to_s, double max_gap_s) const;
 
   /// Samples on [from, to], from < to, both ends interpolated linearly. Precondition: covered.

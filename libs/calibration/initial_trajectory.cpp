@@ -10,7 +10,7 @@
 namespace redbee::calibration {
 namespace {
 
-/// Preintegrations between consecutive frames, summed up without accelerometer bias.
+/// Preintegrations between consecutive frames, without accelerometer bias.
 std::vector<Preintegration> stepsBetweenFrames(const JointState& state, const JointInput& input) {
   std::vector<Preintegration> steps;
   for (size_t k = 0; k + 1 < state.frames.size(); ++k) {
@@ -21,7 +21,7 @@ std::vector<Preintegration> stepsBetweenFrames(const JointState& state, const Jo
   return steps;
 }
 
-/// Attitudes from the gyro; upright by the sum of all velocity changes, in which gravity outlasts every
+/// Attitudes from the gyro; upright by the sum of all velocity changes, in which gravity dominates every
 /// manoeuvre.
 void initialiseAttitudes(JointState& state, const std::vector<Preintegration>& steps) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -46,7 +46,7 @@ void velocitiesFromPositions(JointState& state) {
 }
 
 /// Steps of the camera from each frame to the next in units of the height at the former, in G; frames without
-/// a homography go on as before.
+/// a homography continue at the same velocity.
 std::vector<Eigen::Vector3d> relativeSteps(const JointState& state, const JointInput& input) {
   const size_t n = state.frames.size();
   std::vector<Eigen::Vector3d> steps(n > 0 ? n - 1 : 0, Eigen::Vector3d::Zero());
@@ -96,7 +96,8 @@ double heightFromAltimeter(const JointState& state, const JointInput& input,
   return relative > 0 ? measured / relative : 0.0;
 }
 
-/// A second difference of the path over `reach` frames to either side, and what the accelerometer says of it.
+/// A second difference of the path over `reach` frames to either side, and the accelerometer's measurement of
+/// it.
 struct Curvature {
   Eigen::Vector3d path;      ///< in units of the first height
   Eigen::Vector3d measured;  ///< m, gravity taken off
@@ -193,7 +194,7 @@ double heightFromAcceleration(const JointState& state, const JointInput& input,
   const double residual = squares - x.dot(b);
   const double freedom = std::max(3.0 * static_cast<double>(all.size()) - 6.0, 1.0);
   const double sigma = std::sqrt(std::max(residual, 0.0) / freedom * A.inverse()(0, 0));
-  // Second differences overlap, so that there is less in them than their number says: hence the strict limit.
+  // Second differences overlap and are correlated: hence the strict limit.
   return x(0) > 0.1 && sigma < 0.05 * x(0) ? x(0) : 0.0;
 }
 

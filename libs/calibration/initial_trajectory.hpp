@@ -1,4 +1,4 @@
-// Starting values of the joint problem, from rotations, gravity and homographies; no guess of the motion is
+// Initial values of the joint problem, from rotations, gravity and homographies; no prior on the motion is
 // needed.
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace redbee::calibration {
 
-/// What the rotations gave (rotation_alignment.hpp), or the nominal values.
+/// Result of the rotation alignment (rotation_alignment.hpp), or the nominal values.
 struct Mounting {
   Eigen::Matrix3d R_CI = Eigen::Matrix3d::Identity();
-  double rotation_sigma_rad = 0.09;  ///< how well R_CI is known so far
+  double rotation_sigma_rad = 0.09;  ///< uncertainty of R_CI so far
   Eigen::Vector3d p_IC = Eigen::Vector3d::Zero();
   double timeshift_s = 0;
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
@@ -35,8 +35,8 @@ void initialiseBeforeTarget(JointState& state, const JointInput& input);
 Eigen::Vector3d translationOverHeight(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_ba,
                                       const Eigen::Matrix3d& R_ba, const Eigen::Vector3d& m_a);
 
-/// First height [m] that makes a path in units of it fit the accelerometer; 0 where the flight has too little
-/// acceleration to tell. `path`: one point per frame, in G.
+/// First height [m] for which a path in units of it fits the accelerometer; 0 where the flight has too little
+/// acceleration. `path`: one point per frame, in G.
 double heightFromAcceleration(const JointState& state, const JointInput& input,
                               const std::vector<Eigen::Vector3d>& path);
 

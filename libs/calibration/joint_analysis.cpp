@@ -20,8 +20,8 @@ struct Columns {
 };
 /// Ceres' quaternion manifold moves a rotation by twice its tangent vector.
 constexpr double kTangentToRotation = 2.0;
-/// Random vectors that estimate a trace (Hutchinson 1989); the redundancies are in the thousands, and this
-/// gives them to a percent.
+/// Random vectors that estimate a trace (Hutchinson 1989); the redundancies are in the thousands, and so many
+/// give them to a percent.
 constexpr int kProbes = 12;
 
 SparseMatrix toEigen(const ceres::CRSMatrix& crs) {

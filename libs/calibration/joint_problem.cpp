@@ -22,8 +22,8 @@ namespace {
 /// Half of the stretch around an exposure that its angular rate is averaged over: longer than the period of a
 /// propeller's vibration.
 constexpr double kRateReach_s = 0.006;
-/// Scale of the Cauchy loss on a whole homography or pose: what follows the model (chi2 about 8) keeps 90 %
-/// of its weight.
+/// Scale of the Cauchy loss on a whole homography or pose: a measurement that follows the model (chi2 about
+/// 8) keeps 90 % of its weight.
 constexpr double kVisionLoss = 8.0;
 constexpr double kGaugeYaw_rad = 1e-4;
 constexpr double kGaugePlace_m = 1e-3;
@@ -175,7 +175,7 @@ void JointProblem::addPriors() {
   FrameState& first = state_.frames.front();
   add(automatic<VectorPriorCost<2>, 2>({Eigen::Vector2d::Zero(), priors.tilt_sigma_rad}), state_.tilt.data());
   add(automatic<YawGaugeCost, 4>({first.q_GI, kGaugeYaw_rad}), data(first.q_GI));
-  // The place over the ground is as free.
+  // The horizontal position is unobservable as well.
   add(automatic<VectorPriorCost<2>, 3>({Eigen::Vector2d::Zero(), kGaugePlace_m}), first.p_GI.data());
   const AltitudeCost height{priors.height_m, priors.height_sigma_m, 0.0};
   others_.push_back(problem_.AddResidualBlock(automatic<AltitudeCost, 4, 3, 3, 3, 2>(height), nullptr,
@@ -188,7 +188,7 @@ bool JointProblem::solve() {
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = 60;
   options.num_threads = 2;
-  // Nearly Gauss-Newton: directions that are hardly observable would creep under a smaller radius.
+  // Nearly Gauss-Newton: hardly observable directions would converge slowly under a smaller radius.
   options.initial_trust_region_radius = 1e8;
   options.function_tolerance = 1e-7;
   options.parameter_tolerance = 1e-10;

@@ -43,7 +43,7 @@ struct HeightObservation {
   double sigma_m = 0;
 };
 
-/// Standard deviations of what is assumed beforehand.
+/// Standard deviations of the priors.
 struct JointPriors {
   Eigen::Quaterniond q_CI = Eigen::Quaterniond::Identity();
   double rotation_sigma_rad = 0.1;
@@ -67,7 +67,7 @@ struct JointInput {
   std::vector<TargetPose> target;  ///< either this or `ground` is empty
   std::vector<HeightObservation> heights;
   JointPriors priors;
-  double vision_variance_scale = 1;  ///< the measured informations are divided by this
+  double vision_variance_scale = 1;  ///< the measured information matrices are divided by this
   double imu_variance_scale = 1;     ///< the preintegrations' covariances are multiplied by this
 };
 
@@ -79,7 +79,7 @@ struct GroupFit {
   int measurements = 0;
 };
 
-/// Standard deviations in the tangent space and what derives from them.
+/// Covariances in the tangent space and of derived quantities.
 struct JointCovariance {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();    ///< rad^2, of R_CI, left perturbation (axes of C)
   Eigen::Matrix3d p_IC = Eigen::Matrix3d::Zero();        ///< m^2
@@ -136,7 +136,7 @@ class JointProblem {
 
 /// Camera height above the ground at a frame's exposure [m].
 double cameraHeight(const JointState& state, size_t frame);
-/// Adds the time shift's step to the states and sets it to zero, so that the IMU can be summed up anew.
+/// Adds the time shift's step to the states and sets it to zero, so that the IMU can be preintegrated again.
 void absorbTimeshiftStep(JointState& state, const JointInput& input);
 /// Motion of the camera over the ground between two frames that a state predicts.
 PlaneMotion predictedMotion(const JointState& state, size_t a, size_t b);

@@ -1,4 +1,4 @@
-// Everything that the joint problem estimates.
+// The state that the joint problem estimates.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,13 +26,13 @@ struct JointState {
   Eigen::Quaterniond q_CI = Eigen::Quaterniond::Identity();
   Eigen::Vector3d p_IC = Eigen::Vector3d::Zero();  ///< m
   double timeshift_s = 0;                          ///< the frames' states belong to t_cam + timeshift
-  double timeshift_step_s = 0;                     ///< what is to be added to it, to first order
+  double timeshift_step_s = 0;                     ///< its correction, to first order
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< the ground's normal in G is (x, y, 1), normalised
   Eigen::Quaterniond q_GT =
       Eigen::Quaterniond::Identity();  ///< target, where there is one; its origin is G's
 
   Eigen::Vector3d groundNormal() const { return tilt.homogeneous().normalized(); }
-  /// Index of the stretch that holds this time.
+  /// Index of the stretch that contains this time.
   size_t biasIndex(double t_cam_s) const {
     size_t i = 0;
     while (i + 1 < bias_begin_s.size() && bias_begin_s[i + 1] <= t_cam_s) ++i;

@@ -1,12 +1,11 @@
-// IMU samples between two times, summed up in the first one's frame (Forster et al., "On-Manifold
+// IMU samples between two times, integrated in the first one's frame (Forster et al., "On-Manifold
 // Preintegration", 2017).
 //
 //     R_b = R_a R(b_g)
 //     v_b = v_a + g dt + R_a v(b_g, b_a)
 //     p_b = p_a + v_a dt + g dt^2 / 2 + R_a p(b_g, b_a)
 //
-// R, v, p depend on the biases; the first-order dependence around the biases that they were summed up with is
-// kept.
+// R, v, p depend on the biases: their first-order dependence around the biases of the integration is kept.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +24,7 @@ struct Bias {
 
 struct Preintegration {
   double dt_s = 0;
-  Bias bias;  ///< taken off the samples
+  Bias bias;  ///< subtracted from the samples
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< m/s
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< m

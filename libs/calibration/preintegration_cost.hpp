@@ -5,7 +5,7 @@
 //     r_p = R_GIa' (p_b - p_a - v_a dt + g e_z dt^2 / 2) - (p + p_by_gyro db_g + p_by_accel db_a)
 //     r   = L' (r_R, r_v, r_p)      L L' = inverse of the preintegration's covariance
 //
-// db: bias less the bias that the samples were summed up with.
+// db: bias less the bias of the preintegration.
 #pragma once
 
 #include <Eigen/Core>

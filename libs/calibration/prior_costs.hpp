@@ -1,5 +1,5 @@
-// What is known beforehand, each with its standard deviation. They keep the problem solvable where the
-// recording shows nothing; a parameter whose deviation they still determine is reported as not found.
+// Priors, each with its standard deviation. They keep the problem solvable where a parameter is not
+// observable; one whose deviation they still determine is reported as not found.
 #pragma once
 
 #include <Eigen/Core>

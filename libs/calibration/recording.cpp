@@ -12,7 +12,7 @@ namespace redbee::calibration {
 namespace {
 
 constexpr double kMaxImuGap_s = 0.1;
-/// What the time shift may still move, and half the window of the angular rate at an exposure.
+/// Possible change of the time shift, and half the window of the angular rate at an exposure.
 constexpr double kMargin_s = 0.05;
 constexpr size_t kMinFrames = 48;
 constexpr size_t kMinMeasurements = 30;
@@ -23,7 +23,7 @@ std::vector<int64_t> sortedUnique(std::vector<int64_t> times) {
   return times;
 }
 
-/// Longest run of frames that the IMU covers without a hole, as [begin, end).
+/// Longest run of frames that the IMU covers without a gap, as [begin, end).
 std::pair<size_t, size_t> coveredRun(const std::vector<double>& t, const ImuHistory& imu, double shift_s) {
   std::pair<size_t, size_t> best{0, 0};
   size_t begin = 0;
@@ -50,7 +50,7 @@ std::vector<HeightObservation> heightsOf(const std::vector<AltitudeSample>& alti
   return heights;
 }
 
-/// The plane with most points; the joint solution finds the ground anew (ground_fit.hpp).
+/// The plane with most points; the joint solution finds the ground again (ground_fit.hpp).
 std::optional<GroundHomography> firstHomography(const IndexedMatch& match, const CalibrationInput& input) {
   const auto estimate =
       estimateHomography(*match.points, input.camera.width, input.camera.height, input.ransac);
@@ -90,7 +90,7 @@ void requireEnough(const Recording& recording, const CalibrationInput& input, si
   throw CalibrationError("only " + std::to_string(measured) + " " + kind + " in " +
                          std::to_string(recording.t_cam_s.size()) + " frames, " +
                          std::to_string(kMinMeasurements) +
-                         " are the least: too little texture, or no flat ground in view");
+                         "  are needed: too little texture, or no flat ground in view");
 }
 
 }  // namespace
@@ -110,8 +110,8 @@ Recording prepareRecording(const CalibrationInput& input) {
   const auto [begin, end] = coveredRun(t, *recording.imu, input.nominal.timeshift_s);
   if (end - begin < kMinFrames) {
     throw CalibrationError("the IMU covers only " + std::to_string(end - begin) + " of " +
-                           std::to_string(t.size()) + " frames without a hole; " +
-                           std::to_string(kMinFrames) + " are the least");
+                           std::to_string(t.size()) + "  frames without a gap;  " +
+                           std::to_string(kMinFrames) + "  are needed");
   }
   recording.t_cam_s.assign(t.begin() + static_cast<ptrdiff_t>(begin),
                            t.begin() + static_cast<ptrdiff_t>(end));

@@ -1,4 +1,4 @@
-// The inputs of a calibration, brought onto one time scale and reduced to what the estimators take.
+// The inputs of a calibration, on one time scale and reduced to the estimators' inputs.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct IndexedMatch {
   const PointTracks* points = nullptr;
 };
 
-/// Frames on which the IMU and vision overlap without a hole. Shares the IMU and the correspondences with the
+/// Frames on which the IMU and vision overlap without a gap. Shares the IMU and the correspondences with the
 /// input.
 struct Recording {
   std::shared_ptr<const ImuHistory> imu;
@@ -34,7 +34,7 @@ struct Recording {
   bool hasTarget() const { return !target.empty(); }
 };
 
-/// Throws CalibrationError where nothing can be calibrated with this.
+/// Throws CalibrationError where the input is insufficient.
 Recording prepareRecording(const CalibrationInput& input);
 /// Frames [begin, end) alone.
 Recording partOf(const Recording& whole, size_t begin, size_t end);

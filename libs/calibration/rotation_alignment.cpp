@@ -15,7 +15,7 @@ constexpr double kCoarseStep_s = 0.002;
 constexpr double kFineStep_s = 0.0005;
 constexpr double kFineReach_s = 0.012;
 
-/// Observations with everything about them that does not depend on the shift.
+/// Observations with all their quantities that do not depend on the shift.
 class Aligner {
  public:
   Aligner(std::vector<RotationObservation> observations, const ImuHistory& imu)
@@ -32,7 +32,7 @@ class Aligner {
     return pairs;
   }
 
-  /// Of the possible rotations take the one nearest to what the gyro says.
+  /// Of the possible rotations, selects the one nearest to the gyro's.
   void choose(const HandEye& solution, double shift_s) {
     for (size_t i = 0; i < size(); ++i) {
       const Eigen::Vector3d predicted = solution.R_CI * (imuRate(i, shift_s) - solution.gyro_bias);
@@ -129,7 +129,7 @@ std::vector<Eigen::Matrix3d> rightAngledRotations() {
   return rotations;
 }
 
-/// Closed form and choice of candidates in turn, until neither changes any more (a few rounds suffice).
+/// Alternates between closed form and selection of candidates until neither changes (a few rounds suffice).
 HandEye iterate(Aligner& aligner, HandEye solution, double shift_s, double scale) {
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
@@ -143,7 +143,7 @@ HandEye bestFromAllStarts(Aligner& aligner, double shift_s) {
   aligner.chooseRough();
   const HandEye rough = solveHandEye(aligner.pairsAt(shift_s));
   HandEye best = iterate(aligner, rough, shift_s, 0);
-  // Costs of different starts compare only under one robust scale.
+  // Costs of different starts are comparable only under one robust scale.
   const double scale = std::max(3.0 * best.residual, 1e-4);
   best = iterate(aligner, best, shift_s, scale);
   for (const Eigen::Matrix3d& R : rightAngledRotations()) {

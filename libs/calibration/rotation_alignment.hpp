@@ -31,9 +31,9 @@ struct TimeShiftCurve {
 };
 
 struct RotationAlignment {
-  bool possible = false;             ///< enough observations inside the IMU's time; all below hold only then
-  double timeshift_s = 0;            ///< t_imu = t_cam + timeshift
-  double correlation = 0;            ///< of the rates' magnitudes at their best shift, -1..1
+  bool possible = false;   ///< enough observations inside the IMU's time; all below are meaningful only then
+  double timeshift_s = 0;  ///< t_imu = t_cam + timeshift
+  double correlation = 0;  ///< of the rates' magnitudes at their best shift, -1..1
   double rate_variation = 0;         ///< rad/s: standard deviation of the camera's rate, its signal
   HandEye hand_eye;                  ///< at timeshift_s
   TimeShiftCurve correlation_curve;  ///< correlation of magnitudes

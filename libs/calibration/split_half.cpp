@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kMinFrames = 48;
 
-/// The entry that differs most for what is known of it.
+/// The entry that differs most, relative to its standard deviation.
 SplitHalfEntry largest(const std::string& name, const std::string& unit, const Eigen::VectorXd& difference,
                        const Eigen::VectorXd& variance, double scale) {
   SplitHalfEntry entry{name, unit, 0, 0, static_cast<int>(difference.size())};
@@ -26,7 +26,7 @@ SplitHalfEntry largest(const std::string& name, const std::string& unit, const E
   return entry;
 }
 
-/// Halves that show nothing of a parameter do not speak for or against it.
+/// A half in which a parameter is not observable is no evidence on it.
 void addTelling(std::vector<SplitHalfEntry>& entries, const SplitHalfEntry& entry, double largest_sigma) {
   if (entry.sigma < largest_sigma) entries.push_back(entry);
 }
@@ -45,7 +45,7 @@ std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const Calibrat
   start.p_IC = whole.state.p_IC;
   start.timeshift_s = whole.state.timeshift_s;
   start.gyro_bias = whole.state.biases.front().gyro;
-  // The homographies are as the whole solution chose them.
+  // The homographies are those that the whole solution selected.
   Recording chosen = recording;
   chosen.ground = whole.input.ground;
   chosen.matches.clear();
@@ -74,7 +74,7 @@ std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const Calibrat
                largest("plane.height_m", "m", one(difference), one(a.last_height + b.first_height), 1),
                0.1 * cameraHeight(whole.state, middle));
   }
-  // The bias itself wanders meanwhile.
+  // The bias itself changes meanwhile.
   const double walk =
       input.noise.gyro_random_walk * std::sqrt(0.5 * (recording.t_cam_s.back() - recording.t_cam_s.front()));
   addTelling(entries,

@@ -1,4 +1,4 @@
-// The check that costs no theory: the two halves of a recording, each on its own, must agree.
+// A check without assumptions: the two halves of a recording, each on its own, must agree.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ namespace redbee::calibration {
 std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const CalibrationInput& input,
                                       const FlightSolution& whole);
 
-/// How many times larger the halves' differences are than their deviations say, at least 1: what correlated
-/// errors (parallax, tracking bias) add that residuals do not show.
+/// Ratio of the halves' differences to their standard deviations, at least 1: correlated errors (parallax,
+/// tracking bias) that residuals do not show.
 double disagreement(const std::vector<SplitHalfEntry>& entries);
 
 }  // namespace redbee::calibration

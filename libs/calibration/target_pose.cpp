@@ -61,7 +61,7 @@ bool roughPose(const Camera& camera, const std::vector<Eigen::Vector2d>& ideal, 
   cv::Vec3d rotation, translation;
   try {
     if (!cv::solvePnP(corners, pixels, K, cv::noArray(), rotation, translation)) return false;
-  } catch (const cv::Exception&) {  // corners in one line, say
+  } catch (const cv::Exception&) {  // such as collinear corners
     return false;
   }
   R = expSO3({rotation[0], rotation[1], rotation[2]});

@@ -3,7 +3,7 @@
 //     R_CT = R_CG R_GT      p_CT = -R_CG p_GC
 //     r    = L' ( log(R_CT R_measured'), p_CT - p_measured )      L L' = information of the measured pose
 //
-// The measured pose with its information stands for all corners of the frame, as in GroundHomographyCost.
+// The measured pose with its information represents all corners of the frame, as in GroundHomographyCost.
 #pragma once
 
 #include <Eigen/Core>

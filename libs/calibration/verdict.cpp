@@ -39,7 +39,7 @@ void judge(ParameterReport& report, const std::string& cause) {
   } else {
     report.verdict = Verdict::kRefused;
     report.words =
-        "not shown by this recording (" + spread + "): it lacks " + cause + "; the nominal value stays";
+        "not observable in this recording (" + spread + "): it lacks " + cause + "; the nominal value stays";
   }
 }
 

@@ -1,4 +1,4 @@
-// What a calibration says of each parameter, for people and for machines.
+// Result of a calibration for each parameter, for people and for programs.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 namespace redbee::calibration {
 
 enum class Verdict {
-  kFound,          ///< as well as the online stack needs it
-  kWeak,           ///< estimated, with a standard deviation that one should look at
-  kRefused,        ///< the recording does not show it: the nominal value stays
+  kFound,          ///< accurate enough for the online stack
+  kWeak,           ///< estimated, with a standard deviation larger than desired
+  kRefused,        ///< not observable in the recording: the nominal value stays
   kNotApplicable,  ///< this kind of recording has no such parameter
 };
 const char* toString(Verdict verdict);
@@ -20,7 +20,7 @@ struct ParameterReport {
   std::string unit;
   std::vector<double> value;    ///< estimated; for R_CI the rotation vector from the nominal one, in C
   std::vector<double> sigma;    ///< one standard deviation each
-  std::vector<double> nominal;  ///< what the configuration had
+  std::vector<double> nominal;  ///< as configured
   double worst_sigma = 0;       ///< along the least certain direction; relative to the value for the height
   double found_below = 0;       ///< limits for worst_sigma
   double weak_below = 0;
@@ -28,8 +28,8 @@ struct ParameterReport {
   std::string words;  ///< one sentence
 };
 
-/// Fills verdict and words from worst_sigma and its limits; `cause` says what a recording lacks that does not
-/// show this parameter.
+/// Fills verdict and words from worst_sigma and its limits; `cause`: the excitation that a recording lacks in
+/// which this parameter is not observable.
 void judge(ParameterReport& report, const std::string& cause);
 
 }  // namespace redbee::calibration

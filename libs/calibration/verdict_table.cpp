@@ -29,13 +29,13 @@ ParameterReport vectorReport(const std::string& name, const std::string& unit, c
   return report;
 }
 
-/// Below this the gyro's noise passes for rotation: deviations computed from it would mean nothing.
+/// Below this the rotation is the gyro's noise, and deviations computed from it are meaningless.
 constexpr double kLeastRateVariation = 0.01;  // rad/s
 
 void refuseWithoutRotation(ParameterReport& report, const Excitation& excitation) {
   if (excitation.rate_variation >= kLeastRateVariation) return;
   report.verdict = Verdict::kRefused;
-  report.words = "not shown by this recording: the camera hardly turns; the nominal value stays";
+  report.words = "not observable in this recording: the camera hardly turns; the nominal value stays";
 }
 
 ParameterReport rotationReport(const CalibratedValues& values, const JointCovariance& covariance) {
@@ -97,7 +97,7 @@ ParameterReport tiltReport(const CalibratedValues& values, const JointCovariance
   }
   report.found_below = 0.3;
   report.weak_below = 1.0;
-  judge(report, "turns about the vertical, which tell a tilted ground from a biased accelerometer");
+  judge(report, "turns about the vertical, which separate a tilted ground from a biased accelerometer");
   return report;
 }
 

@@ -8,7 +8,7 @@
 
 namespace redbee::calibration {
 
-/// All parameters in the order of the report, judged.
+/// All parameters in the order of the report, with their verdicts.
 std::vector<ParameterReport> parameterReports(const CalibrationResult& result,
                                               const JointCovariance& covariance,
                                               const CalibrationInput& input);

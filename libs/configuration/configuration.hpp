@@ -1,4 +1,4 @@
-// One vehicle's configuration: what its YAML file says, checked.
+// One vehicle's configuration: the content of its YAML file, checked.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace {
 
 bool isDirective(const std::string& key) { return key == "include" || key == "preset"; }
 
-/// yaml-cpp's messages run over several lines at times, and a key in the file may.
+/// yaml-cpp's messages may have several lines, and so may a key in the file.
 std::string oneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -110,7 +110,7 @@ void Loader::checkWhole(const std::filesystem::path& file) const {
     const std::string name = setting.text(configuration_);
     const auto [first, is_new] = key_of_channel.emplace(name, setting.key);
     if (is_new) continue;
-    // The name may be a default that no file states.
+    // The name may be a default that no file sets.
     const auto place =
         places_.count(setting.key) > 0 ? places_.find(setting.key) : places_.find(first->second);
     fail(place->second, place->first,

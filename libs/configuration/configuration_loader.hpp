@@ -12,13 +12,12 @@
 
 namespace redbee::configuration {
 
-/// Reads a file and what it includes; remembers where every key was set last, for complaints about several
-/// keys at once.
+/// Reads a file and its includes; records where every key was set last, for errors that concern several keys.
 class Loader {
  public:
   /// All functions throw ConfigurationError.
   void loadFile(const std::filesystem::path& file);
-  /// What only the whole can break: a camera that is not described, channels that share a name.
+  /// Checks of the whole: a camera that is not described, channels with the same name.
   void checkWhole(const std::filesystem::path& file) const;
   const Configuration& configuration() const { return configuration_; }
 

@@ -8,7 +8,7 @@ namespace redbee::configuration {
 namespace {
 
 /// The paper as printed: constant noise in pixel units (IV.B), tracks every 16 px, and the segmentation with
-/// its rates, which that library knows. What the paper leaves open keeps its default.
+/// its rates, which that library knows. What the paper does not specify keeps its default.
 PresetValues paperValues() {
   PresetValues values{
       {"visual.tracker.grid_px", "16"},
@@ -24,7 +24,7 @@ PresetValues paperValues() {
   return values;
 }
 
-/// Takes back exactly what the paper's preset sets.
+/// Resets exactly the keys that the paper's preset sets.
 PresetValues defaultValues() {
   PresetValues values = paperValues();
   const Configuration defaults;

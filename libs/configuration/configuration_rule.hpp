@@ -1,4 +1,4 @@
-// Which values a key may have, and how a refusal is worded; internal to the configuration.
+// Which values a key may have, and the message for others; internal to the configuration.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace redbee::configuration {
 
-/// Values that are possible, and how to say so.
+/// Values that are allowed, and the message for others.
 template <typename Predicate>
 struct Rule {
   Predicate holds;

@@ -14,7 +14,7 @@
 
 namespace redbee::configuration {
 
-/// what() says what is wrong with a value; who catches it knows where the value stands.
+/// what() names the fault of a value; the caller adds file and line.
 class ValueError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

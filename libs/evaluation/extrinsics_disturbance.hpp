@@ -1,4 +1,4 @@
-// A drone's true extrinsics made as wrong as a calibration leaves them, the same on every machine.
+// A drone's true extrinsics with the error of a good calibration, the same on every machine.
 #pragma once
 
 #include <string_view>
@@ -8,17 +8,17 @@
 
 namespace redbee {
 
-/// What a good calibration leaves. Every amount is exact; the seed draws the rotation's axis and the signs.
+/// Error of a good calibration. Every amount is exact; the seed draws the rotation's axis and the signs.
 struct ExtrinsicsDisturbance {
   double rotation_rad = 0.1 * kDegree;
   double timeshift_s = 0.5e-3;
   double height_fraction = 0.02;  ///< of the start height
 };
 
-/// `seed`: any text, the clip's name say. Its FNV-1a hash starts a SplitMix64 sequence (Steele, Lea, Flood
-/// 2014), since the distributions of the C++ library differ from one to the next. R_CI is turned about an
-/// axis of the camera's frame that is uniform on the sphere; start_height_sigma_m becomes the disturbance of
-/// the height (or stays, without one).
+/// `seed`: any text, such as the clip's name. Its FNV-1a hash starts a SplitMix64 sequence (Steele, Lea,
+/// Flood 2014), since the distributions of the C++ library differ from one to the next. R_CI is turned about
+/// an axis of the camera's frame that is uniform on the sphere; start_height_sigma_m becomes the disturbance
+/// of the height (or stays, without one).
 InertialExtrinsics disturbed(const InertialExtrinsics& truth, const ExtrinsicsDisturbance& amounts,
                              std::string_view seed);
 

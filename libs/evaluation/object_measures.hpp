@@ -1,12 +1,12 @@
-// Object-level measures: which movers a mask finds in a frame, and what it takes for a mover that is none.
+// Object-level measures: which moving objects a mask finds in a frame, and its false alarms.
 //
-// A mover whose visible pixels are known is found where the mask covers at least a quarter of them. One that
-// is known by its box alone is found where a component of the mask (8-connected) has a bounding box whose
+// An object whose visible pixels are labelled is found where the mask covers at least a quarter of them. One
+// that is labelled by a box is found where a component of the mask (8-connected) has a bounding box whose
 // intersection over union with it is at least 0.2, both boxes grown by 2 px to all sides: labels by hand are
-// off by 1 to 2 px, which would decide alone for objects of a few pixels.
+// off by 1 to 2 px, which would decide for objects of a few pixels.
 //
-// A false alarm is a component of the mask that touches no object, be it one that does not count, and that
-// does not lie in ignored areas by more than half. Its area is that of its pixels outside ignored areas.
+// A false alarm is a component of the mask that touches no object (not even one that does not count) and of
+// which at most half lies in ignored areas. Its area is that of its pixels outside ignored areas.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,14 @@ struct TruthObject {
 
 /// The objects of one frame.
 struct ObjectTruth {
-  cv::Mat ids;  ///< CV_32S, the identity of each visible pixel, 0: none; empty where boxes tell the objects
+  cv::Mat ids;  ///< CV_32S, the identity of each visible pixel, 0: none; empty where objects are labelled by
+                ///< boxes
   cv::Mat ignored;  ///< CV_8U, not 0 where the truth is not known; empty: known everywhere
   std::vector<TruthObject> objects;
 };
 
 struct ObjectCounts {
-  int64_t present = 0;       ///< movers that count
+  int64_t present = 0;       ///< moving objects that count
   int64_t found = 0;         ///< of those
   int64_t false_alarms = 0;  ///< components
   int64_t false_area = 0;    ///< px^2, of these
@@ -41,8 +42,8 @@ inline constexpr int64_t kLeastVisiblePixels = 12;
 /// Every 8-connected region of a 0/255 mask (other values are ignored areas) taken for an object that counts.
 ObjectTruth objectsOfMask(const cv::Mat& mask);
 
-/// `detected`: CV_8U, not 0 where the method says that something moves. Throws std::invalid_argument on maps
-/// of other types or different sizes.
+/// `detected`: CV_8U, not 0 where the method detects motion. Throws std::invalid_argument on maps of other
+/// types or different sizes.
 ObjectCounts countObjects(const cv::Mat& detected, const ObjectTruth& truth);
 
 class ObjectMeasures {
@@ -54,7 +55,7 @@ class ObjectMeasures {
   /// Found of present, over all frames; 0 where none is present.
   double recall() const;
   double falseAlarmsPerFrame() const;
-  /// Mean over the frames of the false alarms' share of the image, 0 to 1.
+  /// Mean over the frames of the false alarms' fraction of the image, 0 to 1.
   double falseAreaFraction() const;
 
  private:

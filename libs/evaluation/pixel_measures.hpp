@@ -1,5 +1,5 @@
-// The paper's measures (IV.C; method.md, "Measures"): precision and recall over the pixels of all labelled
-// frames of a clip, while the threshold on P_FG sweeps.
+// The paper's measures (IV.C; tests/README.md, "Measures"): precision and recall over the pixels of all
+// labelled frames of a clip, while the threshold on P_FG sweeps.
 #pragma once
 
 #include <array>

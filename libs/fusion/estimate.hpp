@@ -1,11 +1,11 @@
-// A homography that carries its error, and what is done with both at once.
+// A homography with its covariance, and operations on both.
 #pragma once
 
 #include "redbee/geometry/homography.hpp"
 
 namespace redbee {
 
-/// In whatever units the filter works in (HomographyFusion); h33 = 1.
+/// In the units that the filter works in (HomographyFusion); h33 = 1.
 struct Estimate {
   Eigen::Matrix3d H;
   Matrix8d P;
@@ -23,7 +23,7 @@ bool isUsable(const Eigen::Matrix3d& H);
 bool isCovariance(const Matrix8d& P);
 inline bool isUsable(const Estimate& estimate) { return isUsable(estimate.H) && isCovariance(estimate.P); }
 
-/// First `first`, then `second`, their errors independent.
+/// `first`, then `second`, their errors independent.
 Estimate composed(const Estimate& second, const Estimate& first);
 /// The part of `whole` that comes after `first`, their errors independent: whole first^-1.
 Estimate remainder(const Estimate& whole, const Estimate& first);

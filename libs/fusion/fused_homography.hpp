@@ -1,4 +1,4 @@
-// What the fusion says of two frames.
+// The fusion's estimate for two frames.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,18 +14,18 @@ const char* toString(FusionSource source);
 struct FusedHomography {
   int64_t utime_previous = 0;
   int64_t utime = 0;
-  FusionSource source = FusionSource::kNone;  ///< kNone: nothing is known of this pair; a new epoch begins
+  FusionSource source = FusionSource::kNone;  ///< kNone: no estimate for this pair; a new epoch begins
   int32_t epoch = 0;         ///< number of the anchor; H_anchor of two messages compose only inside one epoch
   int64_t utime_anchor = 0;  ///< frame 0 of this epoch
   Eigen::Matrix3d H_step;    ///< frame k-1 to k, ideal pixels, h33 = 1
   Matrix8d covariance_step;  ///< scaled
   Eigen::Matrix3d H_anchor;  ///< anchor frame to frame k (the paper's x_t)
   Matrix8d covariance_anchor;              ///< scaled
-  bool has_innovation = false;             ///< both sources were there: the three below hold
+  bool has_innovation = false;             ///< both sources were available: the three below are meaningful
   Vector8d innovation = Vector8d::Zero();  ///< scaled entries: visual minus predicted anchor homography
   Matrix8d innovation_covariance = Matrix8d::Zero();
   double test_ratio = 0;         ///< squared Mahalanobis distance over the gate: above 1 vision was refused
-  bool visual_accepted = false;  ///< vision entered the estimate
+  bool visual_accepted = false;  ///< vision is part of the estimate
 };
 
 }  // namespace redbee

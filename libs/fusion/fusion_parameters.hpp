@@ -1,4 +1,4 @@
-// What the fusion takes in, and how far it believes each.
+// Inputs of the fusion and their noise.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,12 +19,11 @@ struct FusionParameters {
   Vector8d paper_Q;                 ///< diagonal, pixel units (paper IV.B)
   Vector8d paper_P0;                ///< diagonal, pixel units (paper IV.B)
   double gate_probability = 0.999;  ///< of the innovation's chi-square test, 8 degrees of freedom
-  int max_gated_in_a_row = 5;  ///< after so many refusals the filter believes vision and starts a new epoch
-  double min_overlap =
-      0.3;  ///< share of the anchor frame still in view below which the filter is anchored anew
-  /// Scale of vision's covariance (kPropagated): the ground is only roughly a plane, and relief that passes
-  /// for ground is a bias that no residual shows. 8 makes a homography over ordinary relief (trees, kerbs) as
-  /// uncertain as it is found to be.
+  int max_gated_in_a_row = 5;       ///< after so many refusals vision is accepted and a new epoch begins
+  double min_overlap = 0.3;  ///< fraction of the anchor frame still in view below which a new epoch begins
+  /// Scale of vision's covariance (kPropagated): the ground is only roughly a plane, and relief that is taken
+  /// for ground is a bias that shows in no residual. 8 makes the covariance over ordinary relief (trees,
+  /// kerbs) consistent with the measured error.
   double visual_inflation = 8.0;
   double process_inflation = 1.0;  ///< scale of the inertial covariance when it serves as Q (kPropagated)
   FusionParameters();              ///< the paper's Q and P_0
@@ -44,10 +43,10 @@ struct VisualInput {
   int outliers = 0;
 };
 
-/// 1 + outliers / inliers: what vision's noise grows by (equation 7).
+/// 1 + outliers / inliers: factor of vision's noise (equation 7).
 double visualNoiseRatio(const VisualInput& visual);
-/// Vision's covariance, scaled by that ratio and by visual_inflation: how far it is to be believed, here and
-/// by the inertial filter that it corrects.
+/// Vision's covariance, scaled by that ratio and by visual_inflation, as used here and by the inertial filter
+/// that it corrects.
 Matrix8d believedCovariance(const VisualInput& visual, const FusionParameters& parameters);
 
 }  // namespace redbee

@@ -10,13 +10,12 @@
 namespace redbee {
 namespace {
 
-/// Where the ground goes must be known better than by this, or nothing that is said of single pixels holds.
-/// An inertial filter that has not been told its velocity yet is off by ten, one that lost vision a second
-/// ago by tenths.
+/// A step whose transfer sigma is larger is useless for single pixels. An inertial filter whose velocity
+/// vision has not yet observed is off by ten, one that lost vision a second ago by tenths.
 constexpr double kMaxStepSigma_px = 2;
 constexpr double kUnknownVariance = 1.0;  // scaled units: half the image's width
 
-/// The paper's filter runs in its own units, pixels: its Q and P_0 are diagonal there and nowhere else.
+/// The paper's filter works in pixels: its Q and P_0 are diagonal in these units only.
 ImageScaling workingUnits(const ImageScaling& scaled, FusionNoise noise) {
   ImageScaling units = scaled;
   if (noise == FusionNoise::kPaper) {
@@ -48,7 +47,7 @@ FusedHomography HomographyFusion::step(int64_t utime, const std::optional<Inerti
   out.utime = utime;
   const Estimate step = advance(sources, out);
   if (!isUsable(step) || !isUsable(anchor_)) return beginChain(utime);
-  // The paper's constant noise is no statement about this step.
+  // The paper's constant noise is not an estimate of this step's error.
   const bool knows_its_error = parameters_.noise == FusionNoise::kPropagated;
   if (knows_its_error && transferSigma(step.H, step.P, width_, height_) > kMaxStepSigma_px) {
     return beginChain(utime);
@@ -85,7 +84,7 @@ std::optional<Estimate> HomographyFusion::stepFrom(int64_t utime_previous, const
   return chain_.stepOf(utime_previous, {H, covariance});
 }
 
-/// The step composed onto the anchor homography, with the noise that the step adds to it: equation 2.
+/// The step composed onto the anchor homography, with the covariance that the step adds: equation 2.
 Estimate HomographyFusion::ontoAnchor(const Estimate& step, const Vector8d& paper_noise) const {
   const Eigen::Matrix3d H = normaliseHomography(step.H * anchor_.H);
   if (parameters_.noise == FusionNoise::kPaper) return {H, paper_noise.asDiagonal()};
@@ -118,7 +117,7 @@ Matrix8d HomographyFusion::toScaled(const Estimate& estimate) const {
   return transformed(by_entries, estimate.P);
 }
 
-/// What the error of the last anchor homography has become in this one.
+/// The error of the last anchor homography, propagated to this one.
 Matrix8d HomographyFusion::carriedCovariance(const Eigen::Matrix3d& H_anchor) const {
   const Eigen::Matrix3d step = normaliseHomography(H_anchor * anchor_.H.inverse());
   return transformed(composeJacobians(step, anchor_.H).by_right, anchor_.P);
@@ -158,7 +157,8 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
   const Matrix8d gain = factors.solve(prior).transpose();
   const Matrix8d rest = Matrix8d::Identity() - gain;
   const Eigen::Matrix3d H = fromVector(toVector(inertial.H) + gain * innovation);
-  // The step's error holds neither source's share of the carried error: both were built on the same x_{k-1}.
+  // The step's error contains no part of the propagated error: both sources were composed onto the same
+  // x_{k-1}.
   const Matrix8d step_noise = transformed(rest, inertial.P) + transformed(gain, visual.P);
   return accept(H, step_noise,
                 paper ? Matrix8d(transformed(rest, prior) + transformed(gain, visual.P))

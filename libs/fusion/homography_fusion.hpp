@@ -1,13 +1,13 @@
 // The Kalman filter that fuses the inertial and the visual homography of the ground (paper III.A, equations 2
-// to 7; method.md, "Fusion").
+// to 7; libs/README.md, "Fusion").
 //
 // kPropagated fuses the *step*, frame k-1 to k: the inertial homography with covariance Q against the visual
 // one with P_t, two independent measurements of one thing; the result is then composed onto the anchor
 // homography. The paper's recipe (kPaper) fuses x = H_I H^{0:k-1} with covariance J P J' + Q against z = H_V
-// H^{0:k-1} with P_t, as though z measured H^{0:k} absolutely. It does not: z holds the same H^{0:k-1}, with
-// the same error, and says nothing about it. Counting the accumulated P makes the gain grow towards vision
-// without end, and lets P stay small while the anchor drifts. In kPropagated x_{k-1} cancels out of the
-// innovation, and the anchor's covariance grows as its error does.
+// H^{0:k-1} with P_t, as though z measured H^{0:k} absolutely. It does not: z contains the same H^{0:k-1},
+// with the same error, and has no information about it. Counting the accumulated P makes the gain grow
+// towards vision without bound, and keeps P small while the anchor drifts. In kPropagated x_{k-1} cancels out
+// of the innovation, and the anchor's covariance grows as its error does.
 #pragma once
 
 #include <cstdint>
@@ -24,14 +24,14 @@ class HomographyFusion {
  public:
   HomographyFusion(int width, int height, const FusionParameters& parameters);
 
-  /// One frame with what is at hand. Where neither input connects `utime` to a frame of this epoch, the chain
-  /// is broken: the source is kNone and a new epoch begins at `utime`. A time that does not move forward is
-  /// refused the same way.
+  /// One frame with the available sources. Where neither input connects `utime` to a frame of this epoch, the
+  /// chain is broken: the source is kNone and a new epoch begins at `utime`. A time that does not move
+  /// forward is refused the same way.
   FusedHomography step(int64_t utime, const std::optional<InertialInput>& inertial,
                        const std::optional<VisualInput>& visual);
 
  private:
-  /// Prediction and observation of the anchor homography; the noises are those that the step added to it.
+  /// Prediction and observation of the anchor homography; the covariances are the step's contribution.
   struct Sources {
     std::optional<Estimate> inertial;
     std::optional<Estimate> visual;
@@ -45,7 +45,7 @@ class HomographyFusion {
                         const std::optional<VisualInput>& visual) const;
   Matrix8d toScaled(const Estimate& estimate) const;
   Matrix8d carriedCovariance(const Eigen::Matrix3d& H_anchor) const;
-  /// These move the anchor homography to the newest frame, and give the step that this takes.
+  /// These move the anchor homography to the newest frame, and return the step.
   Estimate advance(const Sources& sources, FusedHomography& out);
   Estimate follow(const Estimate& source);
   Estimate fuse(const Estimate& inertial, const Estimate& visual, FusedHomography& out);

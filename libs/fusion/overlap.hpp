@@ -1,11 +1,11 @@
-// How much two frames have in common.
+// Overlap of two frames.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace redbee {
 
-/// Share of a frame's area that `H` [px] takes into the other frame; both of this size [px].
+/// Fraction of a frame's area that `H` [px] maps into the other frame; both of this size [px].
 double overlap(const Eigen::Matrix3d& H, int width, int height);
 
 }  // namespace redbee

@@ -1,5 +1,5 @@
-// The latest frames and the steps between them, so that a source that skipped frames still says something of
-// the newest step.
+// The latest frames and the steps between them, so that a source that skipped frames still gives an estimate
+// of the newest step.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@ class StepChain {
   /// The frame before the newest one; the newest one where there is no other. Precondition: not empty.
   int64_t secondNewest() const { return frames_[frames_.size() > 1 ? frames_.size() - 2 : 0].utime; }
 
-  /// Forgets all others.
+  /// Erases all others.
   void beginAt(int64_t utime) { frames_.assign(1, {utime, identityEstimate()}); }
   void append(int64_t utime, const Estimate& step);
 
-  /// `since`: from the frame at `utime` to one that follows the newest. What it says of the step from the
-  /// newest; nothing where that frame is not of this chain.
+  /// `since`: from the frame at `utime` to one that follows the newest. The part of it after the newest
+  /// frame; nothing where `utime` is not a frame of this chain.
   std::optional<Estimate> stepOf(int64_t utime, const Estimate& since) const;
 
  private:

@@ -1,4 +1,4 @@
-// What a homography's covariance means in the image.
+// A homography's covariance in pixels of the image.
 #pragma once
 
 #include "redbee/geometry/homography.hpp"

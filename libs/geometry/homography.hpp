@@ -15,7 +15,7 @@ namespace redbee {
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 using Matrix8d = Eigen::Matrix<double, 8, 8>;
 
-/// Hartley's scaling for a image's size, the same for every frame of one camera.
+/// Hartley's scaling for an image's size, the same for every frame of one camera.
 struct ImageScaling {
   ImageScaling(int width, int height);
 
@@ -64,7 +64,7 @@ struct PlaneMotion {
   double h_a;
 };
 
-/// K (R + t m' / h) K^-1, h33 = 1 (method.md's form of the paper's equation 1).
+/// K (R + t m' / h) K^-1, h33 = 1: libs/README.md, equation (1).
 Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion);
 
 /// The translation [m] that takes the motion's rotation and plane to `H` (a to b, any scale): t = h (s K^-1 H

@@ -1,9 +1,8 @@
-// Whether the calibration fits the flight, judged by what is left between the inertial and the visual
-// homography.
+// Whether the calibration fits the flight, by the innovations between the inertial and the visual homography.
 //
 // With a right calibration the innovations scatter about zero and their test ratios stay small. A wrong R_CI,
-// time shift or height shows as test ratios that stay large. One frame says nothing: the running mean over
-// some seconds does.
+// time shift or height shows as test ratios that stay large. One frame is no evidence: the running mean over
+// some seconds is.
 #pragma once
 
 #include <cmath>
@@ -25,7 +24,7 @@ class CalibrationMonitor {
   explicit CalibrationMonitor(const Parameters& parameters) : parameters_(parameters) {}
 
   /// One frame: squared Mahalanobis distance of the innovation over its gate, and mean transfer error between
-  /// the predicted and the measured homography [px]. Numbers that are not finite are passed over.
+  /// the predicted and the measured homography [px]. Numbers that are not finite are ignored.
   void note(double test_ratio, double distance_px) {
     if (!std::isfinite(test_ratio) || !std::isfinite(distance_px)) return;
     ++frames_;
@@ -41,7 +40,7 @@ class CalibrationMonitor {
   double meanRatio() const { return ratio_; }
 
   /// "unknown", "fits", or "does not fit: predicted homography off by 3 px". The pixels are rounded, so that
-  /// the words change seldom.
+  /// the text changes seldom.
   std::string verdict() const {
     if (!decided()) return "unknown";
     if (fits()) return "fits";

@@ -18,9 +18,9 @@ constexpr double kMaxAltitudeLag = 0.5;  // s
 constexpr int kAltitudeRefusals = 10;
 constexpr int kVisionRefusals = 5;
 constexpr double kMaxWidening = 32;
-constexpr double kVisionHolds = 1.0;  // s after a correction by vision during which velocity is well known
+constexpr double kVisionHolds = 1.0;  // s after a correction by vision during which the velocity is accurate
 
-/// Gives three neighbouring errors a fresh variance, independent of all others.
+/// Resets the variance of three neighbouring errors, uncorrelated with all others.
 void reopen(ErrorCovariance& P, int index, const Eigen::Matrix3d& covariance) {
   P.middleRows<3>(index).setZero();
   P.middleCols<3>(index).setZero();
@@ -76,8 +76,8 @@ void AltitudeCorrection::correct(NavigationState& state, const AltitudeSample& s
   refused_in_a_row_ = 0;
   state.p_GI.z() += innovation.value();
   state.p_GI_clone.z() += innovation.value();
-  // The clone's height is off by the same amount: the common part is reopened, and their difference keeps its
-  // meaning.
+  // The clone's height is off by the same amount: the common part's variance is inflated, that of their
+  // difference stays.
   const double opened = innovation.value() * innovation.value();
   for (const int i : {kPosition + 2, kClonePosition + 2}) {
     for (const int j : {kPosition + 2, kClonePosition + 2}) state.P(i, j) += opened;

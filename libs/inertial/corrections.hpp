@@ -1,4 +1,4 @@
-// What holds the dead reckoning to the truth: altimeter, vision, gravity. Each is gated by its innovation.
+// Corrections of the dead reckoning by altimeter, vision and gravity, each gated by its innovation.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace redbee {
 
-/// Holds altitudes until the filter comes to their time. When the gate has refused many in a row it is the
-/// height that is wrong: it is set to the measured one.
+/// Queues altitudes until the filter reaches their time. After many refusals in a row the height is taken to
+/// be wrong and set to the measured one.
 class AltitudeCorrection {
  public:
   explicit AltitudeCorrection(const InertialParameters& parameters);
 
   void add(const AltitudeSample& sample);
-  /// The oldest one held, up to `end`; it is taken out.
+  /// Removes and returns the oldest queued sample, if not later than `end`.
   std::optional<AltitudeSample> next(int64_t end);
-  /// Those that came after the filter had passed their time, carried forward with the vertical speed; too old
-  /// ones are dropped.
+  /// Applies samples that arrived after the filter had passed their time, propagated with the vertical speed;
+  /// samples that are too old are dropped.
   void correctLate(NavigationState& state, int64_t now);
   /// `lag_s`: how long before the state's time the height was measured.
   void correct(NavigationState& state, const AltitudeSample& sample, double lag_s);
@@ -35,8 +35,8 @@ class AltitudeCorrection {
   int refused_in_a_row_ = 0;
 };
 
-/// The homography between clone and present pose, as vision saw it. When the gate has refused several in a
-/// row it is the velocity that is wrong: its covariance is opened, wider each time.
+/// The homography between clone and present pose, as measured by vision. After several refusals in a row the
+/// velocity is taken to be wrong: its covariance is inflated, more each time.
 class VisionCorrection {
  public:
   explicit VisionCorrection(const InertialParameters& parameters);
@@ -60,8 +60,8 @@ class VisionCorrection {
 };
 
 /// Specific force, averaged over the span, as a weak measurement of the vertical at the state's time: slow,
-/// and gated on its norm. While vision holds the velocity, the drone's acceleration is known better than this
-/// assumption, and it is left out.
+/// and gated on its norm. Skipped while vision constrains the velocity, for then the drone's acceleration is
+/// known better than this assumption.
 void correctByGravity(NavigationState& state, const ImuSpan& span, const InertialParameters& parameters,
                       double seconds_since_vision);
 

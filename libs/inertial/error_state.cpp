@@ -7,8 +7,8 @@
 namespace redbee {
 namespace {
 
-constexpr int kMovingSize = kCloneAttitude;  // the clone and the mounting stand still
-constexpr double kMaxSpeed = 1e3;            // m/s: a faster state is a broken one
+constexpr int kMovingSize = kCloneAttitude;  // the clone and the mounting are constant
+constexpr double kMaxSpeed = 1e3;            // m/s: a faster state is divergence
 
 using MovingMatrix = Eigen::Matrix<double, kMovingSize, kMovingSize>;
 
@@ -48,8 +48,8 @@ MovingMatrix transition(const NavigationState& state, const Step& step) {
 
 double square(double x) { return x * x; }
 
-/// White noise over the step. Inside a hole the true motion is constant but unknown: the share of each of its
-/// steps adds up to (unknown * hole)^2.
+/// White noise over the step. Inside a gap the true motion is constant but unknown: the contributions of its
+/// steps add up to (unknown * gap)^2.
 MovingMatrix processNoise(const Step& step, double hole_s, const PropagationParameters& parameters) {
   const ImuNoise& noise = parameters.noise;
   const double hole = hole_s > parameters.max_gap_s ? hole_s : 0.0;
@@ -95,8 +95,7 @@ void propagate(NavigationState& state, const ImuKnot& from, const ImuKnot& to,
 }
 
 void clonePose(NavigationState& state) {
-  // Where on the ground the drone is cannot be known and is not asked: forgetting it keeps the covariance
-  // bounded.
+  // The horizontal position is unobservable and not needed: removing it keeps the covariance bounded.
   for (const int axis : {0, 1}) {
     state.p_GI(axis) = 0;
     state.P.row(kPosition + axis).setZero();

@@ -1,4 +1,4 @@
-// The inertial filter's state, its error, and how both move with the IMU.
+// The inertial filter's state, its error, and how the IMU propagates both (libs/README.md, equation 20).
 //
 // Rotations carry their error on the right: R_true = R exp(error); the camera's mounting on the left:
 // R_CI_true = exp(error) R_CI. Everything else adds.
@@ -11,12 +11,12 @@
 
 namespace redbee {
 
-/// What a drone may do while nobody measures.
+/// Motion that a drone may have while no sensor measures it: one standard deviation.
 constexpr double kUnknownRate = 0.3;          ///< rad/s
 constexpr double kUnknownAcceleration = 2.0;  ///< m/s^2
-constexpr double kMinCameraHeight = 0.05;     ///< m: a camera cannot be lower
+constexpr double kMinCameraHeight = 0.05;     ///< m: lower is impossible
 
-/// Where each part of the error lies in its vector.
+/// Index of each part of the error in its vector.
 enum ErrorIndex {
   kAttitude = 0,        ///< rad, in I
   kPosition = 3,        ///< m, in G
@@ -25,7 +25,7 @@ enum ErrorIndex {
   kAccelBias = 12,      ///< m/s^2
   kCloneAttitude = 15,  ///< rad, in I at the previous frame
   kClonePosition = 18,  ///< m, in G
-  kMounting = 21,       ///< rad, in C: what the calibration of R_CI left open
+  kMounting = 21,       ///< rad, in C: error of the calibrated R_CI
   kErrorSize = 24,
 };
 using ErrorCovariance = Eigen::Matrix<double, kErrorSize, kErrorSize>;
@@ -35,7 +35,7 @@ using MeasurementJacobian = Eigen::Matrix<double, kRows, kErrorSize>;
 
 struct NavigationState {
   Eigen::Matrix3d R_GI;
-  Eigen::Vector3d p_GI;  ///< m; horizontally only its difference to the clone's means anything
+  Eigen::Vector3d p_GI;  ///< m; horizontally only its difference to the clone's is meaningful
   Eigen::Vector3d v_GI;  ///< m/s
   Eigen::Vector3d gyro_bias;
   Eigen::Vector3d accel_bias;
@@ -48,15 +48,15 @@ struct NavigationState {
 struct PropagationParameters {
   ImuNoise noise;
   double gravity;    ///< m/s^2
-  double max_gap_s;  ///< a step inside a longer hole is a guess
+  double max_gap_s;  ///< a step inside a longer gap is a guess
 };
 
-/// Integrates from one knot to the next: second order in the step, so that vibration of the airframe, a
-/// quarter of the sampling rate and more, does not pump the velocity.
+/// Integrates from one knot to the next: second order in the step, so that vibration of the airframe, at a
+/// quarter of the sampling rate and above, does not bias the velocity.
 void propagate(NavigationState& state, const ImuKnot& from, const ImuKnot& to,
                const PropagationParameters& parameters);
 
-/// Makes the present pose the clone, and the place on the ground below it the origin of G.
+/// Clones the present pose, and moves the origin of G to the ground point below it.
 void clonePose(NavigationState& state);
 
 /// Adds an estimated error to the state.

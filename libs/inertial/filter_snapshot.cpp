@@ -12,11 +12,11 @@
 namespace redbee {
 namespace {
 
-constexpr double kMaxAge = 2.0;       // s: the unknown acceleration alone is worth 4 m by then
+constexpr double kMaxAge = 2.0;       // s: the unknown acceleration alone is 4 m by then
 constexpr double kMaxHeight = 1e4;    // m
 constexpr double kMaxVelocity = 200;  // m/s
-/// How many sigmas a sensor's error may be from what the configuration says of it: a configured sigma is
-/// seldom more than a guess. Where it is small, what a sensor may drift by in a flight.
+/// Sigmas that a sensor's error may be from the configured one: a configured sigma is seldom more than a
+/// guess. Where it is small, the drift possible in a flight.
 constexpr double kMaxSigmas = 10;
 constexpr double kGyroDrift = 0.02;       // rad/s
 constexpr double kAccelDrift = 0.3;       // m/s^2

@@ -9,10 +9,10 @@
 namespace redbee {
 namespace {
 
-/// s: how much of the accelerometer before the first frame makes the vertical.
+/// s: accelerometer samples before the first frame that are averaged for the vertical.
 constexpr double kVerticalWindow = 0.5;
 constexpr double kCoverageTolerance = 0.01;  // s: the newest sample may lie this far before the exposure
-constexpr double kMemory = 1.0;              // s of samples kept behind the filter, for a restart
+constexpr double kMemory = 1.0;              // s of samples kept before the filter's time, for a restart
 
 int64_t microseconds(double s) { return static_cast<int64_t>(std::llround(s * 1e6)); }
 

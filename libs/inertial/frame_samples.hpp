@@ -1,4 +1,4 @@
-// The IMU's samples, asked for by the camera's clock.
+// IMU samples by frame: the camera's clock on one side, the IMU's on the other.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,23 @@
 
 namespace redbee {
 
-/// Holds what may be believed of the samples. Frames are told by the camera's clock, other times by the
-/// IMU's.
+/// Buffers the plausible samples. Frames are times of the camera's clock, other times are the IMU's.
 class FrameSamples {
  public:
   explicit FrameSamples(const InertialParameters& parameters);
 
-  /// False for a sample that no sensor could give: it is not taken.
+  /// False for a sample that is not finite or has an implausible time; it is refused.
   bool add(const ImuSample& sample);
   int64_t imuTime(int64_t frame) const { return frame + timeshift_us_; }
 
   /// True when the samples reach a frame's exposure.
   bool cover(int64_t frame) const;
-  /// s, from a frame to the nearest sample, which lies ahead where the IMU's clock has jumped.
+  /// s, from a frame to the nearest sample, which may be a later one after a jump of the IMU's clock.
   double outageAt(int64_t frame) const;
   /// True where samples were refused in the interval of two frames.
   bool wereRefused(int64_t from_frame, int64_t to_frame) const;
-  /// Those that make the vertical at a frame, oldest first: of the last moments before it, or else the first
-  /// one after it.
+  /// Samples for the initial vertical at a frame, oldest first: those just before it, or else the first one
+  /// after it.
   std::vector<ImuSample> forVertical(int64_t frame) const;
 
   bool empty() const { return imu_.empty(); }
@@ -35,9 +34,9 @@ class FrameSamples {
   ImuSpan span(int64_t begin, int64_t end) const { return imu_.span(begin, end); }
   /// True where the span has no sample, nor one right beside it.
   static bool isMissing(const ImuSpan& span);
-  /// True where holes in the span are long enough to be said.
+  /// True where a gap in the span is long enough to be reported.
   bool hasGap(const ImuSpan& span) const;
-  /// Keeps what a restart at the frame would need.
+  /// Keeps the samples that a restart at the frame would need.
   void eraseBefore(int64_t frame);
 
  private:

@@ -12,7 +12,7 @@ namespace {
 /// Scaled units: keeps the homography's covariance invertible at rest.
 constexpr double kVarianceFloor = 1e-12;
 
-/// Covariance of (translation error) (normal error)' / h in the homography's entries, the two taken as
+/// Covariance of (translation error) (normal error)' / h in the homography's entries, the two assumed
 /// independent: the sum over their principal axes.
 Matrix8d productCovariance(const Eigen::Matrix3d& K, const PlaneMotion& motion,
                            const Eigen::Matrix3d& translation, const Eigen::Matrix3d& normal) {

@@ -29,8 +29,8 @@ struct HomographyMeasurement {
   MeasurementJacobian<8> jacobian;
   Matrix8d linear_covariance;  ///< J P J'
   /// Of the product of the translation's and the normal's errors. It is small beside J P J' but for a drone
-  /// of unknown velocity: there t = 0, J knows nothing of the normal, and without this term the filter would
-  /// be far too sure.
+  /// of unknown velocity: there t = 0, J does not depend on the normal, and without this term the filter
+  /// would be overconfident.
   Matrix8d second_order_covariance;
 };
 /// `K_scaled`: T K, the camera matrix with the image scaling in front.
@@ -46,7 +46,7 @@ double cameraHeightSigma(const NavigationState& state, const Eigen::Vector3d& p_
 /// K with the image scaling in front: T K.
 Eigen::Matrix3d scaledMatrix(const Camera& camera);
 
-/// All that `result` says when it is valid, but its times and its status.
+/// Fills all of a valid `result` but its times and its status.
 void describe(const NavigationState& state, const Camera& camera, const Eigen::Vector3d& p_IC,
               InertialHomography& result);
 

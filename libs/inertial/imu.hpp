@@ -28,7 +28,7 @@ struct ImuNoise {
   double accel_random_walk = 4.0e-4;    ///< m/s^3/sqrt(Hz)
 };
 
-/// How the camera sits on the IMU and where it starts; the offline calibration finds these.
+/// Pose of the camera on the IMU, time shift, and start height; the offline calibration estimates these.
 struct InertialExtrinsics {
   Eigen::Matrix3d R_CI = Eigen::Matrix3d::Identity();  ///< turns IMU coordinates into camera coordinates
   Eigen::Vector3d p_IC = Eigen::Vector3d::Zero();      ///< camera centre in the IMU frame [m]

@@ -1,4 +1,4 @@
-// IMU samples in the order of their own times, whatever order they came in.
+// IMU samples in the order of their own times, whatever order they arrived in.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ bool isPlausibleTime(int64_t utime);
 /// One end of an integration step.
 struct ImuKnot {
   ImuSample sample;   ///< measured, or interpolated between its neighbours
-  double hole_s = 0;  ///< distance of the two measurements that enclose the step which ends here
+  double hole_s = 0;  ///< time between the two measurements that enclose the step which ends here
 };
 
 /// The samples on [begin, end], the ends interpolated (held, where nothing lies beyond them).
@@ -28,8 +28,8 @@ struct ImuSpan {
   double extrapolated_s = 0;   ///< how far the ends reach beyond the first and last sample
 };
 
-/// Bounded: the oldest samples go when nobody takes them. A sample far from all others in time is believed
-/// when the next one confirms it: then the clock has jumped, and the samples of the old time are forgotten.
+/// Bounded: the oldest samples are dropped. A sample far from all others in time is held back until the next
+/// one confirms it: then the clock has jumped, and the samples before the jump are erased.
 class ImuBuffer {
  public:
   explicit ImuBuffer(double clock_jump_s) : clock_jump_us_(clock_jump_s * 1e6) {}
@@ -43,7 +43,7 @@ class ImuBuffer {
   ImuSpan span(int64_t begin, int64_t end) const;
   /// Samples on [begin, end].
   std::vector<ImuSample> samplesOn(int64_t begin, int64_t end) const;
-  /// Forgets what is not needed for spans that begin at `utime` or later.
+  /// Erases what is not needed for spans that begin at `utime` or later.
   void eraseBefore(int64_t utime);
 
  private:

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kFarInUsual = 10;      // a spike differs by so many usual differences
 constexpr double kMemorySamples = 100;  // of the usual difference
-constexpr double kMostInLimits = 4;     // one difference counts for no more: a spike must not hide the next
-constexpr double kNeighbour_s = 0.05;   // samples further apart say nothing about each other
+constexpr double kMostInLimits = 4;     // bound on one difference: a spike must not mask the next
+constexpr double kNeighbour_s = 0.05;   // samples further apart are not compared
 constexpr double kLate_s = 1.0;         // a sample that is older than that by more: time was set back
 constexpr double kFullRange = 0.999;
 constexpr std::size_t kMaxRefused = 8192;
@@ -85,7 +85,7 @@ std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
   return accepted;
 }
 
-/// After a hole, or time set back: there is nothing to compare it with.
+/// After a gap, or a clock set back: there is nothing to compare it with.
 void ImuSampleCheck::startAt(const ImuSample& sample) {
   if (held_) refuse(held_->utime);
   held_.reset();

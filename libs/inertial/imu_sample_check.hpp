@@ -1,4 +1,4 @@
-// Which IMU samples to believe: sensors fail without falling silent.
+// Refuses implausible IMU samples: sensors fail while they go on sending.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 namespace redbee {
 
 struct ImuSampleLimits {
-  double gyro_range = 34.9;  ///< rad/s: from here on the gyro only says "more" (usual: 2000 deg/s)
-  double accel_range = 157;  ///< m/s^2, the same of the accelerometer (usual: 16 g)
+  double gyro_range = 34.9;  ///< rad/s: the gyro saturates here (usual: 2000 deg/s)
+  double accel_range = 157;  ///< m/s^2: the accelerometer saturates here (usual: 16 g)
 };
 
-/// Judges samples in the order they come:
+/// Classifies samples in the order of arrival:
 ///   saturated: a component reaches its sensor's range;
 ///   stuck: all three components of a sensor stay the same to the bit for kStuckFor_s, which no noise does;
-///   spike: far from the sample before, and the next one is back. A sample that is far is held back until the
-///   next one tells; a manoeuvre's beginning is followed by more of it and believed. "Far" grows with what
-///   neighbouring samples usually differ by, so that a vibrating airframe is not taken for spikes.
+///   spike: far from the previous sample, and the next one is back. A sample that is far is held back until
+///   the next one decides: the start of a manoeuvre is followed by more of it and accepted. "Far" scales with
+///   the usual difference of neighbouring samples, so that a vibrating airframe is not taken for spikes.
 class ImuSampleCheck {
  public:
   static constexpr double kStuckFor_s = 0.05;
@@ -28,7 +28,7 @@ class ImuSampleCheck {
 
   explicit ImuSampleCheck(const ImuSampleLimits& limits) : limits_(limits) {}
 
-  /// What may be believed now, in order: nothing, this sample, or one that was held back and this one.
+  /// Samples accepted now, in order: none, this one, or one that was held back and this one.
   std::vector<ImuSample> take(const ImuSample& sample);
   /// Samples on (begin, end] that were refused.
   int refusedOn(int64_t begin, int64_t end) const;
@@ -58,7 +58,7 @@ class ImuSampleCheck {
   ImuSampleLimits limits_;
   Channel gyro_{0.5};                  // rad/s
   Channel accel_{5.0};                 // m/s^2
-  std::optional<ImuSample> previous_;  ///< the last to come, whatever became of it
+  std::optional<ImuSample> previous_;  ///< the last to arrive, accepted or not
   std::optional<ImuSample> believed_;
   std::optional<ImuSample> held_;
   std::deque<int64_t> refused_;

@@ -12,7 +12,7 @@
 namespace redbee {
 namespace {
 
-constexpr double kMaxOutage = 0.5;  // s without IMU after which attitude is not worth keeping
+constexpr double kMaxOutage = 0.5;  // s without IMU after which the state is discarded
 
 InertialHomography nothing(int64_t frame_before, int64_t frame, InertialStatus status) {
   InertialHomography result;
@@ -118,7 +118,7 @@ class InertialFilter::Implementation {
     corrected_ = false;
   }
 
-  /// No sample in the interval: the state is carried over on the last one for a while, and given up after.
+  /// No sample in the interval: the last one is held for a while, then the state is discarded.
   InertialHomography coast(int64_t frame) {
     InertialHomography result = nothing(*frame_, frame, statusOf(frame, InertialStatus::kNoImu));
     if (samples_.outageAt(frame) > kMaxOutage) {
@@ -144,7 +144,7 @@ class InertialFilter::Implementation {
     return result;
   }
 
-  /// Refused samples explain what is missing.
+  /// Refused samples take precedence over missing ones.
   InertialStatus statusOf(int64_t frame, InertialStatus otherwise) const {
     return samples_.wereRefused(*frame_, frame) ? InertialStatus::kBadSamples : otherwise;
   }
@@ -196,11 +196,11 @@ class InertialFilter::Implementation {
   AltitudeCorrection altitude_;
   VisionCorrection vision_;
   std::optional<NavigationState> state_;
-  std::optional<FilterSnapshot> known_;  ///< of the last sound state: outlives a restart
+  std::optional<FilterSnapshot> known_;  ///< of the last valid state: survives a restart
   std::optional<int64_t> frame_;
   std::optional<int64_t> previous_frame_;
   bool corrected_ = false;  ///< by vision, for the last two frames
-  bool has_moved_ = false;  ///< from any frame to any other, ever
+  bool has_moved_ = false;  ///< past the first frame
 };
 
 InertialFilter::InertialFilter(const Camera& camera, const InertialParameters& parameters)

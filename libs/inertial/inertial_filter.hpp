@@ -1,13 +1,13 @@
-// From IMU samples to the ground plane's homography between frames (method.md, "Inertial homography").
+// From IMU samples to the ground plane's homography between frames (libs/README.md, "Inertial homography").
 //
 // An error-state Kalman filter over attitude, velocity, height, gyro and accelerometer bias. It dead-reckons
 // on the IMU and is corrected by gravity (slowly, gated), by an altimeter where there is one, and by the
-// visual part of the previous fused homography, which holds t / h. The pose at the previous frame is kept in
-// the state (a stochastic clone), so that the covariance of the frame-to-frame homography is propagated and
-// not guessed.
+// visual part of the previous fused homography, which measures t / h. The pose at the previous frame is part
+// of the state (a stochastic clone), so that the covariance of the frame-to-frame homography is propagated
+// and not guessed.
 //
-// The filter stands still at the last frame until the next one asks for it, so that a correction for the last
-// frame arrives at the state it belongs to. It knows no clock but the times inside its samples.
+// The filter stays at the last frame until it is advanced to the next one, so that a correction for the last
+// frame is applied to the state it belongs to. It uses no clock but the times inside its samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,22 +29,22 @@ struct InertialParameters {
   InertialExtrinsics extrinsics;
   ImuNoise noise;
   ImuSampleLimits imu_limits;
-  double gravity = 9.81;                                ///< m/s^2
-  double start_velocity_sigma = 3.0;                    ///< m/s: how fast the drone may be at the first frame
-  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();  ///< rad/s: what is known of it beforehand
+  double gravity = 9.81;                                 ///< m/s^2
+  double start_velocity_sigma = 3.0;                     ///< m/s: of the drone's velocity at the first frame
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   ///< rad/s: prior mean
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  ///< m/s^2
   double gyro_bias_sigma = 0.01;                         ///< rad/s: turn-on bias of the gyro
   double accel_bias_sigma = 0.15;                        ///< m/s^2: turn-on bias of the accelerometer
-  double extrinsic_rotation_sigma_deg = 0.1;             ///< deg: what the calibration of R_CI leaves open
-  double gravity_gate = 0.5;  ///< m/s^2: | |accel| - g | above which gravity corrects nothing
+  double extrinsic_rotation_sigma_deg = 0.1;             ///< deg: uncertainty of the calibrated R_CI
+  double gravity_gate = 0.5;  ///< m/s^2: | |accel| - g | above which gravity does not correct the attitude
   double gravity_sigma =
-      1.0;  ///< m/s^2: the drone's own acceleration, which specific force holds beside gravity
+      1.0;  ///< m/s^2: the drone's own acceleration, which specific force contains beside gravity
   double gravity_correlation_s =
-      2.0;                       ///< s: how long that acceleration lasts; makes gravity's correction slow
-  double max_imu_gap_s = 0.1;    ///< s: a longer hole in the IMU's samples is a gap
-  double max_frame_gap_s = 2.0;  ///< s: frames further apart than this start anew
-  /// Over how many frames vision's errors repeat themselves (the same relief stays in view): a correction
-  /// counts for one of them.
+      2.0;                     ///< s: correlation time of that acceleration; makes gravity's correction slow
+  double max_imu_gap_s = 0.1;  ///< s: a longer time without IMU samples is a gap
+  double max_frame_gap_s = 2.0;  ///< s: frames further apart than this restart the filter
+  /// Frames over which vision's errors are correlated (the same relief stays in view): each correction's
+  /// covariance is scaled by it.
   double feedback_correlation_frames = 8.0;
   double innovation_gate_probability = 0.999;  ///< chi-square gate of every correction
 
@@ -52,8 +52,8 @@ struct InertialParameters {
   double extrinsicRotationSigma() const { return extrinsic_rotation_sigma_deg * kDegree; }
 };
 
-/// A homography of the ground between two consecutive frames, measured without the IMU's help: what the
-/// fusion's update took from vision. (Feeding back the fused value itself would count the IMU twice.)
+/// A homography of the ground between two consecutive frames, measured independently of the IMU: vision's
+/// input to the fusion. (Feeding back the fused value would count the IMU twice.)
 struct HomographyObservation {
   int64_t utime_previous = 0;
   int64_t utime = 0;
@@ -61,7 +61,7 @@ struct HomographyObservation {
   Matrix8d covariance;  ///< scaled
 };
 
-/// A correction's innovation, for whoever watches the filter.
+/// A correction's innovation, for monitoring.
 struct CorrectionReport {
   bool applied = false;
   double test_ratio = 0;  ///< squared Mahalanobis distance over the gate: above 1 the correction was refused
@@ -75,7 +75,7 @@ struct NominalState {
   double camera_height_m = 0;
   Eigen::Vector3d gyro_bias;   ///< rad/s
   Eigen::Vector3d accel_bias;  ///< m/s^2
-  Eigen::Matrix3d R_CI;  ///< the mounting, with what the filter has corrected within the calibration's sigma
+  Eigen::Matrix3d R_CI;        ///< the mounting, corrected by the filter within the calibration's sigma
 };
 
 class InertialFilter {
@@ -85,16 +85,16 @@ class InertialFilter {
   InertialFilter(InertialFilter&&) noexcept;
   InertialFilter& operator=(InertialFilter&&) noexcept;
 
-  /// Samples may come late (sorted in by their own time) or twice (ignored). Non-finite ones are refused:
-  /// false. Implausible ones (ImuSampleCheck) are left out, and the status of their frame says so.
+  /// Samples may arrive late (sorted in by their own time) or twice (ignored). Non-finite ones are refused:
+  /// false. Implausible ones (ImuSampleCheck) are left out, and the status of their frame reports it.
   bool addImu(const ImuSample& sample);
   bool addAltitude(const AltitudeSample& sample);
 
   /// True when the samples reach the exposure time of a frame with this (camera) time.
   bool covers(int64_t frame_utime) const;
 
-  /// Moves the filter to this frame and gives the motion since the last one. Never throws on bad times: the
-  /// status says.
+  /// Advances the filter to this frame and returns the motion since the last one. Never throws on bad times:
+  /// see the status.
   InertialHomography advanceTo(int64_t frame_utime);
 
   /// Corrects the state at the last frame. Refused (not applied) when it is not for the last two frames or
@@ -103,11 +103,12 @@ class InertialFilter {
 
   std::optional<NominalState> state() const;
 
-  /// What has been learned up to the last frame that a motion was found for; nothing before.
+  /// State estimate at the last frame with a valid motion; nothing before the first.
   const std::optional<FilterSnapshot>& snapshot() const;
-  /// True at the first frame that it was ever at.
+  /// True while the filter has seen no frame after its first.
   bool isAtFirstFrame() const;
-  /// While it begins: takes what another filter had learned before. What it does not believe changes nothing.
+  /// At the first frame: initialises the state from another filter's snapshot. A refused snapshot changes
+  /// nothing.
   SnapshotCheck warmStart(const FilterSnapshot& known);
 
  private:

@@ -1,4 +1,4 @@
-// What the inertial filter says of the motion between two frames.
+// The inertial filter's estimate of the motion between two frames.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,10 @@ namespace redbee {
 enum class InertialStatus {
   kGood,          ///< the whole interval is covered by IMU samples
   kInitialising,  ///< first frame, or the first after a gap: there is no homography yet
-  kImuGap,        ///< samples are missing inside the interval: bridged, with the covariance grown to say so
+  kImuGap,        ///< samples are missing inside the interval: bridged, with a larger covariance
   kNoImu,         ///< no samples at all in the interval: there is no homography
-  kClockJump,     ///< time ran backwards or jumped: started anew, no homography
-  kBadSamples,    ///< samples in the interval were refused (ImuSampleCheck); a homography, if valid, does
-                  ///< without
+  kClockJump,     ///< time ran backwards or jumped: restarted, no homography
+  kBadSamples,  ///< samples in the interval were refused (ImuSampleCheck); a valid homography is without them
 };
 const char* toString(InertialStatus status);
 
@@ -25,7 +24,7 @@ struct InertialHomography {
   int64_t utime_previous = 0;  ///< camera clock, us
   int64_t utime = 0;           ///< camera clock, us
   InertialStatus status = InertialStatus::kInitialising;
-  bool valid = false;                               ///< H, covariance and motion hold
+  bool valid = false;                               ///< H, covariance and motion are meaningful
   Eigen::Matrix3d H = Eigen::Matrix3d::Identity();  ///< ideal pixels of a to ideal pixels of b, h33 = 1
   Matrix8d covariance = Matrix8d::Zero();  ///< of the scaled homography's eight entries (homography.hpp)
   /// R_ba, t_ba, m_a, h_a in camera frames [m].

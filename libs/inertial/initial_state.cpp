@@ -31,7 +31,7 @@ void setVariance(ErrorCovariance& P, int index, const Eigen::Vector3d& sigma) {
   P.block<3, 3>(index, index) = sigma.cwiseAbs2().asDiagonal();
 }
 
-/// The least rotation that turns `up` into z.
+/// The smallest rotation that turns `up` into z.
 Eigen::Matrix3d righting(const Eigen::Vector3d& up) {
   return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
@@ -48,7 +48,7 @@ void setTilt(NavigationState& state, const Eigen::Vector3d& force, const Inertia
   state.P.block<3, 3>(kAccelBias, kAttitude) = bias * by_force.transpose();
 }
 
-/// What the configuration says of a flight's first frame.
+/// A flight's first frame as configured.
 FilterSnapshot configured(const InertialParameters& parameters) {
   const InertialExtrinsics& extrinsics = parameters.extrinsics;
   FilterSnapshot known;
@@ -64,7 +64,7 @@ FilterSnapshot configured(const InertialParameters& parameters) {
   return known;
 }
 
-/// The sensors of `learned`, all else of the configured start.
+/// Biases and mounting of `learned`, all else as configured.
 FilterSnapshot sensorsOf(const FilterSnapshot& learned, const InertialParameters& parameters) {
   FilterSnapshot known = configured(parameters);
   known.gyro_bias = learned.gyro_bias;
@@ -76,7 +76,7 @@ FilterSnapshot sensorsOf(const FilterSnapshot& learned, const InertialParameters
   return known;
 }
 
-/// Both the vertical that was known and the one that specific force shows.
+/// Combines the known vertical and the one of the specific force.
 void mergeTilt(NavigationState& state, const Eigen::Vector3d& force, const FilterSnapshot& known,
                const InertialParameters& parameters) {
   state.R_GI = righting(known.up);

@@ -1,4 +1,4 @@
-// Where the camera is, given where the IMU is.
+// Pose of the camera from the pose of the IMU.
 #pragma once
 
 #include <Eigen/Core>

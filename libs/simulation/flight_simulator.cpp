@@ -14,7 +14,7 @@ const Scenario& checked(const Scenario& scenario) {
   if (scenario.frames <= 0 || !(scenario.fps > 0))
     throw std::invalid_argument("a flight needs frames and a frame rate");
   if (scenario.intrinsics.width <= 0 || scenario.intrinsics.height <= 0) {
-    throw std::invalid_argument("a flight needs a image size");
+    throw std::invalid_argument("a flight needs an image size");
   }
   return scenario;
 }
@@ -58,8 +58,7 @@ Eigen::Matrix3d FlightSimulator::homography(int k) const {
 
 Eigen::Matrix3d FlightSimulator::frontHomography(int k, size_t patch) const {
   const Patch& plane = scenario_.scene.patches.at(patch);
-  if (plane.kind == PatchKind::kMover)
-    throw std::invalid_argument("a mover has no homography of its own here");
+  if (plane.kind == PatchKind::kMover) throw std::invalid_argument("a moving patch has no homography here");
   if (k == 0) return Eigen::Matrix3d::Identity();
   return planeHomography(camera_.K(), motionOver(plane.centre, plane.normal(), pose(k - 1), pose(k)));
 }

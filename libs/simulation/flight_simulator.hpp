@@ -1,5 +1,4 @@
-// A whole simulated flight: images, IMU and altimeter of one trajectory over one scene, and the truth about
-// them.
+// A simulated flight: images, IMU and altimeter of one trajectory over one scene, with ground truth.
 //
 // Clocks: the trajectory runs on the IMU's clock, utime = start_utime + t. Frame k carries the camera's
 // clock, start_utime + k / fps, and was exposed at t_imu = t_cam + timeshift (Kalibr's sign).
@@ -50,7 +49,7 @@ class FlightSimulator {
   const Scenario& scenario() const { return scenario_; }
   const Camera& camera() const { return camera_; }
 
-  /// Any k >= 0; each frame can be asked for alone, and is the same whenever it is.
+  /// Any k >= 0, in any order; frame k is always the same.
   SimulatedFrame frame(int k) const;
   int64_t frameUtime(int k) const;   ///< camera clock, us
   double exposureTime(int k) const;  ///< trajectory time [s]

@@ -46,7 +46,7 @@ std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s,
   const int64_t count = sampleCount(begin_s, end_s, parameters.rate_hz);
   samples.reserve(static_cast<size_t>(count));
   for (int64_t k = 0; k < count; ++k) {
-    // Measured where the rounded stamp says, so that a perfect IMU stays perfect at rates that are no whole
+    // Sampled at the rounded time stamp, so that a perfect IMU stays exact at periods that are no whole
     // microseconds.
     const int64_t utime = toUtime(start_utime, begin_s + static_cast<double>(k) / parameters.rate_hz);
     const TrajectoryState state = trajectory.at(static_cast<double>(utime - start_utime) * 1e-6);

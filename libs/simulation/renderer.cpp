@@ -39,7 +39,7 @@ bool insidePerson(float across, float down) {
   return down >= 0.58F && down <= 1 && std::abs(across) > 0.08F && std::abs(across) < 0.75F;
 }
 
-/// Patch coordinates as shares of its half width and half height, -1 to 1.
+/// Patch coordinates relative to its half width and half height, -1 to 1.
 bool insideShape(PatchShape shape, float x, float y) {
   if (std::abs(x) > 1 || std::abs(y) > 1) return false;
   if (shape == PatchShape::kEllipse) return x * x + y * y <= 1;

@@ -18,7 +18,7 @@ struct Motion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s in G while it moves
   std::optional<Pause> pause;
 
-  /// How far it has come since t = 0 [m].
+  /// Displacement since t = 0 [m].
   Eigen::Vector3d displacementAt(double t_s) const;
   bool isMovingAt(double t_s) const;
 };

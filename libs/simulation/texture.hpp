@@ -23,8 +23,7 @@ struct Material {
   Eigen::Vector3d bgr{1, 1, 1};  ///< colour of the surface; only its hue counts, the grey level stays
 };
 
-/// Where the foot of a pixel lies on the surface and how large it is: one pixel along x and along y moves the
-/// point by these [m].
+/// A pixel's footprint on the surface: one pixel along x and along y moves the point by these [m].
 struct Footprint {
   float du_dx, dv_dx;
   float du_dy, dv_dy;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kTurn = 2 * kPi;
 constexpr double kOutlierLow = 5, kOutlierHigh = 30;  // px off the true place
 
-/// Column by column from the left, so that a share of the last ones is a region and not a sprinkle.
+/// Column by column from the left, so that a fraction of the last ones is a connected region.
 std::vector<Eigen::Vector2d> gridPoints(const TrackGrid& grid) {
   std::vector<Eigen::Vector2d> points;
   for (int x = grid.step / 2; x < grid.width; x += grid.step) {

@@ -1,5 +1,4 @@
-// Correspondences without images: what a tracker would have found over two planes, with the truth about
-// each.
+// Correspondences without images: tracks over two planes, with the true plane of each.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +21,7 @@ struct SimulatedTracks {
 };
 
 /// Points on a grid, moved by H_ground, or by H_other in the rightmost columns that make up `other_fraction`
-/// of the points. A share of `outlier_ratio` of all points, drawn at random, moves by neither: at least 5 px
+/// of the points. A fraction `outlier_ratio` of all points, drawn at random, moves by neither: at least 5 px
 /// and up to 30 px off its plane's place. Every point but the outliers has white noise of `noise_px` per
 /// axis. The same seed gives the same tracks.
 SimulatedTracks simulateTracks(const Eigen::Matrix3d& H_ground, const Eigen::Matrix3d& H_other,

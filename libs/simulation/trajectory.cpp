@@ -44,7 +44,7 @@ class ChannelMaker {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  /// Each amplitude becomes one sinusoid, its frequency drawn from an equal share of [low_hz, high_hz].
+  /// Each amplitude becomes one sinusoid, its frequency drawn from an equal part of [low_hz, high_hz].
   Channel channel(double offset, double rate, std::initializer_list<double> amplitudes, double low_hz,
                   double high_hz) {
     Channel channel{offset, rate, {}};

@@ -45,7 +45,7 @@ class Trajectory {
   /// mean tilt of the camera comes from its mounting (R_CI), not from here. The same seed gives the same
   /// flight.
   static Trajectory ordinary(unsigned seed, double height_m);
-  /// Strong rotation about all axes (25 degrees, 0.3 to 1 Hz) over flat ground: what a calibration asks for.
+  /// Strong rotation about all axes (25 degrees, 0.3 to 1 Hz) over flat ground, as a calibration needs.
   static Trajectory calibration(unsigned seed, double height_m);
 
  private:

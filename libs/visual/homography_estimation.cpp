@@ -79,7 +79,7 @@ std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& trac
   const ImageScaling scaling(width, height);
   const ScaledPairs pairs(tracks, scaling);
   const double sigma = kTypicalSigmaPx / scaling.unit_px;
-  // A prediction surer than tracking itself would turn the selection of the points into the answer.
+  // A prediction more certain than tracking itself would decide the result by the selection of points.
   const Matrix8d floor = Matrix8d::Identity() * std::pow(0.1 * sigma, 2);
   const PlanePrior prior(scaling.scale(prediction), prediction_covariance + floor);
   if (!prior.isUsable()) return std::nullopt;

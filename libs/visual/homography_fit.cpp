@@ -14,8 +14,8 @@ namespace {
 /// A step shorter than this moves no point of the image by a thousandth of a pixel (scaled units, 640 px).
 constexpr double kSettled = 1e-6;
 
-/// What to multiply (J' W J)^-1 with for the estimate's covariance (Huber, Robust Statistics, 7.6): E[psi^2]
-/// / E[psi']^2 belongs to (J'J)^-1, and W brings in its mean.
+/// Factor of (J' W J)^-1 for the estimate's covariance (Huber, Robust Statistics, 7.6): E[psi^2] / E[psi']^2
+/// belongs to (J'J)^-1, and W brings in its mean.
 double varianceOf(const NormalEquations& equations, int pairs) {
   const double influence = equations.influence_squares / std::max(2 * pairs - 8, 1);
   const double slope = equations.slopes / pairs;

@@ -1,5 +1,5 @@
-// The pieces that the robust estimation is made of: the minimal solution and least squares. Everything here
-// is in scaled coordinates (geometry/homography.hpp, ImageScaling).
+// Parts of the robust estimation: the minimal solution and least squares. Everything here is in scaled
+// coordinates (geometry/homography.hpp, ImageScaling).
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ struct LeastSquares {
       0;  ///< per coordinate: times inverse_information it is the covariance for independent errors
 };
 
-/// What is known of the homography beforehand, weighed against the pairs' squared residuals.
+/// Prior on the homography, weighted against the pairs' squared residuals.
 struct FitPrior {
   Vector8d mean;
   Matrix8d information;  ///< inverse covariance, times the variance of a residual

@@ -20,13 +20,13 @@ struct NormalEquations {
   double slopes = 0;             ///< sum of the influence function's slope, mean of the two directions
 };
 
-/// The chosen pairs, packed so that four are worked on at once.
+/// The chosen pairs, packed so that four are processed at once.
 class PackedPairs {
  public:
   PackedPairs(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen);
 
   int size() const { return size_; }
-  /// About the homography `H` (h33 = 1); `knee`: residual beyond which a pair's influence grows no more.
+  /// About the homography `H` (h33 = 1); `knee`: residual beyond which a pair's influence is constant.
   NormalEquations linearise(const Eigen::Matrix3d& H, double knee) const;
 
  private:

@@ -1,9 +1,9 @@
-// One patch of a image found again in another: the inner loop of the point tracker.
+// Alignment of one patch of an image in another: the inner loop of the point tracker.
 //
 // Inverse-compositional Lucas-Kanade (Baker and Matthews, 2004) for a translation: the gradient and its
 // matrix belong to the template and are computed once; an iteration samples the other image and makes two
 // scalar products. The gradients are made orthogonal to the constant and to the template itself ("project
-// out", part 3 of the same), which makes the step blind to a change of brightness and contrast at no cost.
+// out", part 3 of the same), which makes the step invariant to brightness and contrast at no cost.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,8 +34,8 @@ struct AlignmentLimits {
 };
 
 enum class Alignment {
-  kLost,       ///< wandered off the image
-  kUnsettled,  ///< moved to the last
+  kLost,       ///< left the image
+  kUnsettled,  ///< still moving at the last iteration
   kSettled,    ///< the last step was short
 };
 
@@ -56,7 +56,7 @@ class PatchTemplate {
   /// Takes the patch around a pixel; the pixel lies in the image.
   void take(const PyramidLevel& level, int x, int y);
 
-  /// smallestEigenvalue() of the patch around a pixel, which is not taken.
+  /// smallestEigenvalue() of the patch around a pixel; the template stays as it is.
   double texture(const PyramidLevel& level, int x, int y);
 
   /// grey levels^2 / px^2, per pixel: the smaller eigenvalue of the mean gradient matrix.

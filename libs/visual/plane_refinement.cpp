@@ -9,9 +9,9 @@
 namespace redbee {
 namespace {
 
-/// px, per coordinate: tracking is never believed to be better than this, whatever the residuals say.
+/// px, per coordinate: lower bound of the tracking noise, whatever the residuals.
 constexpr double kSigmaFloorPx = 0.04;
-/// Share of inlier_px within which a pair is fitted where a prediction chose the plane: another plane's
+/// Fraction of inlier_px within which a pair is fitted where a prediction chose the plane: another plane's
 /// points, which cross the ground's motion somewhere, are spread evenly over the threshold, the ground's own
 /// are not.
 constexpr double kNearFraction = 0.6;
@@ -42,7 +42,7 @@ class Cells {
   float aspect_;
 };
 
-/// Share of the image's area in cells that hold at least one inlier.
+/// Fraction of the image's area in cells that contain at least one inlier.
 double spreadOf(const ScaledPairs& pairs, const std::vector<uint8_t>& inlier, cv::Size image) {
   constexpr int kColumns = 20;
   const Cells cells(image, kColumns);
@@ -91,7 +91,7 @@ double correlationOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const s
     block_squares += sum.head<2>().squaredNorm();
     freedom += sum.z() > 0 ? 2 : 0;
   }
-  // The fit has taken its eight parameters out of the blocks' 2 n means.
+  // The fit has used eight of the degrees of freedom of the blocks' 2 n means.
   const double taken = freedom > 2 * kParameters ? freedom / (freedom - kParameters) : 2.0;
   return squares > 0 ? taken * block_squares / squares : 1.0;
 }

@@ -1,4 +1,4 @@
-// RANSAC's plane made exact: least squares on all its inliers, and what is known of the result.
+// Refinement of RANSAC's plane: least squares on all its inliers, and the covariance of the result.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 
 namespace redbee {
 
-/// kFromStart: the pairs near the starting plane and no others are fitted. A fit that chose its own pairs
-/// anew could slide from the predicted ground to a larger plane nearby.
+/// kFromStart: only the pairs near the starting plane are fitted. A fit that selected its pairs again could
+/// slide from the predicted ground to a larger plane nearby.
 enum class Selection { kFollowsFit, kFromStart };
 
 /// Of the pairs only those that are `allowed` may be inliers. `start`: scaled. Nothing where the minima of

@@ -21,7 +21,7 @@ constexpr int kShiftLevel = 3;
 constexpr int kShiftReach = 8;
 /// Of texture on the grid; where there are fewer, the grid is twice as fine.
 constexpr int kEnoughPoints = 160;
-/// What counts as found at once: so few iterations, and no further from where it began [px].
+/// Limits of a point found directly: iterations, and distance from its starting point [px].
 constexpr int kQuickIterations = 5;
 constexpr double kQuickReachPx = 1.5;
 
@@ -64,7 +64,7 @@ class PointTracker::Implementation {
  private:
   bool hasPrevious() const { return !previous_.empty() && previous_[0].size() == current_[0].size(); }
 
-  /// Where little of a image can be followed, that is followed more densely.
+  /// Where little of an image has texture, the grid is denser there.
   int stepFor(const Pyramid& image) const {
     const int step = parameters_.grid_px;
     return hasTexture(image, kEnoughPoints, step) ? step : std::max(1, step / 2);
@@ -115,8 +115,8 @@ class PointTracker::Implementation {
     return Eigen::Vector2d(shift.x, shift.y) * (1 << level);
   }
 
-  /// Where a point is found that is `expected` somewhere, which is `predicted` or only a beginning. What is
-  /// found at once where a prediction said, looking as it did, needs no way back.
+  /// Position of a point that is `expected` somewhere, either `predicted` or only a starting point. A point
+  /// found directly at its prediction, with a small residual, needs no backward check.
   std::optional<Eigen::Vector2d> follow(int x, int y, const Eigen::Vector2d& expected, bool predicted,
                                         const Eigen::Vector2d& neighbour) {
     forward_.take(previous_[0], x, y);
@@ -133,7 +133,7 @@ class PointTracker::Implementation {
     return std::nullopt;
   }
 
-  /// Few steps on the image itself, and short ones: no coarser level is needed.
+  /// Few, short steps on the image itself: no coarser level is needed.
   bool settlesNear(Eigen::Vector2d& found) const {
     const Eigen::Vector2d start = found;
     const AlignmentLimits limits{kQuickIterations, parameters_.epsilon_px};
@@ -145,8 +145,7 @@ class PointTracker::Implementation {
     return forward_.residual(current_[0], found) <= parameters_.max_residual;
   }
 
-  /// From the coarsest level to the image; levels on which the patch has no texture or runs away are passed
-  /// over.
+  /// From the coarsest level to the image; levels on which the patch has no texture or diverges are skipped.
   bool descend(int x, int y, Eigen::Vector2d& found) {
     const Eigen::Vector2d start(x, y);
     const AlignmentLimits limits{parameters_.iterations, parameters_.epsilon_px};
@@ -162,8 +161,8 @@ class PointTracker::Implementation {
     return forward_.align(current_[0], found, limits) != Alignment::kLost;
   }
 
-  /// Forward and backward agree. The way back begins at the whole pixel next to `found`, where the template
-  /// needs no interpolation, and is asked for the same displacement.
+  /// Forward-backward check. The backward track starts at the whole pixel next to `found`, where the template
+  /// needs no interpolation, and must give the same displacement.
   bool returns(int x, int y, const Eigen::Vector2d& found) {
     const Eigen::Vector2d displacement = found - Eigen::Vector2d(x, y);
     const Eigen::Vector2d nearest = found.array().round();

@@ -12,8 +12,8 @@
 namespace redbee {
 
 struct TrackerParameters {
-  int grid_px = 24;          ///< px between sample points, both ways (paper: 16); half of it in a image of
-                             ///< little texture
+  int grid_px =
+      24;  ///< px between sample points, both ways (paper: 16); half of it in an image of little texture
   int window_px = 13;        ///< px, odd: side of the patch that is followed
   int levels = 3;            ///< pyramid levels, 1 = the image alone
   int iterations = 12;       ///< at most, per level
@@ -28,25 +28,25 @@ struct TrackerParameters {
 struct PointTracks {
   std::vector<cv::Point2f> previous;
   std::vector<cv::Point2f> current;
-  int sampled = 0;  ///< grid points looked at, the refused ones included
+  int sampled = 0;  ///< grid points tried, the refused ones included
 };
 
-/// Keeps the previous frame's pyramid. Assumes grey 8-bit images of one size; a change of size starts anew.
+/// Keeps the previous frame's pyramid. Assumes grey 8-bit images of one size; a change of size restarts it.
 class PointTracker {
  public:
   explicit PointTracker(const TrackerParameters& parameters);
   ~PointTracker();
 
-  /// A image as advance() takes it. Throws std::invalid_argument for one that is empty or not 8-bit grey.
+  /// An image as advance() takes it. Throws std::invalid_argument for one that is empty or not 8-bit grey.
   Pyramid pyramidOf(const cv::Mat& grey) const;
-  /// Tracks the grid of the previous image into this one, `guess` (previous to current, ideal pixels) as
-  /// the starting point. Empty on the first image and after a change of size. Without a guess the shift of
-  /// the image as a whole serves, and what the neighbouring point did.
+  /// Tracks the grid of the previous image into this one, `guess` (previous to current, ideal pixels) as the
+  /// starting point. Empty on the first image and after a change of size. Without a guess the starting point
+  /// is the shift of the image as a whole, or the neighbouring point's displacement.
   PointTracks advance(Pyramid image, const std::optional<Eigen::Matrix3d>& guess);
   PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
     return advance(pyramidOf(grey), guess);
   }
-  /// True where at least `points` grid points of a image have texture enough to be followed.
+  /// True where at least `points` grid points of an image have enough texture to be tracked.
   bool hasTexture(const Pyramid& image, int points) const;
   void reset();
 

@@ -42,7 +42,7 @@ std::optional<Eigen::Matrix3d> Ransac::run() {
     const auto H = homographyThroughFour(candidates_, draw());
     if (!H) continue;
     const Candidate candidate = judge(*H);
-    // Far better than nothing is not enough: only what may become the best after its refinement is refined.
+    // Only a candidate that may become the best after its refinement is refined.
     if (candidate.inliers < 0.8 * best.inliers) continue;
     if (improve(*H, best)) needed = std::min(needed, neededIterations(best.inliers));
   }
@@ -66,7 +66,7 @@ std::array<std::size_t, 4> Ransac::draw() {
 }
 
 /// Truncated squared errors (MSAC) in units of the tracking noise, plus the prior's squared distance. Tracks
-/// err together, so that many of them weigh less than their number: without that a facade outvotes the prior.
+/// err together, so that many of them count less than their number: otherwise a facade outvotes the prior.
 Ransac::Candidate Ransac::judge(const Eigen::Matrix3d& H) {
   squaredErrors(candidates_, H, squared_);
   const auto limit = static_cast<float>(threshold_ * threshold_);

@@ -26,17 +26,17 @@ struct RansacParameters {
 };
 
 /// Neighbouring patches overlap, share noise and bias (interpolation, compression, relief), and so err
-/// together; what the fit has swallowed of that does not show in its residuals. The covariance of independent
-/// errors is enlarged by this factor: about right (median normalised error at most that of chi-square with 8
-/// degrees of freedom) for rendered flights over flat ground. Where relief makes whole blocks of residuals
-/// err as one, the factor is measured and larger. What the fit has swallowed of a facade taken for ground, no
-/// residual shows.
+/// together; the part of that error which the fit absorbs does not show in its residuals. The covariance of
+/// independent errors is inflated by this factor: consistent (median normalised error at most that of
+/// chi-square with 8 degrees of freedom) for rendered flights over flat ground. Where relief makes whole
+/// blocks of residuals err as one, the factor is measured and larger. The bias of a facade taken for ground
+/// shows in no residual.
 inline constexpr double kCorrelationInflation = 6.0;
 
-/// px: typical tracking noise, the unit in which points and prediction are weighed against each other.
+/// px: typical tracking noise, the unit in which points are weighted against the prediction.
 inline constexpr double kTypicalSigmaPx = 0.3;
 
-/// What the inertial prediction says of a candidate plane.
+/// The inertial prediction as a prior on candidate planes.
 struct PlanePrior {
   /// `H`, `covariance`: scaled.
   PlanePrior(const Eigen::Matrix3d& H, const Matrix8d& covariance);
@@ -52,7 +52,8 @@ struct PlanePrior {
 
 class Ransac {
  public:
-  /// `candidates`: what samples are drawn from and what counts. `unit_px`: pixels in one scaled unit.
+  /// `candidates`: pairs that samples are drawn from and that are scored. `unit_px`: pixels in one scaled
+  /// unit.
   Ransac(ScaledPairs candidates, double unit_px, const RansacParameters& parameters, const PlanePrior* prior);
 
   /// Nothing where no plane has five inliers.

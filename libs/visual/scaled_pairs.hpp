@@ -28,7 +28,7 @@ struct ScaledPairs {
   std::vector<float> ax, ay, bx, by;
 };
 
-/// Squared transfer error of every pair into `squared`; huge where H sends a point to infinity or behind the
+/// Squared transfer error of every pair into `squared`; huge where H maps a point to infinity or behind the
 /// camera.
 void squaredErrors(const ScaledPairs& pairs, const Eigen::Matrix3d& H, std::vector<float>& squared);
 

@@ -8,13 +8,13 @@
 namespace redbee {
 namespace {
 
-/// Share of all tracks that a plane must explain to be believed against the prediction, and how many times
-/// more than the predicted plane.
+/// Fraction of all tracks that a plane must explain to be accepted against the prediction, and how many times
+/// the inliers of the predicted plane.
 constexpr double kContradiction = 0.6;
 constexpr double kOverwhelming = 2.0;
 
-/// Mean squared gradient [grey levels^2] of the half-size image in the direction that has least of it:
-/// noise counts little at half size, and a image blurred along one direction only is blurred.
+/// Mean squared gradient [grey levels^2] of the half-size image in the direction that has least of it: noise
+/// counts little at half size, and an image blurred along one direction only is blurred.
 double sharpnessOf(const Pyramid& pyramid) {
   if (pyramid.size() < 2) return 0;
   const cv::Mat half = pyramid[1].image();
@@ -89,8 +89,8 @@ std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
                                      ransac);
   const auto all = static_cast<double>(tracks.previous.size());
   if (near && near->inliers >= kContradiction * all) return near;
-  // A plane that contradicts the prediction is believed only when it explains most of the image: then it is
-  // the prediction that has gone wrong, and the few points near it are chance.
+  // A plane that contradicts the prediction is accepted only when it explains most of the image: then the
+  // prediction is wrong, and the few points near it are chance.
   ransac.min_inlier_ratio = std::max(ransac.min_inlier_ratio, kContradiction);
   auto largest = estimateHomography(tracks, size_.width, size_.height, ransac);
   if (near && (!largest || largest->inliers < kOverwhelming * near->inliers)) return near;

@@ -1,4 +1,5 @@
-// The visual stage: tracking and the ground's homography, frame by frame (method.md, "Visual homography").
+// The visual stage: tracking and the ground's homography, frame by frame (libs/README.md, "Visual
+// homography").
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,9 @@ struct VisualParameters {
   RansacParameters ransac;
   double max_frame_gap_s = 0.5;  ///< s: frames further apart than this are not tracked into each other
   double min_sharpness =
-      0.0;  ///< mean squared gradient [grey levels^2] below which a image is blank, black or blurred
+      0.0;  ///< mean squared gradient [grey levels^2] below which an image is blank, black or blurred
   double min_sharpness_fraction =
-      0.15;  ///< of the sharpness of the frame tracked from, below which a image is blurred
+      0.15;  ///< of the sharpness of the frame tracked from, below which an image is blurred
 };
 
 enum class VisualStatus {
@@ -25,11 +26,11 @@ enum class VisualStatus {
   kFirstFrame,  ///< nothing to track from: the first frame, after a gap, a repeated or earlier time, or a
                 ///< change of size
   kNoTexture,   ///< blank, black or blurred: too few points can be tracked
-  kNoPlane,     ///< points were tracked and no plane explains enough of them
+  kNoPlane,     ///< points were tracked, but no plane explains enough of them
 };
 const char* toString(VisualStatus status);
 
-/// What inertial prediction is known for the pair of frames.
+/// The inertial prediction for a pair of frames.
 struct HomographyPrediction {
   Eigen::Matrix3d H;    ///< previous to current, ideal pixels
   Matrix8d covariance;  ///< scaled
@@ -51,9 +52,9 @@ class VisualHomographyEstimator {
   std::optional<int64_t> previousTime() const { return previous_utime_; }
 
   /// `grey`: 8-bit, undistorted; anything else throws std::invalid_argument. A blank or blurred frame
-  /// (kNoTexture) is passed over: the next one is tracked from the last good frame, as long as that is not
-  /// older than max_frame_gap_s, so `prediction` starts at previousTime(). A time that does not move forward
-  /// starts anew from this frame.
+  /// (kNoTexture) is skipped: the next one is tracked from the last good frame, as long as that is not older
+  /// than max_frame_gap_s, so `prediction` starts at previousTime(). A time that does not move forward
+  /// restarts from this frame.
   VisualHomography step(int64_t utime, const cv::Mat& grey,
                         const std::optional<HomographyPrediction>& prediction);
 
