@@ -3,8 +3,10 @@
 // A frame's state is at t_cam + timeshift; the exposure is at t_cam + timeshift + s, with s to be estimated.
 // To first order
 //
-//     R_GI(s) = R_GI exp(w s)        p_GI(s) = p_GI + v_GI s        w: angular rate at the frame, bias taken
-//     off R_CG = R_CI R_GI(s)'           p_GC = p_GI(s) + R_GI(s) p_IC
+//     R_GI(s) = R_GI exp(w s)        p_GI(s) = p_GI + v_GI s
+//     R_CG = R_CI R_GI(s)'           p_GC = p_GI(s) + R_GI(s) p_IC
+//
+// w: angular rate at the frame, without bias.
 #pragma once
 
 #include <Eigen/Core>

@@ -64,9 +64,8 @@ class ConfigurationError : public std::runtime_error {
 /// Reads a vehicle's file. Keys that it leaves out keep the values of the files it includes, else the
 /// defaults above.
 ///   include: FILE or [FILE, ...]   relative to the including file; read first, so the including file wins
-///   preset: default | paper        `paper`: the paper's own fusion noise and segmentation; wins over
-///   included files, while
-///                                  the keys of the file that names it win over it
+///   preset: default | paper        `paper`: the paper's own fusion noise and detector; wins over included
+///                                  files, and the keys of the file that names it win over it
 /// Throws ConfigurationError on the first fault: unknown or repeated keys, wrong types, impossible values, a
 /// camera that is not described, channels that share a name, files that include each other.
 Configuration loadConfiguration(const std::filesystem::path& file);
