@@ -3,7 +3,7 @@
 // 1. The magnitudes of the two angular rates are correlated over the time shift; this needs no R_CI.
 // 2. R_CI and gyro bias follow in closed form (hand_eye.hpp). A homography admits two rotations; the one that
 //    agrees with the gyro under the current R_CI is selected, and R_CI estimated again, from several starts.
-// 3. The time shift with the smallest residual of step 2 is refined by a parabola through the curve's minimum.
+// 3. The time shift with the smallest residual of step 2, refined by a parabola through the curve's minimum.
 #pragma once
 
 #include <Eigen/Core>
