@@ -115,7 +115,7 @@ void addWarnings(CalibrationResult& result) {
   if (result.frames < result.frames_given) {
     result.warnings.push_back("used " + std::to_string(result.frames) + " of " +
                               std::to_string(result.frames_given) +
-                              "  frames: the IMU does not cover the others without a gap");
+                              " frames: the IMU does not cover the others without a gap");
   }
   if (4 * result.frames_spanned < 3 * result.frames) {
     result.warnings.push_back("only " + std::to_string(result.frames_spanned) + " of " +
@@ -123,7 +123,7 @@ void addWarnings(CalibrationResult& result) {
                               " frames are measured: little texture, or little ground in view");
   }
   if (result.imu_sigma_scale > 3) {
-    result.warnings.push_back("the IMU is noisier than its configured densities, by  " +
+    result.warnings.push_back("the IMU is noisier than its configured densities, by " +
                               std::to_string(static_cast<int>(std::lround(result.imu_sigma_scale))) +
                               " times");
   }
@@ -147,8 +147,8 @@ const ParameterReport& CalibrationResult::parameter(const std::string& name) con
 }
 
 CalibrationResult calibrate(const CalibrationInput& input, const std::function<void(double)>& progress) {
-  const auto done = [&](double share) {
-    if (progress) progress(share);
+  const auto done = [&](double fraction) {
+    if (progress) progress(fraction);
   };
   const Recording recording = prepareRecording(input);
   done(0.2);

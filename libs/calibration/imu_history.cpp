@@ -56,9 +56,9 @@ ImuHistory::Sample ImuHistory::at(double t_s) const {
   const Sample& before = samples_[i];
   const Sample& after = samples_[std::min(i + 1, samples_.size() - 1)];
   const double span = after.t_s - before.t_s;
-  const double share = span > 0 ? std::clamp((t_s - before.t_s) / span, 0.0, 1.0) : 0.0;
-  return {t_s, before.gyro + share * (after.gyro - before.gyro),
-          before.accel + share * (after.accel - before.accel)};
+  const double fraction = span > 0 ? std::clamp((t_s - before.t_s) / span, 0.0, 1.0) : 0.0;
+  return {t_s, before.gyro + fraction * (after.gyro - before.gyro),
+          before.accel + fraction * (after.accel - before.accel)};
 }
 
 std::vector<ImuHistory::Sample> ImuHistory::between(double from_s, double to_s) const {

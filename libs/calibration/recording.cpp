@@ -90,7 +90,7 @@ void requireEnough(const Recording& recording, const CalibrationInput& input, si
   throw CalibrationError("only " + std::to_string(measured) + " " + kind + " in " +
                          std::to_string(recording.t_cam_s.size()) + " frames, " +
                          std::to_string(kMinMeasurements) +
-                         "  are needed: too little texture, or no flat ground in view");
+                         " are needed: too little texture, or no flat ground in view");
 }
 
 }  // namespace
@@ -110,8 +110,8 @@ Recording prepareRecording(const CalibrationInput& input) {
   const auto [begin, end] = coveredRun(t, *recording.imu, input.nominal.timeshift_s);
   if (end - begin < kMinFrames) {
     throw CalibrationError("the IMU covers only " + std::to_string(end - begin) + " of " +
-                           std::to_string(t.size()) + "  frames without a gap;  " +
-                           std::to_string(kMinFrames) + "  are needed");
+                           std::to_string(t.size()) + " frames without a gap; " + std::to_string(kMinFrames) +
+                           " are needed");
   }
   recording.t_cam_s.assign(t.begin() + static_cast<ptrdiff_t>(begin),
                            t.begin() + static_cast<ptrdiff_t>(end));

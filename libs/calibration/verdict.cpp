@@ -28,17 +28,17 @@ const char* toString(Verdict verdict) {
   return "unknown";
 }
 
-void judge(ParameterReport& report, const std::string& cause) {
+void classify(ParameterReport& report, const std::string& cause) {
   const std::string spread = number(report.worst_sigma) + " " + report.unit;
   if (std::isfinite(report.worst_sigma) && report.worst_sigma <= report.found_below) {
     report.verdict = Verdict::kFound;
-    report.words = "known to " + spread;
+    report.explanation = "known to " + spread;
   } else if (std::isfinite(report.worst_sigma) && report.worst_sigma <= report.weak_below) {
     report.verdict = Verdict::kWeak;
-    report.words = "estimated, but only to " + spread + "; a better recording would have more " + cause;
+    report.explanation = "estimated, but only to " + spread + "; a better recording would have more " + cause;
   } else {
     report.verdict = Verdict::kRefused;
-    report.words =
+    report.explanation =
         "not observable in this recording (" + spread + "): it lacks " + cause + "; the nominal value stays";
   }
 }

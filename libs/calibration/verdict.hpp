@@ -25,11 +25,11 @@ struct ParameterReport {
   double found_below = 0;       ///< limits for worst_sigma
   double weak_below = 0;
   Verdict verdict = Verdict::kRefused;
-  std::string words;  ///< one sentence
+  std::string explanation;  ///< one sentence
 };
 
-/// Fills verdict and words from worst_sigma and its limits; `cause`: the excitation that a recording lacks in
-/// which this parameter is not observable.
-void judge(ParameterReport& report, const std::string& cause);
+/// Fills verdict and explanation from worst_sigma and its limits; `cause`: the excitation that a recording
+/// lacks in which this parameter is not observable.
+void classify(ParameterReport& report, const std::string& cause);
 
 }  // namespace redbee::calibration

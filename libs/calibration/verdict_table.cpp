@@ -35,7 +35,7 @@ constexpr double kLeastRateVariation = 0.01;  // rad/s
 void refuseWithoutRotation(ParameterReport& report, const Excitation& excitation) {
   if (excitation.rate_variation >= kLeastRateVariation) return;
   report.verdict = Verdict::kRefused;
-  report.words = "not observable in this recording: the camera hardly turns; the nominal value stays";
+  report.explanation = "not observable in this recording: the camera hardly turns; the nominal value stays";
 }
 
 ParameterReport rotationReport(const CalibratedValues& values, const JointCovariance& covariance) {
@@ -44,7 +44,7 @@ ParameterReport rotationReport(const CalibratedValues& values, const JointCovari
       vectorReport("camera.R_CI", "deg", turn, Eigen::Vector3d::Zero(), covariance.rotation, 1 / kDegree);
   report.found_below = 0.1;
   report.weak_below = 1.0;
-  judge(report, "rotation about at least two axes");
+  classify(report, "rotation about at least two axes");
   return report;
 }
 
@@ -54,7 +54,7 @@ ParameterReport timeshiftReport(const CalibratedValues& values, const JointCovar
                              Matrix1d(values.nominal.timeshift_s), Matrix1d(covariance.timeshift), 1);
   report.found_below = 0.001;
   report.weak_below = 0.005;
-  judge(report, "quick changes of the turning rate");
+  classify(report, "quick changes of the turning rate");
   return report;
 }
 
@@ -63,7 +63,7 @@ ParameterReport leverArmReport(const CalibratedValues& values, const JointCovari
       vectorReport("camera.p_IC", "m", values.estimated.p_IC, values.nominal.p_IC, covariance.p_IC, 1);
   report.found_below = 0.01;
   report.weak_below = 0.03;
-  judge(report, "strong rotation close to the ground");
+  classify(report, "strong rotation close to the ground");
   return report;
 }
 
@@ -75,14 +75,14 @@ ParameterReport heightReport(const CalibratedValues& values, const JointCovarian
                              Matrix1d(values.nominal.start_height_m), Matrix1d(covariance.first_height), 1);
   if (!applies) {
     report.verdict = Verdict::kNotApplicable;
-    report.words = "no ground in a recording of a target";
+    report.explanation = "no ground in a recording of a target";
     return report;
   }
   report.worst_sigma /= values.estimated.start_height_m;
   report.found_below = 0.02;
   report.weak_below = 0.1;
   report.unit = "of the height";
-  judge(report, "acceleration, an altimeter or a measured height (--height)");
+  classify(report, "acceleration, an altimeter or a measured height (--height)");
   report.unit = "m";
   return report;
 }
@@ -92,12 +92,12 @@ ParameterReport tiltReport(const CalibratedValues& values, const JointCovariance
                              1 / kDegree);
   if (!applies) {
     report.verdict = Verdict::kNotApplicable;
-    report.words = "no ground in a recording of a target";
+    report.explanation = "no ground in a recording of a target";
     return report;
   }
   report.found_below = 0.3;
   report.weak_below = 1.0;
-  judge(report, "turns about the vertical, which separate a tilted ground from a biased accelerometer");
+  classify(report, "turns about the vertical, which separate a tilted ground from a biased accelerometer");
   return report;
 }
 
@@ -106,7 +106,7 @@ ParameterReport gyroBiasReport(const CalibratedValues& values, const JointCovari
                              covariance.gyro_bias, 1 / kDegree);
   report.found_below = 0.05;
   report.weak_below = 0.25;
-  judge(report, "texture and time");
+  classify(report, "texture and time");
   return report;
 }
 
@@ -115,7 +115,7 @@ ParameterReport accelBiasReport(const CalibratedValues& values, const JointCovar
                              covariance.accel_bias, 1);
   report.found_below = 0.03;
   report.weak_below = 0.1;
-  judge(report, "rotation against gravity");
+  classify(report, "rotation against gravity");
   return report;
 }
 

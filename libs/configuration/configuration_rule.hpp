@@ -23,7 +23,7 @@ Rule(Predicate, const char*) -> Rule<Predicate>;
 inline const Rule anything{[](const auto&) { return true; }, ""};
 inline const Rule positive{[](auto x) { return x > 0; }, "must be above 0"};
 inline const Rule notNegative{[](auto x) { return x >= 0; }, "must not be negative"};
-inline const Rule share{[](auto x) { return x >= 0 && x <= 1; }, "must lie from 0 to 1"};
+inline const Rule fraction{[](auto x) { return x >= 0 && x <= 1; }, "must lie from 0 to 1"};
 inline const Rule probability{[](auto x) { return x > 0 && x < 1; }, "must lie between 0 and 1"};
 inline const Rule odd{[](int x) { return x > 0 && x % 2 == 1; }, "must be odd and above 0"};
 inline const Rule atLeastTwo{[](int x) { return x >= 2; }, "must be at least 2"};

@@ -76,8 +76,8 @@ Settings ransacSettings(const std::string& section, Access ransac) {
       setting(section + ".max_iterations", member(&P::max_iterations), positive),
       setting(section + ".confidence", member(&P::confidence), probability),
       setting(section + ".min_inliers", member(&P::min_inliers), fourOrMore),
-      setting(section + ".min_inlier_ratio", member(&P::min_inlier_ratio), share),
-      setting(section + ".min_spread", member(&P::min_spread), share),
+      setting(section + ".min_inlier_ratio", member(&P::min_inlier_ratio), fraction),
+      setting(section + ".min_spread", member(&P::min_spread), fraction),
       setting(section + ".seed", member(&P::seed), anything),
   };
 }
@@ -100,7 +100,7 @@ Settings visualSettings() {
   Settings settings{
       setting("visual.max_frame_gap_s", MEMBER(visual.max_frame_gap_s), positive),
       setting("visual.min_sharpness", MEMBER(visual.min_sharpness), notNegative),
-      setting("visual.min_sharpness_fraction", MEMBER(visual.min_sharpness_fraction), share),
+      setting("visual.min_sharpness_fraction", MEMBER(visual.min_sharpness_fraction), fraction),
   };
   append(settings, trackerSettings());
   append(settings, ransacSettings("visual.ransac", MEMBER(visual.ransac)));
@@ -117,7 +117,7 @@ Settings fusionSettings() {
       setting("fusion.paper_P0", MEMBER(fusion.paper_P0), variances),
       setting("fusion.gate_probability", MEMBER(fusion.gate_probability), probability),
       setting("fusion.max_gated_in_a_row", MEMBER(fusion.max_gated_in_a_row), positive),
-      setting("fusion.min_overlap", MEMBER(fusion.min_overlap), share),
+      setting("fusion.min_overlap", MEMBER(fusion.min_overlap), fraction),
       setting("fusion.visual_inflation", MEMBER(fusion.visual_inflation), positive),
       setting("fusion.process_inflation", MEMBER(fusion.process_inflation), positive),
   };
@@ -128,7 +128,7 @@ Settings backgroundSettings() {
       setting("segmentation.method", MEMBER(segmentation.method), anything),
       setting("segmentation.mixture_history", MEMBER(segmentation.mixture_history), positive),
       setting("segmentation.mixture_threshold", MEMBER(segmentation.mixture_threshold), positive),
-      setting("segmentation.canvas_margin", MEMBER(segmentation.canvas_margin), share),
+      setting("segmentation.canvas_margin", MEMBER(segmentation.canvas_margin), fraction),
       setting("segmentation.learning_frames", MEMBER(segmentation.learning_frames), notNegative),
       setting("segmentation.use_front_plane", MEMBER(segmentation.use_front_plane), anything),
       setting("segmentation.baseline_s", MEMBER(segmentation.baseline_s), positive),
@@ -138,10 +138,10 @@ Settings backgroundSettings() {
       setting("segmentation.use_epipolar", MEMBER(segmentation.use_epipolar), anything),
       setting("segmentation.parallax_noise_px", MEMBER(segmentation.parallax_noise_px), positive),
       setting("segmentation.direction_error", MEMBER(segmentation.direction_error), notNegative),
-      setting("segmentation.nearest_depth_fraction", MEMBER(segmentation.nearest_depth_fraction), share),
+      setting("segmentation.nearest_depth_fraction", MEMBER(segmentation.nearest_depth_fraction), fraction),
       setting("segmentation.evidence_sigmas", MEMBER(segmentation.evidence_sigmas), positive),
       setting("segmentation.use_registration", MEMBER(segmentation.use_registration), anything),
-      setting("segmentation.border_stretch", MEMBER(segmentation.border_stretch), share),
+      setting("segmentation.border_stretch", MEMBER(segmentation.border_stretch), fraction),
       setting("segmentation.motion_half", MEMBER(segmentation.motion_half), positive),
       setting("segmentation.use_appearance", MEMBER(segmentation.use_appearance), anything),
       setting("segmentation.background_downscale", MEMBER(segmentation.background_downscale), halving),
@@ -157,7 +157,7 @@ Settings backgroundSettings() {
       setting("segmentation.use_surfaces", MEMBER(segmentation.use_surfaces), anything),
       setting("segmentation.use_shadow_test", MEMBER(segmentation.use_shadow_test), anything),
       setting("segmentation.shadow_noise", MEMBER(segmentation.shadow_noise), positive),
-      setting("segmentation.evidence_rate", MEMBER(segmentation.evidence_rate), share),
+      setting("segmentation.evidence_rate", MEMBER(segmentation.evidence_rate), fraction),
   };
 }
 
@@ -165,17 +165,17 @@ Settings objectSettings() {
   return {
       setting("segmentation.use_refinement", MEMBER(segmentation.use_refinement), anything),
       setting("segmentation.use_entropy", MEMBER(segmentation.use_entropy), anything),
-      setting("segmentation.alpha", MEMBER(segmentation.alpha), share),
-      setting("segmentation.beta", MEMBER(segmentation.beta), share),
-      setting("segmentation.gamma", MEMBER(segmentation.gamma), share),
+      setting("segmentation.alpha", MEMBER(segmentation.alpha), fraction),
+      setting("segmentation.beta", MEMBER(segmentation.beta), fraction),
+      setting("segmentation.gamma", MEMBER(segmentation.gamma), fraction),
       setting("segmentation.spatial_window_px", MEMBER(segmentation.spatial_window_px), odd),
       setting("segmentation.sample_grid_px", MEMBER(segmentation.sample_grid_px), positive),
       setting("segmentation.entropy_cell_points", MEMBER(segmentation.entropy_cell_points), positive),
       setting("segmentation.entropy_bins", MEMBER(segmentation.entropy_bins), atLeastTwo),
       setting("segmentation.entropy_floor", MEMBER(segmentation.entropy_floor), positive),
       setting("segmentation.flow_noise_px", MEMBER(segmentation.flow_noise_px), notNegative),
-      setting("segmentation.threshold", MEMBER(segmentation.threshold), share),
-      setting("segmentation.extent_threshold", MEMBER(segmentation.extent_threshold), share),
+      setting("segmentation.threshold", MEMBER(segmentation.threshold), fraction),
+      setting("segmentation.extent_threshold", MEMBER(segmentation.extent_threshold), fraction),
       setting("segmentation.opening_px", MEMBER(segmentation.opening_px), notNegative),
       setting("segmentation.closing_px", MEMBER(segmentation.closing_px), notNegative),
       setting("segmentation.min_area_px", MEMBER(segmentation.min_area_px), notNegative),

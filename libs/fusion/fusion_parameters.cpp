@@ -13,7 +13,7 @@ double visualNoiseRatio(const VisualInput& visual) {
   return 1.0 + static_cast<double>(visual.outliers) / std::max(1, visual.inliers);
 }
 
-Matrix8d believedCovariance(const VisualInput& visual, const FusionParameters& parameters) {
+Matrix8d measurementCovariance(const VisualInput& visual, const FusionParameters& parameters) {
   return parameters.visual_inflation * visualNoiseRatio(visual) * visual.covariance;
 }
 

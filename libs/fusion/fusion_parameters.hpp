@@ -47,6 +47,6 @@ struct VisualInput {
 double visualNoiseRatio(const VisualInput& visual);
 /// Vision's covariance, scaled by that ratio and by visual_inflation, as used here and by the inertial filter
 /// that it corrects.
-Matrix8d believedCovariance(const VisualInput& visual, const FusionParameters& parameters);
+Matrix8d measurementCovariance(const VisualInput& visual, const FusionParameters& parameters);
 
 }  // namespace redbee

@@ -101,7 +101,7 @@ HomographyFusion::Sources HomographyFusion::anchorSources(const std::optional<In
   }
   if (visual && visual->inliers > 0 && visual->outliers >= 0) {
     std::optional<Estimate> step =
-        stepFrom(visual->utime_previous, visual->H, believedCovariance(*visual, parameters_));
+        stepFrom(visual->utime_previous, visual->H, measurementCovariance(*visual, parameters_));
     if (step) sources.visual = ontoAnchor(*step, visualNoiseRatio(*visual) * parameters_.paper_P0);
   }
   return sources;

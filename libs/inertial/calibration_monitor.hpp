@@ -15,7 +15,7 @@ class CalibrationMonitor {
  public:
   struct Parameters {
     double memory_frames = 72;  ///< frames over which the running means fade
-    int least_frames = 48;      ///< before the first verdict
+    int min_frames = 48;        ///< before the first verdict
     double misfit_ratio = 1.0;  ///< mean test ratio (1: the gate) above which the calibration does not fit
     double misfit_px = 1.0;     ///< and mean distance of the two homographies
   };
@@ -28,13 +28,13 @@ class CalibrationMonitor {
   void note(double test_ratio, double distance_px) {
     if (!std::isfinite(test_ratio) || !std::isfinite(distance_px)) return;
     ++frames_;
-    const double share = 1.0 / std::fmin(static_cast<double>(frames_), parameters_.memory_frames);
+    const double rate = 1.0 / std::fmin(static_cast<double>(frames_), parameters_.memory_frames);
     // One gross outlier must not outweigh a second of flight.
-    ratio_ += share * (std::fmin(test_ratio, 10.0) - ratio_);
-    distance_px_ += share * (std::fmin(distance_px, 100.0) - distance_px_);
+    ratio_ += rate * (std::fmin(test_ratio, 10.0) - ratio_);
+    distance_px_ += rate * (std::fmin(distance_px, 100.0) - distance_px_);
   }
 
-  bool decided() const { return frames_ >= parameters_.least_frames; }
+  bool decided() const { return frames_ >= parameters_.min_frames; }
   bool fits() const { return ratio_ <= parameters_.misfit_ratio || distance_px_ <= parameters_.misfit_px; }
   double meanDistance_px() const { return distance_px_; }
   double meanRatio() const { return ratio_; }

@@ -57,10 +57,10 @@ bool couldBeLearned(const FilterSnapshot& known, const InertialParameters& param
 
 }  // namespace
 
-const char* toString(SnapshotCheck verdict) {
-  switch (verdict) {
-    case SnapshotCheck::kBelieved:
-      return "believed";
+const char* toString(SnapshotCheck check) {
+  switch (check) {
+    case SnapshotCheck::kAccepted:
+      return "accepted";
     case SnapshotCheck::kNotWanted:
       return "not wanted";
     case SnapshotCheck::kImplausible:
@@ -78,12 +78,12 @@ bool isRecent(const FilterSnapshot& known, int64_t utime) {
   return age >= 0 && age <= kMaxAge;
 }
 
-SnapshotCheck judge(const FilterSnapshot& known, int64_t utime, const InertialParameters& parameters) {
+SnapshotCheck validate(const FilterSnapshot& known, int64_t utime, const InertialParameters& parameters) {
   if (!isPlausibleTime(known.utime) || !couldBeLearned(known, parameters)) {
     return SnapshotCheck::kImplausible;
   }
   if (ageAt(known, utime) < 0) return SnapshotCheck::kFuture;
-  return isRecent(known, utime) ? SnapshotCheck::kBelieved : SnapshotCheck::kStale;
+  return isRecent(known, utime) ? SnapshotCheck::kAccepted : SnapshotCheck::kStale;
 }
 
 FilterSnapshot aged(FilterSnapshot known, int64_t utime) {

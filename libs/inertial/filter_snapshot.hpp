@@ -29,19 +29,19 @@ struct FilterSnapshot {
 };
 
 enum class SnapshotCheck {
-  kBelieved,
+  kAccepted,
   kNotWanted,    ///< the filter has left its first frame and has its own estimate
   kImplausible,  ///< not finite, or outside what a filter with these parameters could have estimated
   kFuture,       ///< later than the filter's frame
   kStale,        ///< too old to constrain height, vertical and velocity
 };
-const char* toString(SnapshotCheck verdict);
+const char* toString(SnapshotCheck check);
 
 /// True while its height, vertical and velocity still constrain the frame at `utime`.
 bool isRecent(const FilterSnapshot& known, int64_t utime);
 
 /// Whether a filter with these parameters, at its first frame `utime`, may be warm-started from it.
-SnapshotCheck judge(const FilterSnapshot& known, int64_t utime, const InertialParameters& parameters);
+SnapshotCheck validate(const FilterSnapshot& known, int64_t utime, const InertialParameters& parameters);
 
 /// The snapshot propagated to the frame at `utime`; precondition: isRecent(). The drone may have accelerated
 /// and turned since, and the sigmas grow by that. They are doubled as well: after a fault the filter should

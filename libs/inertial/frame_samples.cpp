@@ -26,7 +26,7 @@ FrameSamples::FrameSamples(const InertialParameters& parameters)
 
 bool FrameSamples::add(const ImuSample& sample) {
   if (!isPlausibleTime(sample.utime) || !sample.gyro.allFinite() || !sample.accel.allFinite()) return false;
-  for (const ImuSample& believed : check_.take(sample)) imu_.add(believed);
+  for (const ImuSample& accepted : check_.take(sample)) imu_.add(accepted);
   return true;
 }
 

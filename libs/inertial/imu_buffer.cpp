@@ -47,9 +47,9 @@ ImuSample ImuBuffer::at(int64_t utime) const {
   if (after == samples_.begin()) return {utime, after->gyro, after->accel};
   const ImuSample& before = *(after - 1);
   if (after == samples_.end()) return {utime, before.gyro, before.accel};
-  const double share = seconds(utime - before.utime) / seconds(after->utime - before.utime);
-  return {utime, before.gyro + share * (after->gyro - before.gyro),
-          before.accel + share * (after->accel - before.accel)};
+  const double fraction = seconds(utime - before.utime) / seconds(after->utime - before.utime);
+  return {utime, before.gyro + fraction * (after->gyro - before.gyro),
+          before.accel + fraction * (after->accel - before.accel)};
 }
 
 ImuSpan ImuBuffer::span(int64_t begin, int64_t end) const {

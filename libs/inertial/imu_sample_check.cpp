@@ -72,10 +72,10 @@ std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
     return accepted;
   }
   if (held_) {
-    const bool goes_on = distance(*held_, sample) <= distance(*believed_, sample);
-    if (goes_on) {
+    const bool continues = distance(*held_, sample) <= distance(*accepted_, sample);
+    if (continues) {
       accepted.push_back(*held_);
-      believed_ = held_;
+      accepted_ = held_;
     } else {
       refuse(held_->utime);
     }
@@ -89,7 +89,7 @@ std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
 void ImuSampleCheck::startAt(const ImuSample& sample) {
   if (held_) refuse(held_->utime);
   held_.reset();
-  previous_ = believed_ = sample;
+  previous_ = accepted_ = sample;
   for (Channel* channel : {&gyro_, &accel_}) {
     channel->same_count = 0;
     channel->same_since = sample.utime;
@@ -102,11 +102,11 @@ bool ImuSampleCheck::isRefused(int64_t utime) const {
 }
 
 void ImuSampleCheck::acceptOrHold(const ImuSample& sample, std::vector<ImuSample>& accepted) {
-  if (distance(*believed_, sample) > 1) {
+  if (distance(*accepted_, sample) > 1) {
     held_ = sample;
     return;
   }
-  believed_ = sample;
+  accepted_ = sample;
   accepted.push_back(sample);
 }
 

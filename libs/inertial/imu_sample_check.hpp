@@ -59,7 +59,7 @@ class ImuSampleCheck {
   Channel gyro_{0.5};                  // rad/s
   Channel accel_{5.0};                 // m/s^2
   std::optional<ImuSample> previous_;  ///< the last to arrive, accepted or not
-  std::optional<ImuSample> believed_;
+  std::optional<ImuSample> accepted_;
   std::optional<ImuSample> held_;
   std::deque<int64_t> refused_;
 };

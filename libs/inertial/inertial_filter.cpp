@@ -86,12 +86,12 @@ class InertialFilter::Implementation {
 
   SnapshotCheck warmStart(const FilterSnapshot& known) {
     if (!isAtFirstFrame()) return SnapshotCheck::kNotWanted;
-    const SnapshotCheck verdict = judge(known, *frame_, parameters_);
-    if (verdict == SnapshotCheck::kBelieved) {
+    const SnapshotCheck check = validate(known, *frame_, parameters_);
+    if (check == SnapshotCheck::kAccepted) {
       known_ = known;
       state_ = initialState(*frame_, samples_.forVertical(*frame_), parameters_, known_);
     }
-    return verdict;
+    return check;
   }
 
  private:

@@ -160,9 +160,9 @@ float Texture::sampleBetween(float level, float u_m, float v_m) const {
   if (level <= 0) return sampleLevel(0, u_m, v_m);
   if (level >= static_cast<float>(last)) return sampleLevel(last, u_m, v_m);
   const int fine = static_cast<int>(level);
-  const float share = level - static_cast<float>(fine);
+  const float fraction = level - static_cast<float>(fine);
   const float value = sampleLevel(fine, u_m, v_m);
-  return value + share * (sampleLevel(fine + 1, u_m, v_m) - value);
+  return value + fraction * (sampleLevel(fine + 1, u_m, v_m) - value);
 }
 
 float Texture::sample(float u_m, float v_m, const Footprint& foot) const {

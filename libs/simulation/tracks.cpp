@@ -23,8 +23,8 @@ std::vector<Eigen::Vector2d> gridPoints(const TrackGrid& grid) {
   return points;
 }
 
-size_t fractionOf(size_t count, double share) {
-  return static_cast<size_t>(std::llround(static_cast<double>(count) * std::clamp(share, 0.0, 1.0)));
+size_t fractionOf(size_t count, double fraction) {
+  return static_cast<size_t>(std::llround(static_cast<double>(count) * std::clamp(fraction, 0.0, 1.0)));
 }
 
 void spoil(SimulatedTracks& tracks, size_t index, const Eigen::Matrix3d& H_ground,

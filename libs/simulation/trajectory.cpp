@@ -48,12 +48,12 @@ class ChannelMaker {
   Channel channel(double offset, double rate, std::initializer_list<double> amplitudes, double low_hz,
                   double high_hz) {
     Channel channel{offset, rate, {}};
-    const double share = (high_hz - low_hz) / static_cast<double>(amplitudes.size());
+    const double fraction = (high_hz - low_hz) / static_cast<double>(amplitudes.size());
     double band = low_hz;
     for (const double amplitude : amplitudes) {
-      const double frequency = uniform(band, band + share);
+      const double frequency = uniform(band, band + fraction);
       channel.sinusoids.push_back({amplitude, frequency, uniform(0, 2 * kPi)});
-      band += share;
+      band += fraction;
     }
     return channel;
   }

@@ -92,8 +92,8 @@ NormalEquations PackedPairs::linearise(const Eigen::Matrix3d& H, double knee) co
     const Lanes squared = off_u * off_u + off_v * off_v;
     // Eigen's root of four floats is an estimate that differs between processors.
     const Lanes root = squared.max(kTiny).unaryExpr([](float value) { return std::sqrt(value); });
-    const Lanes share = (knee_f / root).min(1);  // of the pair's influence that is left
-    const Lanes weight = counts * share;
+    const Lanes fraction = (knee_f / root).min(1);  // of the pair's influence that is left
+    const Lanes weight = counts * fraction;
 
     const Lanes s = weight * inverse_depth * inverse_depth;
     const Lanes sx = s * x, sy = s * y;
@@ -109,12 +109,12 @@ NormalEquations PackedPairs::linearise(const Eigen::Matrix3d& H, double knee) co
                                     pull_v * y, pull_v,     pull_depth * x, pull_depth * y};
     for (std::size_t k = 0; k < pull.size(); ++k) sums.gradient[k] += pull[k];
 
-    // Huber's cost, r^2 / 2 up to the knee k and k (r - k / 2) beyond: with k = share r there.
-    sums.cost += counts * share * (1 - 0.5F * share) * squared;
-    sums.influence_squares += counts * share * share * squared;
+    // Huber's cost, r^2 / 2 up to the knee k and k (r - k / 2) beyond: with k = fraction r there.
+    sums.cost += counts * fraction * (1 - 0.5F * fraction) * squared;
+    sums.influence_squares += counts * fraction * fraction * squared;
     sums.weights += weight;
     // Beyond the knee the influence keeps its length: it only turns with the residual's direction.
-    sums.slopes += counts * (share < 1).select(0.5F * share, Lanes::Ones());
+    sums.slopes += counts * (fraction < 1).select(0.5F * fraction, Lanes::Ones());
   }
   return assemble(sums);
 }

@@ -136,8 +136,9 @@ std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const st
   estimate.inliers = countOf(estimate.inlier);
   estimate.outliers = static_cast<int>(pairs.size()) - estimate.inliers;
   estimate.rms_px = rmsOf(pairs, H, estimate.inlier) * scaling.unit_px;
-  const double share = static_cast<double>(estimate.inliers) / countOf(allowed);
-  if (estimate.inliers < parameters.min_inliers || share < parameters.min_inlier_ratio) return std::nullopt;
+  const double fraction = static_cast<double>(estimate.inliers) / countOf(allowed);
+  if (estimate.inliers < parameters.min_inliers || fraction < parameters.min_inlier_ratio)
+    return std::nullopt;
   if (spreadOf(pairs, estimate.inlier, image) < parameters.min_spread) return std::nullopt;
   return estimate;
 }

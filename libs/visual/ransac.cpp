@@ -41,7 +41,7 @@ std::optional<Eigen::Matrix3d> Ransac::run() {
   for (int i = 0; i < needed; ++i) {
     const auto H = homographyThroughFour(candidates_, draw());
     if (!H) continue;
-    const Candidate candidate = judge(*H);
+    const Candidate candidate = score(*H);
     // Only a candidate that may become the best after its refinement is refined.
     if (candidate.inliers < 0.8 * best.inliers) continue;
     if (improve(*H, best)) needed = std::min(needed, neededIterations(best.inliers));
@@ -67,7 +67,7 @@ std::array<std::size_t, 4> Ransac::draw() {
 
 /// Truncated squared errors (MSAC) in units of the tracking noise, plus the prior's squared distance. Tracks
 /// err together, so that many of them count less than their number: otherwise a facade outvotes the prior.
-Ransac::Candidate Ransac::judge(const Eigen::Matrix3d& H) {
+Ransac::Candidate Ransac::score(const Eigen::Matrix3d& H) {
   squaredErrors(candidates_, H, squared_);
   const auto limit = static_cast<float>(threshold_ * threshold_);
   Candidate candidate{H, 0, 0};
@@ -94,7 +94,7 @@ bool Ransac::improve(const Eigen::Matrix3d& start, Candidate& best) {
   }
   bool better = false;
   for (const Eigen::Matrix3d& attempt : {start, H}) {
-    const Candidate candidate = judge(attempt);
+    const Candidate candidate = score(attempt);
     if (candidate.cost >= best.cost) continue;
     best = candidate;
     better = true;
@@ -103,8 +103,8 @@ bool Ransac::improve(const Eigen::Matrix3d& start, Candidate& best) {
 }
 
 int Ransac::neededIterations(int inliers) const {
-  const double share = static_cast<double>(inliers) / static_cast<double>(candidates_.size());
-  const double clean = std::pow(share, 4);
+  const double fraction = static_cast<double>(inliers) / static_cast<double>(candidates_.size());
+  const double clean = std::pow(fraction, 4);
   if (clean >= 1) return 1;
   if (clean <= 0) return parameters_.max_iterations;
   const double needed = std::log(1 - parameters_.confidence) / std::log1p(-clean);

@@ -67,7 +67,7 @@ class Ransac {
   };
 
   std::array<std::size_t, 4> draw();
-  Candidate judge(const Eigen::Matrix3d& H);
+  Candidate score(const Eigen::Matrix3d& H);
   bool improve(const Eigen::Matrix3d& start, Candidate& best);
   int neededIterations(int inliers) const;
 

@@ -63,7 +63,7 @@ const char* toString(VisualStatus status) {
 VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& parameters)
     : parameters_(parameters), tracker_(parameters.tracker) {}
 
-void VisualHomographyEstimator::forgetReference() {
+void VisualHomographyEstimator::resetReference() {
   tracker_.reset();
   previous_utime_.reset();
   reference_sharpness_ = 0;
@@ -107,7 +107,7 @@ VisualHomography VisualHomographyEstimator::step(int64_t utime, const cv::Mat& g
   const bool connected = previous_utime_ && utime > *previous_utime_ &&
                          static_cast<double>(utime - *previous_utime_) <= 1e6 * parameters_.max_frame_gap_s &&
                          grey.size() == size_;
-  if (!connected) forgetReference();
+  if (!connected) resetReference();
   result.utime_previous = previous_utime_.value_or(utime);
 
   Pyramid image = tracker_.pyramidOf(grey);

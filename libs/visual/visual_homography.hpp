@@ -59,7 +59,7 @@ class VisualHomographyEstimator {
                         const std::optional<HomographyPrediction>& prediction);
 
  private:
-  void forgetReference();
+  void resetReference();
   void adopt(int64_t utime, cv::Size size, double sharpness);
   bool isBlind(const Pyramid& image, double sharpness) const;
   std::optional<HomographyEstimate> estimateGround(

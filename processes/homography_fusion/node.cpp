@@ -198,7 +198,7 @@ void HomographyFusionNode::addSources(fused_homography_t& message, const FusedHo
       // Refused or not: the inertial filter judges for itself, or a filter gone wrong would never be told.
       message.has_observation = 1;
       fill(message.H_observed, matrix3(visual->H));
-      fill(message.covariance_observed, believedCovariance(inputOf(*visual), configuration_.fusion));
+      fill(message.covariance_observed, measurementCovariance(inputOf(*visual), configuration_.fusion));
     }
     if (fused.source != FusionSource::kNone) {
       const auto front =

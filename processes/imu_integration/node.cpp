@@ -107,7 +107,7 @@ void ImuIntegrationNode::warmStart() {
     return;
   }
   const SnapshotCheck verdict = filter_.warmStart(snapshotOf(*kept));
-  if (verdict == SnapshotCheck::kBelieved) {
+  if (verdict == SnapshotCheck::kAccepted) {
     spdlog::info("goes on from the kept state of {} us: {:.2f} m above the ground", kept->utime,
                  kept->height);
   } else {

@@ -117,7 +117,7 @@ TEST(Calibration, nothingIsRefusedWhereEverythingMoves) {
   const SimulatedRecording r = simulateRecording(Trajectory::calibration(12, 6), 12, briefly());
   const CalibrationResult result = calibrate(r.input);
   for (const ParameterReport& report : result.parameters) {
-    EXPECT_EQ(report.verdict, Verdict::kFound) << report.name << ": " << report.words;
+    EXPECT_EQ(report.verdict, Verdict::kFound) << report.name << ": " << report.explanation;
   }
   ASSERT_EQ(result.split_half.size(), 4U);
   for (const SplitHalfEntry& entry : result.split_half) EXPECT_LT(entry.ratio(), 4) << entry.name;
@@ -136,7 +136,7 @@ TEST(Calibration, hoverRefusesRotationTimeShiftAndHeight) {
   const CalibrationResult result = calibrate(r.input);
   for (const char* name : {"camera.timeshift_s", "plane.height_m", "camera.R_CI", "camera.p_IC"}) {
     EXPECT_EQ(result.parameter(name).verdict, Verdict::kRefused)
-        << name << ": " << result.parameter(name).words;
+        << name << ": " << result.parameter(name).explanation;
   }
   EXPECT_EQ(result.values.kept.R_CI, r.input.nominal.R_CI);
   EXPECT_EQ(result.values.kept.timeshift_s, r.input.nominal.timeshift_s);
@@ -166,7 +166,7 @@ TEST(Calibration, turningAboutOneAxisDoesNotShowTheRotation) {
   const SimulatedRecording r = simulateRecording(Trajectory(p), 23, briefly());
   const CalibrationResult result = calibrate(r.input);
   const ParameterReport& report = result.parameter("camera.R_CI");
-  EXPECT_NE(report.verdict, Verdict::kFound) << report.words;
+  EXPECT_NE(report.verdict, Verdict::kFound) << report.explanation;
   EXPECT_LT(result.excitation.rotation(1), 0.1 * result.excitation.rotation(0));
 }
 

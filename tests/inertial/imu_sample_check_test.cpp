@@ -28,7 +28,7 @@ std::vector<ImuSample> gentleFlight(int samples) {
   return flight;
 }
 
-std::vector<ImuSample> believed(ImuSampleCheck& check, const std::vector<ImuSample>& samples) {
+std::vector<ImuSample> accepted(ImuSampleCheck& check, const std::vector<ImuSample>& samples) {
   std::vector<ImuSample> result;
   for (const ImuSample& sample : samples) {
     for (const ImuSample& good : check.take(sample)) result.push_back(good);
@@ -45,7 +45,7 @@ TEST(ImuSampleCheck, BelievesAFlightAndItsVibration) {
     flight[i].accel.z() += i % 2 == 0 ? 8 : -8;
     flight[i].gyro.x() += i % 2 == 0 ? 0.4 : -0.4;
   }
-  believed(check, flight);
+  accepted(check, flight);
   EXPECT_LE(refused(check), 40) << "the first few of a vibration may be doubted";
   EXPECT_EQ(check.refusedOn(flight[1100].utime, flight.back().utime), 0);
 }
@@ -55,7 +55,7 @@ TEST(ImuSampleCheck, RefusesASpikeAndKeepsItsNeighbours) {
   std::vector<ImuSample> flight = gentleFlight(100);
   flight[50].gyro.y() -= 8;
   flight[70].accel.x() += 40;
-  const auto good = believed(check, flight);
+  const auto good = accepted(check, flight);
   EXPECT_EQ(good.size(), 98U);
   EXPECT_EQ(refused(check), 2);
   EXPECT_EQ(check.refusedOn(flight[49].utime, flight[50].utime), 1);
@@ -68,7 +68,7 @@ TEST(ImuSampleCheck, BelievesAManoeuvre) {
     flight[i].gyro.x() += std::min(6.0, 1.5 * static_cast<double>(i - 49));  // 300 rad/s^2
     flight[i].accel.z() += 20;                                               // a step
   }
-  EXPECT_EQ(believed(check, flight).size(), 100U);
+  EXPECT_EQ(accepted(check, flight).size(), 100U);
   EXPECT_EQ(refused(check), 0);
 }
 
@@ -77,7 +77,7 @@ TEST(ImuSampleCheck, RefusesWhatTheRangeCutsOff) {
   std::vector<ImuSample> flight = gentleFlight(60);
   for (size_t i = 20; i < 30; ++i) flight[i].gyro.z() = -10;
   flight[40].accel.x() = 80;
-  EXPECT_EQ(believed(check, flight).size(), 49U);
+  EXPECT_EQ(accepted(check, flight).size(), 49U);
   EXPECT_EQ(refused(check), 11);
 }
 
@@ -89,7 +89,7 @@ TEST(ImuSampleCheck, RefusesOneStuckSensorUntilItMoves) {
       if (gyro) flight[i].gyro = flight[100].gyro;
       if (!gyro) flight[i].accel = flight[100].accel;
     }
-    believed(check, flight);
+    accepted(check, flight);
     EXPECT_EQ(check.refusedOn(flight[111].utime, flight[199].utime), 88) << "from 50 ms on";
     EXPECT_EQ(check.refusedOn(flight[0].utime, flight[109].utime), 0);
     EXPECT_LE(check.refusedOn(flight[199].utime, flight[299].utime), 1);
@@ -103,7 +103,7 @@ TEST(ImuSampleCheck, LateAndRepeatedSamplesPassButNoRefusedOne) {
   flight[10].gyro.x() += 20;
   flight.insert(flight.begin() + 11, flight[10]);
   flight.insert(flight.begin() + 13, flight[10]);
-  const auto good = believed(check, flight);
+  const auto good = accepted(check, flight);
   EXPECT_EQ(good.size(), 19U);
   for (const ImuSample& sample : good) EXPECT_LT(sample.gyro.norm(), 2);
 }
@@ -111,16 +111,16 @@ TEST(ImuSampleCheck, LateAndRepeatedSamplesPassButNoRefusedOne) {
 TEST(ImuSampleCheck, StartsAnewWhereTimeIsSetBack) {
   ImuSampleCheck check({});
   std::vector<ImuSample> flight = gentleFlight(50);
-  believed(check, flight);
+  accepted(check, flight);
   for (ImuSample& sample : flight) sample.utime -= 3'600'000'000;
   flight[30].accel.x() += 60;
-  EXPECT_EQ(believed(check, flight).size(), 49U);
+  EXPECT_EQ(accepted(check, flight).size(), 49U);
 }
 
 TEST(ImuSampleCheck, RemembersABoundedNumber) {
   ImuSampleCheck check({1, 1});
   const std::vector<ImuSample> flight = gentleFlight(100);
-  for (int round = 0; round < 200; ++round) believed(check, flight);
+  for (int round = 0; round < 200; ++round) accepted(check, flight);
   EXPECT_LE(refused(check), 8192);
   check.eraseBefore(10'000'000'000);
   EXPECT_EQ(refused(check), 0);

@@ -86,7 +86,8 @@ void readSource(const CalibrateOptions& options, const Configuration& configurat
 
 void printVerdicts(const CalibrationResult& result) {
   for (const calibration::ParameterReport& report : result.parameters) {
-    std::printf("%-19s %-14s %s\n", report.name.c_str(), toString(report.verdict), report.words.c_str());
+    std::printf("%-19s %-14s %s\n", report.name.c_str(), toString(report.verdict),
+                report.explanation.c_str());
   }
   for (const std::string& warning : result.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 }

@@ -62,7 +62,7 @@ bool isKept(const CalibrationResult& result, const char* name) {
 
 std::string verdictComment(const CalibrationResult& result, const char* name) {
   const ParameterReport& report = result.parameter(name);
-  return std::string("# ") + name + ": " + toString(report.verdict) + ", " + report.words + "\n";
+  return std::string("# ") + name + ": " + toString(report.verdict) + ", " + report.explanation + "\n";
 }
 
 double imuRate(const CalibrationInput& input) {
@@ -177,7 +177,7 @@ std::string verdictJson(const CalibrationResult& result, const CalibrationSubjec
   for (const ParameterReport& report : result.parameters) {
     auto& entry = json["parameters"][report.name];
     entry["status"] = toString(report.verdict);
-    entry["words"] = report.words;
+    entry["words"] = report.explanation;
     entry["unit"] = report.unit;
     entry["value"] = report.value;
     entry["sigma"] = report.sigma;

@@ -46,7 +46,7 @@ std::string parameterTable(const CalibrationResult& result) {
     const std::string status = toString(report.verdict);
     out << "<tr><td>" << report.name << "</td><td>" << list(report.value) << "</td><td>" << list(report.sigma)
         << "</td><td>" << list(report.nominal) << "</td><td>" << report.unit << "</td><td><b class=\""
-        << status << "\">" << status << "</b>: " << report.words << "</td></tr>\n";
+        << status << "\">" << status << "</b>: " << report.explanation << "</td></tr>\n";
   }
   out << "</table>\n<p>camera.R_CI: rotation vector from the nominal to the estimated rotation, about the "
          "camera's axes.</p>\n";
