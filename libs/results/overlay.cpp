@@ -1,7 +1,8 @@
 #include "redbee/results/overlay.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <array>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
 namespace redbee {
@@ -10,7 +11,7 @@ namespace {
 const cv::Scalar kMaskColour(60, 60, 255);
 const cv::Scalar kCarriedColour(170, 170, 170);
 
-/// Neighbouring identities get colours that are far apart.
+/// Consecutive identities get clearly different colours.
 cv::Scalar identityColour(int id) {
   static const std::array<cv::Scalar, 8> kColours = {cv::Scalar(0, 230, 255),   cv::Scalar(255, 190, 0),
                                                      cv::Scalar(90, 255, 90),   cv::Scalar(255, 90, 255),
@@ -19,7 +20,7 @@ cv::Scalar identityColour(int id) {
   return kColours[static_cast<size_t>(id < 0 ? -id : id) % kColours.size()];
 }
 
-/// White on a dark rim reads on any ground.
+/// A dark outline keeps the text readable on any background.
 void putLabel(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Scalar& colour) {
   constexpr double kScale = 0.45;
   cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, kScale, cv::Scalar::all(0), 3, cv::LINE_AA);
@@ -57,15 +58,10 @@ void drawDetection(cv::Mat& canvas, const Detection& detection) {
 }
 
 std::string statusLine(const OverlayStatus& status) {
-  char text[160];
-  int used = std::snprintf(text, sizeof text, "%.3f s", static_cast<double>(status.utime) / 1e6);
-  if (status.fps > 0)
-    used += std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %.1f fps", status.fps);
-  if (!status.source.empty()) {
-    std::snprintf(text + used, sizeof text - static_cast<size_t>(used), "  %s  epoch %d",
-                  status.source.c_str(), status.epoch);
-  }
-  return std::string(text) + (status.message.empty() ? "" : "  " + status.message);
+  std::string line = fmt::format("{:.3f} s", static_cast<double>(status.utime) / 1e6);
+  if (status.fps > 0) line += fmt::format("  {:.1f} fps", status.fps);
+  if (!status.source.empty()) line += fmt::format("  {}  epoch {}", status.source, status.epoch);
+  return line + (status.message.empty() ? "" : "  " + status.message);
 }
 
 }  // namespace

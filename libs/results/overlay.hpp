@@ -1,4 +1,4 @@
-// A image with what was found drawn on it.
+// An image with the detections drawn on it.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct OverlayStatus {
 };
 
 /// `image`: 8-bit grey or BGR. `mask`: 0/255 of the same size, or empty. A new BGR image with the mask's
-/// tint and outline, a box with the identity per detection (grey where the tracker carried it through a frame
-/// in which it was not seen), and the status in the top line.
+/// tint and outline, a box with the identity per detection (grey if the tracker only predicted it in this
+/// frame), and the status in the top line.
 cv::Mat drawOverlay(const cv::Mat& image, const cv::Mat& mask, const std::vector<Detection>& detections,
                     const OverlayStatus& status);
 

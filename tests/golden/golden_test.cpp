@@ -1,6 +1,6 @@
 // The bundled flight, replayed: homographies, areas and detections of every frame against the file in the
-// repo, so that any change of the output shows in the diff of a commit. REDBEE_UPDATE_GOLDEN=1 writes the
-// file anew.
+// repository, so that any change of the output shows in the diff of a commit. REDBEE_UPDATE_GOLDEN=1 rewrites
+// the file.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "processes/redbee/detect/detect.hpp"
 #include "redbee/files/csv.hpp"
 #include "redbee/geometry/homography.hpp"
+#include "redbee/results/run_folder.hpp"
 
 namespace redbee {
 namespace {
@@ -31,24 +31,17 @@ using Rows = std::map<int64_t, Row>;
 fs::path source() { return REDBEE_SOURCE_DIR; }
 fs::path goldenFile() { return source() / "tests" / "golden" / "park1.csv"; }
 
-Rows rowsOf(const fs::path& results) {
+Rows rowsOf(const RunFolder& run) {
   Rows rows;
-  for (const auto& entry : fs::directory_iterator(results / "mask")) {
-    Row row;
-    row.utime = std::stoll(entry.path().stem().string());
-    row.area = cv::countNonZero(cv::imread(entry.path().string(), cv::IMREAD_GRAYSCALE));
-    rows[row.utime] = row;
+  for (const int64_t utime : run.times(RunMap::kMask)) {
+    Row& row = rows[utime];
+    row.utime = utime;
+    row.area = cv::countNonZero(run.read(RunMap::kMask, utime));
   }
-  CsvReader homographies(results / "homography.csv");
-  homographies.next(0);
-  while (homographies.next(0)) {
-    Row& row = rows[homographies.integer(0)];
-    if (homographies.fields()[2].empty()) continue;
-    for (int i = 0; i < 9; ++i) row.H(i / 3, i % 3) = homographies.number(static_cast<size_t>(2 + i));
+  for (const auto& [utime, homographies] : run.homographies()) {
+    if (homographies.ground) rows[utime].H = *homographies.ground;
   }
-  CsvReader detections(results / "detections.csv");
-  detections.next(11);
-  while (detections.next(11)) ++rows[detections.integer(10)].detections;
+  for (const auto& [utime, detection] : run.detections()) ++rows[utime].detections;
   return rows;
 }
 
@@ -90,7 +83,7 @@ TEST(Golden, TheBundledFlightGivesWhatItGave) {
   options.out = results;
   options.quiet = true;
   runDetect(options);
-  const Rows rows = rowsOf(results);
+  const Rows rows = rowsOf(RunFolder(results));
   fs::remove_all(results);
   if (std::getenv("REDBEE_UPDATE_GOLDEN") != nullptr) write(goldenFile(), rows);
 

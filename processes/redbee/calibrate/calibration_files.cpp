@@ -1,10 +1,10 @@
 #include "processes/redbee/calibrate/calibration_files.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "processes/redbee/pages/number.hpp"
 #include "redbee/geometry/angle.hpp"
 
 namespace redbee {
@@ -15,18 +15,10 @@ using calibration::CalibrationResult;
 using calibration::ParameterReport;
 using calibration::Verdict;
 
-/// Enough digits to read back the same number.
-std::string exact(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
+/// Reads back to the last bit.
+std::string exact(double value) { return significant(value, 17); }
 
-std::string brief(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string rounded(double value) { return significant(value, 4); }
 
 template <typename Numbers>
 std::string list(const Numbers& numbers) {
@@ -126,12 +118,12 @@ std::string kalibrImu(const CalibrationInput& input, const CalibrationResult& re
                       const CalibrationSubject& subject) {
   std::ostringstream text;
   text << origin(subject) << "# Noise densities as configured; the residuals ask for "
-       << brief(result.imu_sigma_scale) << " times as much.\n"
+       << rounded(result.imu_sigma_scale) << " times as much.\n"
        << "accelerometer_noise_density: " << exact(input.noise.accel_noise_density) << "  # m/s^2/sqrt(Hz)\n"
        << "accelerometer_random_walk: " << exact(input.noise.accel_random_walk) << "  # m/s^3/sqrt(Hz)\n"
        << "gyroscope_noise_density: " << exact(input.noise.gyro_noise_density) << "  # rad/s/sqrt(Hz)\n"
        << "gyroscope_random_walk: " << exact(input.noise.gyro_random_walk) << "  # rad/s^2/sqrt(Hz)\n"
-       << "rostopic: /imu0\nupdate_rate: " << brief(imuRate(input)) << "  # Hz\n"
+       << "rostopic: /imu0\nupdate_rate: " << rounded(imuRate(input)) << "  # Hz\n"
        << "# At the start of the recording (they change from one power-up to the next):\n"
        << "#   gyro bias [rad/s]: " << list(result.values.gyro_bias) << "\n"
        << "#   accelerometer bias [m/s^2]: " << list(result.values.accel_bias) << "\n";

@@ -1,10 +1,10 @@
 #include "processes/redbee/calibrate/calibration_report.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <sstream>
 
+#include "processes/redbee/pages/number.hpp"
+#include "processes/redbee/pages/page.hpp"
 #include "processes/redbee/pages/svg_plot.hpp"
 #include "redbee/geometry/angle.hpp"
 
@@ -21,83 +21,85 @@ using calibration::RatePair;
 constexpr const char* kAxisColours[] = {"#c0392b", "#1e8449", "#2471a3"};
 constexpr const char* kBefore = "#d68910";
 constexpr const char* kAfter = "#1f618d";
-constexpr const char* kStyle =
-    "body{font:15px/1.5 sans-serif;max-width:960px;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse}td,th{padding:.25em .8em;border-bottom:1px solid #ddd;text-align:left}"
-    ".found{color:#1e8449}.weak{color:#b9770e}.refused{color:#c0392b}h1{font-size:1.4em}h2{font-size:1.1em}";
 
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string rounded(double value) { return significant(value, 4); }
 
 std::string list(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + brief(value);
+  for (const double value : values) text += (text.empty() ? "" : ", ") + rounded(value);
   return text;
 }
 
-std::string parameterTable(const CalibrationResult& result) {
-  std::ostringstream out;
-  out << "<table><tr><th>parameter</th><th>value</th><th>sigma</th><th>nominal</th><th>unit</th><th>verdict</"
-         "th></tr>\n";
+Tone toneOf(calibration::Verdict verdict) {
+  switch (verdict) {
+    case calibration::Verdict::kFound:
+      return Tone::kGood;
+    case calibration::Verdict::kWeak:
+      return Tone::kWeak;
+    case calibration::Verdict::kRefused:
+      return Tone::kBad;
+    case calibration::Verdict::kNotApplicable:
+      return Tone::kNeutral;
+  }
+  return Tone::kNeutral;
+}
+
+Table parameterTable(const CalibrationResult& result) {
+  Table table;
+  table.columns = {"parameter", "value", "sigma", "nominal", "unit", "verdict", ""};
+  table.text_columns = {0, 1, 2, 3, 4, 5, 6};
   for (const ParameterReport& report : result.parameters) {
-    const std::string status = toString(report.verdict);
-    out << "<tr><td>" << report.name << "</td><td>" << list(report.value) << "</td><td>" << list(report.sigma)
-        << "</td><td>" << list(report.nominal) << "</td><td>" << report.unit << "</td><td><b class=\""
-        << status << "\">" << status << "</b>: " << report.explanation << "</td></tr>\n";
+    table.rows.push_back({report.name, list(report.value), list(report.sigma), list(report.nominal),
+                          report.unit, Cell(toString(report.verdict), toneOf(report.verdict)), report.explanation});
   }
-  out << "</table>\n<p>camera.R_CI: rotation vector from the nominal to the estimated rotation, about the "
-         "camera's axes.</p>\n";
-  return out.str();
+  table.notes = {
+      "camera.R_CI: rotation vector from the nominal to the estimated rotation, about the camera's axes."};
+  return table;
 }
 
-std::string factsTable(const CalibrationResult& result) {
+Table recordingTable(const CalibrationResult& result) {
   const auto& excitation = result.excitation;
-  std::ostringstream out;
-  const auto row = [&](const char* name, const std::string& value) {
-    out << "<tr><td>" << name << "</td><td>" << value << "</td></tr>\n";
+  const auto degrees = [](const Eigen::Vector3d& v) {
+    return list({v(0) / kDegree, v(1) / kDegree, v(2) / kDegree});
   };
-  out << "<table>\n";
-  row("frames used / given", std::to_string(result.frames) + " / " + std::to_string(result.frames_given));
-  row("measurements used", std::to_string(result.measurements));
-  row("duration", brief(result.duration_s) + " s");
-  row("points about their own fit", brief(result.points_rms_px) + " px rms");
-  row("rotation about its principal axes (singular values)",
-      brief(excitation.rotation(0) / kDegree) + ", " + brief(excitation.rotation(1) / kDegree) + ", " +
-          brief(excitation.rotation(2) / kDegree) + " deg/s rms");
-  row("correlation of the turning rates", brief(excitation.rotation_correlation));
-  row("acceleration of the drone itself", brief(excitation.acceleration) + " m/s&sup2; rms");
-  row("sigma of R_CI along its principal directions",
-      brief(excitation.rotation_sigmas(0) / kDegree) + ", " + brief(excitation.rotation_sigmas(1) / kDegree) +
-          ", " + brief(excitation.rotation_sigmas(2) / kDegree) + " deg");
-  row("stated deviations were scaled by (vision, IMU)",
-      brief(result.vision_sigma_scale) + ", " + brief(result.imu_sigma_scale));
-  row("reported deviations were scaled by (the scene's misfit, the halves' disagreement)",
-      brief(result.misfit_sigma_scale) + ", " + brief(result.halves_sigma_scale));
-  out << "</table>\n";
-  return out.str();
+  Table table;
+  table.text_columns = {0, 1};
+  table.rows = {
+      {"frames used / given", fmt::format("{} / {}", result.frames, result.frames_given)},
+      {"measurements used", std::to_string(result.measurements)},
+      {"duration", rounded(result.duration_s) + " s"},
+      {"points about their own fit", rounded(result.points_rms_px) + " px rms"},
+      {"rotation about its principal axes (singular values)", degrees(excitation.rotation) + " deg/s rms"},
+      {"correlation of the turning rates", rounded(excitation.rotation_correlation)},
+      {"acceleration of the drone itself", rounded(excitation.acceleration) + " m/s^2 rms"},
+      {"sigma of R_CI along its principal directions", degrees(excitation.rotation_sigmas) + " deg"},
+      {"scale of the measurements' sigmas (vision, IMU)",
+       list({result.vision_sigma_scale, result.imu_sigma_scale})},
+      {"scale of the reported sigmas (misfit of the scene, disagreement of the halves)",
+       list({result.misfit_sigma_scale, result.halves_sigma_scale})}};
+  return table;
 }
 
-std::string splitHalfTable(const CalibrationResult& result) {
-  if (result.split_half.empty()) return "<p>A half is too short to be calibrated on its own.</p>\n";
-  std::ostringstream out;
-  out << "<table><tr><th>parameter</th><th>difference</th><th>its "
-         "sigma</th><th>unit</th><th>ratio</th></tr>\n";
-  for (const auto& entry : result.split_half) {
-    out << "<tr><td>" << entry.name << "</td><td>" << brief(entry.difference) << "</td><td>"
-        << brief(entry.sigma) << "</td><td>" << entry.unit << "</td><td>" << brief(entry.ratio())
-        << "</td></tr>\n";
+Table splitHalfTable(const CalibrationResult& result) {
+  Table table;
+  if (result.split_half.empty()) {
+    table.notes = {"Half of the recording is too short to be calibrated on its own."};
+    return table;
   }
-  out << "</table>\n";
-  return out.str();
+  table.columns = {"parameter", "difference", "its sigma", "unit", "ratio"};
+  for (const auto& entry : result.split_half) {
+    table.rows.push_back(
+        {entry.name, rounded(entry.difference), rounded(entry.sigma), entry.unit, rounded(entry.ratio())});
+  }
+  return table;
 }
 
-std::string ratePlots(const Diagnostics& diagnostics) {
+using Plots = std::vector<std::string>;
+
+Plots ratePlots(const Diagnostics& diagnostics) {
   const HandEye& solution = diagnostics.alignment.hand_eye;
   const char* axes[] = {"x", "y", "z"};
-  std::string text;
+  Plots plots;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> measured, predicted;
     for (const RatePair& pair : diagnostics.alignment.rates) {
@@ -107,9 +109,9 @@ std::string ratePlots(const Diagnostics& diagnostics) {
     SvgPlot plot(std::string("Turning rate about the camera's ") + axes[axis], "s", "deg/s");
     plot.addLine("measured by vision", diagnostics.alignment.t_s, measured, kBefore);
     plot.addLine("predicted from the gyro", diagnostics.alignment.t_s, predicted, kAfter);
-    text += plot.svg();
+    plots.push_back(plot.svg());
   }
-  return text;
+  return plots;
 }
 
 std::string rateResidualPlot(const CalibrationInput& input, const Diagnostics& diagnostics) {
@@ -126,7 +128,7 @@ std::string rateResidualPlot(const CalibrationInput& input, const Diagnostics& d
   return plot.svg();
 }
 
-std::string shiftPlots(const CalibrationResult& result) {
+Plots shiftPlots(const CalibrationResult& result) {
   const auto milliseconds = [](std::vector<double> values) {
     for (double& value : values) value *= 1e3;
     return values;
@@ -140,7 +142,7 @@ std::string shiftPlots(const CalibrationResult& result) {
   for (double& value : residual) value /= kDegree;
   fine.addLine("", milliseconds(alignment.residual_curve.shift_s), residual, kAfter);
   fine.addMark("joint estimate", 1e3 * result.values.estimated.timeshift_s);
-  return coarse.svg() + fine.svg();
+  return {coarse.svg(), fine.svg()};
 }
 
 std::string transferPlot(const Diagnostics& diagnostics, bool target) {
@@ -153,29 +155,29 @@ std::string transferPlot(const Diagnostics& diagnostics, bool target) {
   return plot.svg();
 }
 
-double quantile(const std::vector<Eigen::Vector2d>& points, double share) {
+double quantile(const std::vector<Eigen::Vector2d>& points, double fraction) {
   if (points.empty()) return 1;
   std::vector<double> norms;
   norms.reserve(points.size());
   for (const Eigen::Vector2d& point : points) norms.push_back(point.norm());
-  const auto place = norms.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(norms.size() - 1));
+  const auto place = norms.begin() + static_cast<ptrdiff_t>(fraction * static_cast<double>(norms.size() - 1));
   std::nth_element(norms.begin(), place, norms.end());
   return std::max(*place, 1e-3);
 }
 
-std::string scatterPlots(const Diagnostics& diagnostics) {
+Plots scatterPlots(const Diagnostics& diagnostics) {
   const double reach = 1.3 * std::max(quantile(diagnostics.scatter_before_px, 0.9),
                                       quantile(diagnostics.scatter_after_px, 0.9));
-  std::string text;
+  Plots plots;
   const auto add = [&](const char* title, const std::vector<Eigen::Vector2d>& points, const char* colour) {
     SvgPlot plot(title, "px", "px");
     plot.addPoints("", points, colour);
     plot.makeSquare(-reach, reach);
-    text += plot.svg();
+    plots.push_back(plot.svg());
   };
   add("Ground points before", diagnostics.scatter_before_px, kBefore);
   add("Ground points after", diagnostics.scatter_after_px, kAfter);
-  return text;
+  return plots;
 }
 
 std::string biasPlot(const char* title, const char* unit, const std::vector<double>& t,
@@ -209,26 +211,35 @@ std::string calibrationReport(const CalibrationInput& input, const CalibrationRe
                               const CalibrationSubject& subject) {
   const bool target = !input.target.empty();
   const Diagnostics& diagnostics = result.diagnostics;
-  std::ostringstream out;
-  out << "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>Calibration of " << subject.vehicle
-      << "</title><style>" << kStyle << "</style></head><body>\n<h1>Calibration of " << subject.vehicle
-      << "</h1>\n<p>From " << subject.source << "</p>\n";
-  for (const std::string& warning : result.warnings)
-    out << "<p class=\"weak\">Warning: " << warning << "</p>\n";
-  out << "<h2>Verdicts</h2>\n" << parameterTable(result);
-  out << "<h2>The recording</h2>\n" << factsTable(result);
-  out << "<h2>Halves against each other</h2>\n" << splitHalfTable(result);
+  Page page("REDBEE " REDBEE_VERSION ": calibration of " + subject.vehicle);
+  page.addParagraph("From " + subject.source);
+  for (const std::string& warning : result.warnings) page.addParagraph("Warning: " + warning, Tone::kWeak);
+  page.addHeading("Verdicts");
+  page.addTable(parameterTable(result));
+  page.addHeading("The recording");
+  page.addTable(recordingTable(result));
+  page.addHeading("First half against second half");
+  page.addTable(splitHalfTable(result));
   if (diagnostics.alignment.possible) {
-    out << "<h2>Rotation</h2>\n" << ratePlots(diagnostics) << rateResidualPlot(input, diagnostics);
-    out << "<h2>Time shift</h2>\n" << shiftPlots(result);
+    page.addHeading("Rotation");
+    Plots plots = ratePlots(diagnostics);
+    plots.push_back(rateResidualPlot(input, diagnostics));
+    page.addPlots(plots, 2);
+    page.addHeading("Time shift");
+    page.addPlots(shiftPlots(result), 2);
   }
-  out << "<h2>Residuals before and after</h2>\n" << transferPlot(diagnostics, target);
-  if (!target) out << scatterPlots(diagnostics) << "<h2>Height</h2>\n" << heightPlot(input, diagnostics);
-  out << "<h2>Biases</h2>\n"
-      << biasPlot("Gyro bias", "deg/s", diagnostics.bias_t_s, diagnostics.gyro_bias, 1 / kDegree)
-      << biasPlot("Accelerometer bias", "m/s^2", diagnostics.bias_t_s, diagnostics.accel_bias, 1);
-  out << "</body></html>\n";
-  return out.str();
+  page.addHeading("Residuals before and after");
+  page.addPlots({transferPlot(diagnostics, target)}, 2);
+  if (!target) {
+    page.addPlots(scatterPlots(diagnostics), 3);
+    page.addHeading("Height");
+    page.addPlots({heightPlot(input, diagnostics)}, 2);
+  }
+  page.addHeading("Biases");
+  page.addPlots({biasPlot("Gyro bias", "deg/s", diagnostics.bias_t_s, diagnostics.gyro_bias, 1 / kDegree),
+                 biasPlot("Accelerometer bias", "m/s^2", diagnostics.bias_t_s, diagnostics.accel_bias, 1)},
+                2);
+  return page.html();
 }
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// report.html of `redbee calibrate`: verdicts and images on one page that stands alone.
+// report.html of `redbee calibrate`: verdicts and plots on one page.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// redbee collect: writes down what running processes say.
+// redbee collect: saves the results of running processes.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct CollectOptions {
   std::string url;
 };
 
-/// Until SIGINT or SIGTERM. Frames heard of.
+/// Until SIGINT or SIGTERM. Number of frames received.
 int64_t runCollect(const CollectOptions& options);
 
 }  // namespace redbee

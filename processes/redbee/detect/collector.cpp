@@ -2,32 +2,18 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "processes/conversions.hpp"
 #include "redbee/bus/build_version.hpp"
-#include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_error.hpp"
-#include "redbee/results/results.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr int kQueue = 256;
 
-std::string imageName(int64_t utime) { return std::to_string(utime) + ".png"; }
-
 std::string_view bytesOf(const std::vector<uint8_t>& data) {
   return {reinterpret_cast<const char*>(data.data()), data.size()};
-}
-
-/// A run of another flight, or with frames that this one skips, must not be taken for this one's.
-void removeMaps(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> old;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".png") old.push_back(entry.path());
-  }
-  for (const auto& file : old) std::filesystem::remove(file);
 }
 
 Detection detectionOf(const detection_t& message) {
@@ -43,7 +29,7 @@ Detection detectionOf(const detection_t& message) {
 nlohmann::json stageJson(const process_health_t& health) {
   return {{"median_ms", health.work_median}, {"p99_ms", health.work_p99}, {"mean_ms", health.work_mean},
           {"frames", health.published},      {"skipped", health.skipped}, {"lost", health.lost},
-          {"damaged", health.damaged},       {"given_up", health.late},   {"resident_bytes", health.resident},
+          {"damaged", health.damaged},       {"timed_out", health.late},  {"resident_bytes", health.resident},
           {"state", health.state},           {"message", health.message}};
 }
 
@@ -51,11 +37,11 @@ nlohmann::json stageJson(const process_health_t& health) {
 nlohmann::json cpuJson(const ProcessUsage& usage, int64_t frames, nlohmann::json& stages) {
   const auto per_frame = [&](double milliseconds) { return milliseconds / static_cast<double>(frames); };
   CpuTime sum;
-  for (const auto& [stage, share] : usage.stages) {
-    sum.work += share.work;
-    sum.publishing += share.publishing;
-    stages[stage]["cpu_ms_per_frame"] = per_frame(share.work);
-    stages[stage]["cpu_publishing_ms_per_frame"] = per_frame(share.publishing);
+  for (const auto& [stage, time] : usage.stages) {
+    sum.work += time.work;
+    sum.publishing += time.publishing;
+    stages[stage]["cpu_ms_per_frame"] = per_frame(time.work);
+    stages[stage]["cpu_publishing_ms_per_frame"] = per_frame(time.publishing);
   }
   return {{"work", per_frame(sum.work)},
           {"publishing", per_frame(sum.publishing)},
@@ -65,13 +51,8 @@ nlohmann::json cpuJson(const ProcessUsage& usage, int64_t frames, nlohmann::json
 }  // namespace
 
 ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesystem::path folder)
-    : folder_(std::move(folder)) {
-  for (const char* kind : {"probability", "mask"}) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_ / kind, error);
-    if (error) throw InputError(folder_ / kind, error.message());
-    removeMaps(folder_ / kind);
-  }
+    : run_(std::move(folder)) {
+  run_.prepare();
   const auto damaged = [this] { ++damaged_; };
   bus.subscribe<foreground_t>(
       channels.foreground, kQueue, [this](const foreground_t& m) { takeForeground(m); }, damaged);
@@ -87,8 +68,8 @@ void ResultCollector::takeForeground(const foreground_t& message) {
   foreground_sequence_.note(message.sequence);
   status_[message.utime] = message.status;
   try {
-    writeAtomically(folder_ / "probability" / imageName(message.utime), bytesOf(message.probability));
-    writeAtomically(folder_ / "mask" / imageName(message.utime), bytesOf(message.mask));
+    run_.write(RunMap::kProbability, message.utime, bytesOf(message.probability));
+    run_.write(RunMap::kMask, message.utime, bytesOf(message.mask));
   } catch (const InputError& error) {
     if (first_failure_.empty()) first_failure_ = error.what();
   }
@@ -103,7 +84,7 @@ void ResultCollector::takeFused(const fused_homography_t& message) {
 }
 
 void ResultCollector::writeDetections() const {
-  DetectionsCsv csv(folder_ / "detections.csv");
+  DetectionsCsv csv = run_.createDetections();
   int64_t frame = 0;
   for (const auto& [utime, status] : status_) {
     const auto found = detections_.find(utime);
@@ -117,13 +98,14 @@ void ResultCollector::writeDetections() const {
 }
 
 void ResultCollector::writeHomographies() const {
-  HomographyCsv csv(folder_ / "homography.csv");
+  HomographyCsv csv = run_.createHomographies();
   for (const auto& [utime, fused] : homographies_) {
-    std::optional<Eigen::Matrix3d> ground;
-    std::optional<Eigen::Matrix3d> front;
-    if (fused.source != 0) ground = matrix3(fused.H);
-    if (fused.has_front != 0) front = matrix3(fused.H_front);
-    csv.write(utime, fused.epoch, ground, front, toString(static_cast<FusionSource>(fused.source)));
+    FrameHomographies row;
+    row.epoch = fused.epoch;
+    if (fused.source != 0) row.ground = matrix3(fused.H);
+    if (fused.has_front != 0) row.front = matrix3(fused.H_front);
+    row.source = toString(static_cast<FusionSource>(fused.source));
+    csv.write(utime, row);
   }
   csv.close();
 }
@@ -136,14 +118,14 @@ void ResultCollector::writeTables(double wall_s, const std::optional<ProcessUsag
   double slowest_ms = 0;
   int64_t lost = foreground_sequence_.lost() + fused_sequence_.lost() + damaged_;
   int64_t skipped = 0;
-  int64_t given_up = 0;
+  int64_t timed_out = 0;
   int64_t resident = 0;
   for (const auto& [process, health] : health_) {
     stages[process] = stageJson(health);
     slowest_ms = std::max(slowest_ms, health.work_mean);
     lost += health.lost + health.damaged;
     skipped += health.skipped;
-    given_up += health.late;
+    timed_out += health.late;
     resident += health.resident;
   }
   const int64_t good =
@@ -151,8 +133,7 @@ void ResultCollector::writeTables(double wall_s, const std::optional<ProcessUsag
   const nlohmann::json cpu =
       usage && frames() > 0 ? cpuJson(*usage, frames(), stages) : nlohmann::json::object();
   const auto per_second = [](double milliseconds) { return milliseconds > 0 ? 1000 / milliseconds : 0; };
-  writeJson(
-      folder_ / "summary.json",
+  run_.writeSummary(
       {{"version", buildVersion()},
        {"frames", frames()},
        {"frames_good", good},
@@ -160,7 +141,7 @@ void ResultCollector::writeTables(double wall_s, const std::optional<ProcessUsag
        {"wall_s", wall_s},
        {"lost", lost},
        {"skipped", skipped},
-       {"given_up", given_up},
+       {"timed_out", timed_out},
        {"stages", stages},
        {"cpu_ms_per_frame", cpu.value("work", nlohmann::json())},  // decoding and algorithm, all stages
        {"cpu_publishing_ms_per_frame", cpu.value("publishing", nlohmann::json())},

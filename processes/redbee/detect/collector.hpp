@@ -1,5 +1,5 @@
-// What a run leaves behind (contract.md): maps as PNG, detections.csv, homography.csv, summary.json. The same
-// for a run in one process and for one over LCM.
+// Collects the results of a run from its messages and writes them to a RunFolder, whether the stack runs in
+// this process or in others, over LCM.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,22 @@
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/node/health.hpp"
 #include "redbee/process_health_t.hpp"
+#include "redbee/results/run_folder.hpp"
 
 namespace redbee {
 
-/// Maps that an earlier run left in the folder are removed. Throws InputError where the folder cannot be
-/// written.
+/// Prepares the folder for a new run. Throws InputError where it cannot be written.
 class ResultCollector {
  public:
   ResultCollector(Bus& bus, const Channels& channels, std::filesystem::path folder);
 
   /// Frames whose FOREGROUND has come.
   int64_t frames() const { return static_cast<int64_t>(status_.size()); }
-  /// The latest word of each process.
+  /// The latest health message of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }
 
-  /// `wall_s`: how long the run took. `usage`: of the process that ran it; nothing where several did:
-  /// resident memory is then the sum over the processes heard.
+  /// `wall_s`: how long the run took. `usage`: of the process that ran all of it; nothing where
+  /// several did: resident memory is then the sum over the processes whose health was received.
   void writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const;
 
  private:
@@ -40,7 +40,7 @@ class ResultCollector {
   void writeDetections() const;
   void writeHomographies() const;
 
-  std::filesystem::path folder_;
+  RunFolder run_;
   std::map<int64_t, int8_t> status_;  ///< of each frame's foreground
   std::map<int64_t, detections_t> detections_;
   std::map<int64_t, fused_homography_t> homographies_;  ///< without their sample points
@@ -48,7 +48,7 @@ class ResultCollector {
   SequenceCounter foreground_sequence_;
   SequenceCounter fused_sequence_;
   int64_t damaged_ = 0;
-  std::string first_failure_;  ///< of writing a map: told by writeTables(), since a handler cannot
+  std::string first_failure_;  ///< of writing a map: thrown by writeTables(), since a handler must not throw
 };
 
 }  // namespace redbee

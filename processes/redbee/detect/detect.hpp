@@ -1,4 +1,4 @@
-// redbee detect: the whole stack in one process, no frame lost.
+// redbee detect: the whole stack over a recorded flight, in one process, without losing a frame.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ struct DetectOptions {
   std::filesystem::path out;
   std::string method = "redbee";      ///< one of methodNames()
   std::vector<std::string> settings;  ///< key=value, on top of all
-  int64_t frames = 0;                 ///< only the first so many of the log; 0: all
+  int64_t frames = 0;                 ///< only the first frames of the log; 0: all
   double rate = 0;                    ///< times the log's own speed; 0: as fast as it goes
   bool quiet = false;
 };
 
 /// "redbee": as configured; presets on top of the configuration; rivals.
 std::vector<std::string> methodNames();
-/// The same in one line, to be read.
+/// The same in one line, separated by commas.
 std::string methodList();
 
 /// A rival and what it needs; the stack that flies for any other `method`.

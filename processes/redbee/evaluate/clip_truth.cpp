@@ -1,14 +1,16 @@
 #include "processes/redbee/evaluate/clip_truth.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/results/png_file.hpp"
 
 namespace redbee {
 namespace {
@@ -35,7 +37,7 @@ std::optional<fs::path> baseOf(const fs::path& folder) {
   return std::nullopt;
 }
 
-/// Positions of the recording's images by name; empty where they are not at hand.
+/// Positions of the recording's images by name; empty where they are not available.
 std::map<std::string, int64_t> imageNumbers(const fs::path& folder) {
   std::vector<std::string> stems;
   if (fs::is_directory(folder)) {
@@ -54,7 +56,7 @@ int64_t numberIn(const fs::path& file) {
   while (first > 0 && isDigit(stem[first - 1])) --first;
   const std::string digits = stem.substr(first);
   if (digits.empty() || digits.size() > 19)
-    throw InputError(file, "its name ends with no time or frame number");
+    throw InputError(file, "its name does not end with a time or a frame number");
   return std::stoll(digits);
 }
 
@@ -63,15 +65,13 @@ bool looksLikeFrameNumber(const fs::path& file) {
   return !isDigit(stem.front()) || (stem.size() > 1 && stem.front() == '0');
 }
 
-cv::Mat readPng(const fs::path& file, cv::Size size) {
-  cv::Mat map = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-  if (map.empty()) throw InputError(file, "not a readable image");
-  if (map.size() != size) {
-    throw InputError(file, "has " + std::to_string(map.cols) + "x" + std::to_string(map.rows) +
-                               " px, the run's maps " + std::to_string(size.width) + "x" +
-                               std::to_string(size.height));
+cv::Mat readLabels(const fs::path& file, cv::Size size) {
+  cv::Mat labels = readGreyPng(file);
+  if (labels.size() != size) {
+    throw InputError(file, fmt::format("has {}x{} px, the run's maps have {}x{}", labels.cols, labels.rows,
+                                       size.width, size.height));
   }
-  return map;
+  return labels;
 }
 
 TruthObject boxAt(const CsvReader& csv, size_t x) {
@@ -121,7 +121,7 @@ bool ClipTruth::isIn(const fs::path& folder) { return baseOf(folder).has_value()
 
 ClipTruth::ClipTruth(const fs::path& folder) : nothing_moves_(false) {
   const auto base = baseOf(folder);
-  if (!base) throw InputError(folder, "holds no truth masks");
+  if (!base) throw InputError(folder, "holds no ground-truth masks");
   folder_ = *base;
   findMasks(pngsOf(folder_ / "mask").empty() ? folder_ : folder_ / "mask");
   has_boxes_ = fs::exists(folder_ / "boxes.csv");
@@ -190,7 +190,7 @@ ClipTruth::Labels ClipTruth::read(const Frame& frame, cv::Size size) const {
     labels.objects = objectsOfMask(labels.mask);
     return labels;
   }
-  if (!frame.mask.empty()) labels.mask = readPng(frame.mask, size);
+  if (!frame.mask.empty()) labels.mask = readLabels(frame.mask, size);
   if (has_boxes_) {
     labels.objects = objectsFromBoxes(frame, size);
   } else if (has_identities_) {
@@ -204,7 +204,7 @@ ClipTruth::Labels ClipTruth::read(const Frame& frame, cv::Size size) const {
 ObjectTruth ClipTruth::objectsFromIdentities(const Frame& frame, const cv::Mat& mask) const {
   ObjectTruth truth = objectsOfMask(mask);
   truth.objects.clear();
-  readPng(folder_ / "id" / frame.mask.filename(), mask.size()).convertTo(truth.ids, CV_32S);
+  readLabels(folder_ / "id" / frame.mask.filename(), mask.size()).convertTo(truth.ids, CV_32S);
   forEachIn(objects_by_utime_, frame.utime,
             [&](const TruthObject& object) { truth.objects.push_back(object); });
   return truth;

@@ -1,17 +1,15 @@
-// What is known to move in a clip: masks, identities and boxes from a truth folder.
+// What moves in a clip, from a folder of ground truth.
 //
-//   mask/       255 moves, 0 does not, other values are not known. Or labels/mask/, or the folder itself
-//   id/         the identity of each visible pixel, with objects.csv beside: timestamp [ns], frame,
-//   object_id, kind,
-//               state, ... Only objects whose state is `moving` count
-//   boxes.csv   frame_index, frame_file, object_id, class, state, x, y, w, h [px]: objects by their boxes in
-//   place of
-//               id/, every frame of the recording labelled; ignore.csv: frame_index, x, y, w, h: areas not
-//               known
-//   frames/     the images of the recording, where masks have their names
+//   mask/        255 moves, 0 does not, any other value is unknown. Or labels/mask/, or the folder itself
+//   id/          the object id of each visible pixel, with objects.csv beside it: timestamp [ns], frame,
+//                object_id, kind, state, ... Only objects whose state is `moving` count
+//   boxes.csv    instead of id/, for every frame of the recording: frame_index, frame_file, object_id, class,
+//                state, x, y, w, h [px]
+//   ignore.csv   beside boxes.csv, areas that are unknown: frame_index, x, y, w, h [px]
+//   frames/      the images of the recording, if masks are named after them
 //
-// A mask's name is the frame's time [ns]. It is a frame's number (from 0) instead where numbers are padded
-// with zeros or follow letters, and the name of one of the images in frames/ where there is such a folder.
+// The name of a mask is the frame's time [ns]. It is a frame's number (from 0) instead if numbers are padded
+// with zeros or follow letters, and the name of one of the images in frames/ if there is such a folder.
 // Without id/ and boxes.csv, each connected region of a mask is an object.
 #pragma once
 
@@ -33,11 +31,11 @@ class ClipTruth {
     std::filesystem::path mask;  ///< empty: only objects are known
   };
   struct Labels {
-    cv::Mat mask;  ///< CV_8U; empty where only objects are known
+    cv::Mat1b mask;  ///< empty where only objects are known
     ObjectTruth objects;
   };
 
-  /// Throws InputError where the folder holds no truth or a table cannot be read.
+  /// Throws InputError where the folder holds no ground truth or a table cannot be read.
   explicit ClipTruth(const std::filesystem::path& folder);
   /// Nothing moves in any frame.
   static ClipTruth nothingMoves() { return ClipTruth(); }
@@ -46,10 +44,10 @@ class ClipTruth {
 
   /// The labelled ones among the recording's frames, in order. `utimes`: of all frames of the recording [us],
   /// rising; labels by time are matched to the microsecond, those by number by position. Labels whose time
-  /// none of the frames has are kept (a frame that the run has lost is still to be answered for); a number
-  /// beyond the last frame is an InputError.
+  /// none of the frames has are kept: a frame that the run has lost counts. A number beyond the last frame is
+  /// an InputError.
   std::vector<Frame> frames(const std::vector<int64_t>& utimes) const;
-  /// Throws InputError where a image cannot be read or has not `size`.
+  /// Throws InputError where an image cannot be read or has another size.
   Labels read(const Frame& frame, cv::Size size) const;
 
  private:

@@ -1,7 +1,6 @@
 #include "processes/redbee/evaluate/compare.hpp"
 
 #include <cstdio>
-#include <memory>
 
 #include "processes/redbee/pages/svg_plot.hpp"
 #include "redbee/files/atomic_file.hpp"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "processes/redbee/evaluate/measures_files.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/json_file.hpp"
 
 namespace redbee {
 namespace {

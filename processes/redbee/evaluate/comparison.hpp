@@ -1,4 +1,4 @@
-// What scripts/evaluate has run: clips times methods times rows of extrinsics, one folder of results each.
+// The runs of scripts/evaluate: one folder of results for each clip, method and variant of the extrinsics.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace redbee {
 
-/// One line of a clips file: set, name, and what only scripts/evaluate reads. Clips without an IMU
-/// calibration of their own have one row of extrinsics, `given`.
+/// One line of a list of clips: set, name, and what only scripts/evaluate reads. Clips without an IMU
+/// calibration of their own have one variant of the extrinsics, `given`.
 struct ListedClip {
   std::string set;
   std::string name;
@@ -22,7 +22,7 @@ std::vector<ListedClip> readClipList(const std::filesystem::path& file);
 /// The first word of each line.
 std::vector<std::string> readMethodList(const std::filesystem::path& file);
 
-/// Measures of one run; nothing: the truth does not tell, or it was not measured.
+/// Measures of one run; empty: undefined with this truth, or not measured.
 struct CellMeasures {
   std::map<std::string, double> values;  ///< by the names of kMeasures
   std::optional<double> value(const std::string& name) const;

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "processes/redbee/evaluate/compare.hpp"
+#include "processes/redbee/pages/number.hpp"
 
 namespace redbee {
 namespace {
@@ -20,8 +21,8 @@ struct Mean {
     sum += *value;
     ++count;
   }
-  std::string text(const char* pattern, double scale = 1) const {
-    return count > 0 ? formatted(pattern, scale * sum / count) : kNone;
+  std::string text(int decimals, double scale = 1) const {
+    return count > 0 ? fixed(scale * sum / count, decimals) : kNone;
   }
 };
 
@@ -47,15 +48,15 @@ std::string headingOf(const std::string& set, const std::string& row) {
   return row == kGivenExtrinsics ? set : set + ", extrinsics " + row;
 }
 
-std::string textOf(const CellMeasures* cell, const char* name, const char* pattern, double scale = 1) {
+std::string textOf(const CellMeasures* cell, const char* name, int decimals, double scale = 1) {
   const auto value = valueOf(cell, name);
-  return value ? formatted(pattern, scale * *value) : kNone;
+  return value ? fixed(scale * *value, decimals) : kNone;
 }
 
 std::string errorAndF1(const CellMeasures* cell) {
   const auto error = valueOf(cell, "error_at_half_recall");
   if (!error) return kNone;
-  return formatted("%.3f", *error) + " / " + formatted("%.3f", *valueOf(cell, "best_f1"));
+  return fixed(*error, 3) + " / " + fixed(*valueOf(cell, "best_f1"), 3);
 }
 
 void noteUnfinished(const Comparison& comparison, const std::string& set, const std::string& row,
@@ -67,17 +68,17 @@ void noteUnfinished(const Comparison& comparison, const std::string& set, const 
     }
   }
   if (missing > 0)
-    table.notes.push_back(std::to_string(missing) + " runs have no result: means leave them out");
+    table.notes.push_back(std::to_string(missing) + " runs have no result; the means are without them");
 }
 
-/// A method that saw less of the clips than the others is not to be compared with them unsaid.
+/// A method that was run on fewer frames than the others must not be compared with them unnoticed.
 void noteLimits(const Comparison& comparison, const std::string& set, const std::string& row, Table& table) {
   for (const std::string& method : comparison.methods()) {
     double limit = 0;
     for (const ListedClip& clip : comparison.clipsOf(set))
       limit = std::max(limit, valueOf(comparison.cell(clip, row, method), "frames_limit").value_or(0));
     if (limit > 0)
-      table.notes.push_back(method + ": only the first " + formatted("%.0f", limit) + " frames of each clip");
+      table.notes.push_back(method + ": only the first " + fixed(limit, 0) + " frames of each clip");
   }
 }
 
@@ -88,14 +89,14 @@ Table accuracyTable(const Comparison& comparison, const std::string& set, const 
   for (const ListedClip& clip : comparison.clipsOf(set)) table.columns.push_back(clip.name);
   table.columns.push_back("mean");
   for (const std::string& method : comparison.methods()) {
-    std::vector<std::string> cells{method};
+    std::vector<Cell> cells{method};
     for (const ListedClip& clip : comparison.clipsOf(set)) {
       cells.push_back(errorAndF1(comparison.cell(clip, row, method)));
     }
     const Mean error = meanOf(comparison, set, row, method, "error_at_half_recall");
-    cells.push_back(error.count == 0 ? kNone
-                                     : error.text("%.3f") + " / " +
-                                           meanOf(comparison, set, row, method, "best_f1").text("%.3f"));
+    cells.push_back(error.count == 0
+                        ? kNone
+                        : error.text(3) + " / " + meanOf(comparison, set, row, method, "best_f1").text(3));
     table.rows.push_back(cells);
   }
   noteUnfinished(comparison, set, row, table);
@@ -109,12 +110,12 @@ Table decisionTable(const Comparison& comparison, const std::string& set, const 
   table.columns = {"method",          "precision",          "recall",      "F1",
                    "objects found %", "false alarms/frame", "false area %"};
   for (const std::string& method : comparison.methods()) {
-    const auto mean = [&](const char* name, const char* pattern, double scale) {
-      return meanOf(comparison, set, row, method, name).text(pattern, scale);
+    const auto mean = [&](const char* name, int decimals, double scale) {
+      return meanOf(comparison, set, row, method, name).text(decimals, scale);
     };
-    table.rows.push_back({method, mean("precision", "%.3f", 1), mean("recall", "%.3f", 1),
-                          mean("f1", "%.3f", 1), mean("object_recall", "%.1f", 100),
-                          mean("false_alarms_per_frame", "%.2f", 1), mean("false_area_percent", "%.3f", 1)});
+    table.rows.push_back({method, mean("precision", 3, 1), mean("recall", 3, 1), mean("f1", 3, 1),
+                          mean("object_recall", 1, 100), mean("false_alarms_per_frame", 2, 1),
+                          mean("false_area_percent", 3, 1)});
   }
   noteLimits(comparison, set, row, table);
   return table;
@@ -122,16 +123,17 @@ Table decisionTable(const Comparison& comparison, const std::string& set, const 
 
 Table objectTable(const Comparison& comparison, const std::string& set, const std::string& row) {
   Table table;
-  table.title = headingOf(set, row) + ": objects found % / false alarms a frame / their area, % of the image";
+  table.title =
+      headingOf(set, row) + ": objects found % / false alarms per frame / their area, % of the image";
   table.columns = {"method"};
   for (const ListedClip& clip : comparison.clipsOf(set)) table.columns.push_back(clip.name);
   for (const std::string& method : comparison.methods()) {
-    std::vector<std::string> cells{method};
+    std::vector<Cell> cells{method};
     for (const ListedClip& clip : comparison.clipsOf(set)) {
       const CellMeasures* cell = comparison.cell(clip, row, method);
-      cells.push_back(textOf(cell, "object_recall", "%.1f", 100) + " / " +
-                      textOf(cell, "false_alarms_per_frame", "%.2f") + " / " +
-                      textOf(cell, "false_area_percent", "%.3f"));
+      cells.push_back(textOf(cell, "object_recall", 1, 100) + " / " +
+                      textOf(cell, "false_alarms_per_frame", 2) + " / " +
+                      textOf(cell, "false_area_percent", 3));
     }
     table.rows.push_back(cells);
   }
@@ -151,7 +153,7 @@ std::string framerate(const Comparison& comparison, const std::string& set, cons
     frames += *valueOf(cell, "frames");
     seconds += *valueOf(cell, "frames") / *fps;
   }
-  return seconds > 0 ? formatted("%.1f", frames / seconds) : kNone;
+  return seconds > 0 ? fixed(frames / seconds, 1) : kNone;
 }
 
 Table costTable(const Comparison& comparison, const std::string& set, const std::string& row) {
@@ -161,20 +163,19 @@ Table costTable(const Comparison& comparison, const std::string& set, const std:
   const bool heap = anyCell(comparison, set, row, "peak_heap_bytes");
   if (heap) table.columns.push_back("peak heap MB");
   for (const std::string& method : comparison.methods()) {
-    const auto mean = [&](const char* name, const char* pattern, double scale) {
-      return meanOf(comparison, set, row, method, name).text(pattern, scale);
+    const auto mean = [&](const char* name, int decimals, double scale) {
+      return meanOf(comparison, set, row, method, name).text(decimals, scale);
     };
-    table.rows.push_back({method, framerate(comparison, set, row, method),
-                          mean("cpu_ms_per_frame", "%.1f", 1), mean("error_at_half_recall", "%.3f", 1),
-                          mean("peak_rss_bytes", "%.1f", 1 / kMegabyte)});
-    if (heap) table.rows.back().push_back(mean("peak_heap_bytes", "%.1f", 1 / kMegabyte));
+    table.rows.push_back({method, framerate(comparison, set, row, method), mean("cpu_ms_per_frame", 1, 1),
+                          mean("error_at_half_recall", 3, 1), mean("peak_rss_bytes", 1, 1 / kMegabyte)});
+    if (heap) table.rows.back().push_back(mean("peak_heap_bytes", 1, 1 / kMegabyte));
   }
   table.notes = {
-      "frames/s: frames over wall time of the slowest stage, decoding included; it means something only "
-      "where nothing else ran (scripts/evaluate --table 3)",
-      "CPU: decoding and the method itself, all its stages; reading the log, making messages of the answer "
-      "and "
-      "writing the results left out"};
+      "frames/s: frames over wall time of the slowest stage, decoding included; meaningful only where "
+      "nothing "
+      "else was running (scripts/evaluate --table 3)",
+      "CPU: decoding and all stages of the method, without reading the log, encoding the output messages and "
+      "writing the results"};
   noteLimits(comparison, set, row, table);
   return table;
 }
@@ -185,12 +186,12 @@ Table extrinsicsTable(const Comparison& comparison, const std::string& set) {
   table.columns = {"method"};
   for (const std::string& row : comparison.rowsOf(set)) table.columns.push_back(row);
   for (const std::string& method : comparison.methods()) {
-    std::vector<std::string> cells{method};
+    std::vector<Cell> cells{method};
     for (const std::string& row : comparison.rowsOf(set)) {
       const Mean error = meanOf(comparison, set, row, method, "error_at_half_recall");
-      cells.push_back(error.count == 0 ? kNone
-                                       : error.text("%.3f") + " / " +
-                                             meanOf(comparison, set, row, method, "best_f1").text("%.3f"));
+      cells.push_back(error.count == 0
+                          ? kNone
+                          : error.text(3) + " / " + meanOf(comparison, set, row, method, "best_f1").text(3));
     }
     table.rows.push_back(cells);
   }

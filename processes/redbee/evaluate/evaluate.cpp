@@ -1,59 +1,34 @@
 #include "processes/redbee/evaluate/evaluate.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
-#include <map>
-#include <opencv2/imgcodecs.hpp>
+#include <vector>
 
 #include "processes/redbee/evaluate/clip_truth.hpp"
 #include "processes/redbee/evaluate/flight_images.hpp"
-#include "processes/redbee/evaluate/hits_and_misses.hpp"
 #include "processes/redbee/evaluate/measures_files.hpp"
+#include "processes/redbee/evaluate/outcome_images.hpp"
+#include "processes/redbee/pages/number.hpp"
 #include "processes/redbee/pages/svg_plot.hpp"
+#include "processes/redbee/pages/table.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/results/run_folder.hpp"
 
 namespace redbee {
 namespace {
 
 namespace fs = std::filesystem;
-using MapFiles = std::map<int64_t, fs::path>;  // by time [us]
-
-MapFiles mapsIn(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw InputError(folder, "no such folder");
-  MapFiles maps;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string stem = entry.path().stem().string();
-    const bool numeric = !stem.empty() && stem.size() < 20 &&
-                         std::all_of(stem.begin(), stem.end(),
-                                     [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
-    if (entry.path().extension() == ".png" && numeric) maps[std::stoll(stem)] = entry.path();
-  }
-  return maps;
-}
-
-cv::Mat readMap(const fs::path& file) {
-  cv::Mat map = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-  if (map.empty()) throw InputError(file, "not a readable image");
-  return map;
-}
-
-cv::Mat mapAt(const MapFiles& maps, int64_t utime, cv::Size size) {
-  const auto found = maps.find(utime);
-  if (found == maps.end()) return cv::Mat::zeros(size, CV_8U);
-  cv::Mat map = readMap(found->second);
-  if (map.size() != size) throw InputError(found->second, "differs in size from the run's other maps");
-  return map;
-}
-
-std::vector<int64_t> timesOf(const MapFiles& maps) {
-  std::vector<int64_t> times;
-  for (const auto& [utime, file] : maps) times.push_back(utime);
-  return times;
-}
 
 ClipTruth truthOf(const EvaluateOptions& options) {
   return options.truth == "none" ? ClipTruth::nothingMoves() : ClipTruth(options.truth);
+}
+
+/// Of the probability maps. Throws InputError where the run has none, or no folder of masks.
+std::vector<int64_t> mapTimes(const RunFolder& run) {
+  std::vector<int64_t> times = run.times(RunMap::kProbability);
+  if (times.empty()) throw InputError(run.path() / "probability", "holds no map <time in us>.png");
+  run.times(RunMap::kMask);
+  return times;
 }
 
 FrameOutcome outcome(int64_t utime, const cv::Mat& detected, const cv::Mat& truth) {
@@ -66,7 +41,7 @@ FrameOutcome outcome(int64_t utime, const cv::Mat& detected, const cv::Mat& trut
   return frame;
 }
 
-/// `limit`: only the first so many frames of the recording; 0: all.
+/// `limit`: only the first frames of the recording; 0: all.
 std::vector<ClipTruth::Frame> labelledFrames(const ClipTruth& truth, const std::vector<int64_t>& utimes,
                                              int64_t limit) {
   std::vector<ClipTruth::Frame> labelled = truth.frames(utimes);
@@ -88,29 +63,25 @@ std::vector<EvaluateOptions> clipsOf(const EvaluateOptions& options) {
   }
   std::sort(clips.begin(), clips.end(), [](const auto& a, const auto& b) { return a.truth < b.truth; });
   if (clips.empty())
-    throw InputError(options.truth, "holds no truth masks that " + options.results.string() + " answers");
+    throw InputError(options.truth, "no ground-truth masks for any folder in " + options.results.string());
   return clips;
 }
 
-void printHeader() {
-  std::printf("%-16s %7s %10s %8s %11s %7s %9s %11s %8s\n", "clip", "frames", "Error@50%", "best F1",
-              "objects", "found", "false/fr.", "false area", "no map");
-}
-
-void print(const ClipMeasures& clip) {
+std::vector<Cell> rowOf(const ClipMeasures& clip) {
   const ObjectMeasures& objects = clip.objects;
-  std::printf("%-16s %7lld ", clip.name.c_str(), static_cast<long long>(objects.frames()));
+  std::vector<Cell> row{clip.name, std::to_string(objects.frames())};
   if (clip.has_movers) {
-    std::printf("%10.3f %8.3f %11lld %6.1f%%", clip.pixels.errorAtHalfRecall(), clip.pixels.bestF1(),
-                static_cast<long long>(objects.counts().present), 100 * objects.recall());
+    row.insert(row.end(), {fixed(clip.pixels.errorAtHalfRecall(), 3), fixed(clip.pixels.bestF1(), 3),
+                           std::to_string(objects.counts().present), fixed(100 * objects.recall(), 1)});
   } else {
-    std::printf("%10s %8s %11s %7s", "-", "-", "-", "-");
+    row.insert(row.end(), 4, "-");
   }
-  std::printf(" %9.2f %10.3f%% %8lld\n", objects.falseAlarmsPerFrame(), 100 * objects.falseAreaFraction(),
-              static_cast<long long>(clip.truth_without_result));
+  row.insert(row.end(), {fixed(objects.falseAlarmsPerFrame(), 2), fixed(100 * objects.falseAreaFraction(), 3),
+                         std::to_string(clip.truth_without_result)});
+  return row;
 }
 
-void printMeans(const std::vector<ClipMeasures>& clips) {
+void addMeans(Table& table, const std::vector<ClipMeasures>& clips) {
   double error = 0, f1 = 0;
   int count = 0;
   for (const ClipMeasures& clip : clips) {
@@ -119,29 +90,30 @@ void printMeans(const std::vector<ClipMeasures>& clips) {
     f1 += clip.pixels.bestF1();
     ++count;
   }
-  if (count > 1) std::printf("%-16s %7s %10.3f %8.3f\n", "mean", "", error / count, f1 / count);
+  if (count < 2) return;
+  std::vector<Cell> row{"mean", "", fixed(error / count, 3), fixed(f1 / count, 3)};
+  row.resize(table.columns.size(), "");
+  table.rows.push_back(row);
 }
 
 }  // namespace
 
 ClipMeasures measureClip(const EvaluateOptions& options) {
   const ClipTruth truth = truthOf(options);
-  const MapFiles maps = mapsIn(options.results / "probability");
-  const MapFiles masks = mapsIn(options.results / "mask");
-  if (maps.empty()) throw InputError(options.results / "probability", "holds no map <time in us>.png");
-  const cv::Size size = readMap(maps.begin()->second).size();
+  const RunFolder run(options.results);
+  const std::vector<int64_t> times = mapTimes(run);
+  const cv::Size size = run.read(RunMap::kProbability, times.front()).size();
   ClipMeasures clip;
   clip.name = fs::weakly_canonical(options.results).filename().string();
   clip.frames_limit = options.frames;
   const auto labelled = labelledFrames(
-      truth, options.log.empty() ? timesOf(maps) : imageTimes(options.log, options.camera_channel),
-      options.frames);
+      truth, options.log.empty() ? times : imageTimes(options.log, options.camera_channel), options.frames);
   for (const ClipTruth::Frame& frame : labelled) {
-    if (maps.count(frame.utime) == 0) ++clip.truth_without_result;
+    if (!run.has(RunMap::kProbability, frame.utime)) ++clip.truth_without_result;
     const ClipTruth::Labels labels = truth.read(frame, size);
-    const cv::Mat mask = mapAt(masks, frame.utime, size);
+    const cv::Mat1b mask = run.readOrZeros(RunMap::kMask, frame.utime, size);
     if (!labels.mask.empty()) {
-      clip.pixels.add(mapAt(maps, frame.utime, size), labels.mask);
+      clip.pixels.add(run.readOrZeros(RunMap::kProbability, frame.utime, size), labels.mask);
       clip.decided.add(mask, labels.mask);
     }
     clip.frames.push_back(outcome(frame.utime, mask, labels.mask));
@@ -155,15 +127,22 @@ ClipMeasures measureClip(const EvaluateOptions& options) {
 
 void runEvaluate(const EvaluateOptions& options) {
   SvgPlot::checkInstalled();
+  Table table;
+  table.columns = {"clip",       "frames",  "Error@50%",          "best F1",
+                   "objects",    "found %", "false alarms/frame", "false area %",
+                   "without map"};
   std::vector<ClipMeasures> measured;
-  printHeader();
   for (const EvaluateOptions& clip : clipsOf(options)) {
     measured.push_back(measureClip(clip));
-    print(measured.back());
-    if (!clip.log.empty()) writeHitsAndMisses(clip, truthOf(clip), measured.back());
+    table.rows.push_back(rowOf(measured.back()));
+    if (!clip.log.empty()) {
+      writeOutcomeImages({clip.log, clip.camera_channel, RunFolder(clip.results)}, truthOf(clip),
+                         measured.back().frames);
+    }
     writeMeasures(clip.results, measured.back());
   }
-  printMeans(measured);
+  addMeans(table, measured);
+  std::fputs(asText(table).c_str(), stdout);
 }
 
 }  // namespace redbee

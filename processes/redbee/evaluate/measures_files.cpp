@@ -1,40 +1,40 @@
 #include "processes/redbee/evaluate/measures_files.hpp"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "processes/redbee/pages/svg_plot.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/csv.hpp"
-#include "redbee/files/input_error.hpp"
-#include "redbee/results/results.hpp"
+#include "redbee/files/json_file.hpp"
 
 namespace redbee {
 namespace {
 
-nlohmann::json toldOnly(bool told, const nlohmann::json& value) { return told ? value : nlohmann::json(); }
+nlohmann::json definedOnly(bool defined, const nlohmann::json& value) {
+  return defined ? value : nlohmann::json();
+}
 
 nlohmann::json pixelJson(const ClipMeasures& clip) {
-  const bool told = clip.pixels.movingPixels() > 0;
+  const bool defined = clip.pixels.movingPixels() > 0;
   const OperatingPoint decided = clip.decided.at(1);
   const double sum = decided.precision + decided.recall;
   return {{"labelled_frames", clip.pixels.frames()},
           {"moving_pixels", clip.pixels.movingPixels()},
-          {"error_at_half_recall", toldOnly(told, clip.pixels.errorAtHalfRecall())},
-          {"best_f1", toldOnly(told, clip.pixels.bestF1())},
-          {"precision", toldOnly(told, decided.precision)},
-          {"recall", toldOnly(told, decided.recall)},
-          {"f1", toldOnly(told, sum > 0 ? 2 * decided.precision * decided.recall / sum : 0)}};
+          {"error_at_half_recall", definedOnly(defined, clip.pixels.errorAtHalfRecall())},
+          {"best_f1", definedOnly(defined, clip.pixels.bestF1())},
+          {"precision", definedOnly(defined, decided.precision)},
+          {"recall", definedOnly(defined, decided.recall)},
+          {"f1", definedOnly(defined, sum > 0 ? 2 * decided.precision * decided.recall / sum : 0)}};
 }
 
 nlohmann::json objectJson(const ClipMeasures& clip) {
   const ObjectMeasures& objects = clip.objects;
-  const bool told = objects.counts().present > 0;
+  const bool defined = objects.counts().present > 0;
   return {{"labelled_frames", objects.frames()},
           {"present", objects.counts().present},
           {"found", objects.counts().found},
-          {"recall", toldOnly(told, objects.recall())},
+          {"recall", definedOnly(defined, objects.recall())},
           {"false_alarms_per_frame", objects.falseAlarmsPerFrame()},
           {"false_area_percent", 100 * objects.falseAreaFraction()}};
 }
@@ -45,7 +45,7 @@ void writeCurve(const std::filesystem::path& results, const ClipMeasures& clip) 
   std::vector<double> recall, precision;
   for (const OperatingPoint& point : clip.pixels.curve()) {
     csv << point.threshold << ',' << point.precision << ',' << point.recall << '\n';
-    if (point.recall == 0) continue;  // nothing is found yet: precision means nothing
+    if (point.recall == 0) continue;  // nothing is found yet: precision is undefined
     recall.push_back(point.recall);
     precision.push_back(point.precision);
   }
@@ -81,16 +81,6 @@ void writeMeasures(const std::filesystem::path& results, const ClipMeasures& cli
     writeCurve(results, clip);
   } else {
     for (const char* stale : {"pr.csv", "pr.svg"}) std::filesystem::remove(results / stale);
-  }
-}
-
-nlohmann::json readJson(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file, "cannot be read");
-  try {
-    return nlohmann::json::parse(stream);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file, error.what());
   }
 }
 

@@ -1,41 +1,21 @@
 #include "processes/redbee/evaluate/overlay_video.hpp"
 
 #include <cstdio>
-#include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 
 #include "redbee/bus/codec.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
-#include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/files/progress.hpp"
 #include "redbee/results/overlay.hpp"
-#include "redbee/results/results.hpp"
+#include "redbee/results/png_file.hpp"
+#include "redbee/results/run_folder.hpp"
 #include "redbee/results/video_writer.hpp"
 
 namespace redbee {
 namespace {
-
-using DetectionsByTime = std::multimap<int64_t, Detection>;
-
-DetectionsByTime readDetections(const std::filesystem::path& file) {
-  constexpr size_t kColumns = 11;
-  DetectionsByTime detections;
-  CsvReader csv(file);
-  csv.next(kColumns);  // the names of the columns
-  while (csv.next(kColumns)) {
-    Detection detection;
-    detection.id = static_cast<int>(csv.integer(1));
-    detection.box = {static_cast<int>(csv.number(2)), static_cast<int>(csv.number(3)),
-                     static_cast<int>(csv.number(4)), static_cast<int>(csv.number(5))};
-    detection.score = csv.number(6);
-    detections.emplace(csv.integer(10), detection);
-  }
-  return detections;
-}
 
 std::vector<Detection> at(const DetectionsByTime& detections, int64_t utime) {
   std::vector<Detection> found;
@@ -50,7 +30,8 @@ void forEachOverlay(const std::filesystem::path& log_file, const std::filesystem
                     const std::filesystem::path& results,
                     const std::function<void(int64_t utime, const cv::Mat& drawn)>& draw) {
   const Configuration configuration = loadConfiguration(configuration_file);
-  const DetectionsByTime detections = readDetections(results / "detections.csv");
+  const RunFolder run(results);
+  const DetectionsByTime detections = run.detections();
   LogReader log(log_file);
   Progress progress("drawing " + log_file.filename().string(), "MB");
   while (const auto event = log.next()) {
@@ -59,10 +40,8 @@ void forEachOverlay(const std::filesystem::path& log_file, const std::filesystem
     image_t message;
     if (!decodeMessage(event->data.data(), static_cast<int>(event->data.size()), message)) continue;
     const auto image = decodeColour(message);
-    const auto mask_file = results / "mask" / (std::to_string(message.utime) + ".png");
-    if (!image || !std::filesystem::exists(mask_file)) continue;
-    const cv::Mat mask = cv::imread(mask_file.string(), cv::IMREAD_GRAYSCALE);
-    if (mask.size() != image->size()) throw InputError(mask_file, "does not fit the flight's images");
+    if (!image || !run.has(RunMap::kMask, message.utime)) continue;
+    const cv::Mat1b mask = run.readOrZeros(RunMap::kMask, message.utime, image->size());
     OverlayStatus status;
     status.utime = message.utime;
     draw(message.utime, drawOverlay(*image, mask, at(detections, message.utime), status));
@@ -86,7 +65,7 @@ void renderOverlay(const OverlayOptions& options) {
       first_utime = utime;
       return;
     }
-    if (!writer) {  // the second frame tells the pace of the video
+    if (!writer) {  // the second frame gives the frame rate of the video
       const double fps = 1e6 / static_cast<double>(utime - first_utime);
       writer = std::make_unique<VideoWriter>(options.video, even.size(),
                                              fps > 0 && fps < 1000 ? fps : kDefaultFps);
@@ -95,7 +74,7 @@ void renderOverlay(const OverlayOptions& options) {
     writer->write(even);
   };
   forEachOverlay(options.log, options.configuration, options.results, take);
-  if (!writer) throw InputError(options.results, "fewer than two frames of the flight have a mask");
+  if (!writer) throw InputError(options.results, "has masks of fewer than two frames of the flight");
   writer->close();
   std::printf("%s: %lld frames\n", options.video.c_str(), static_cast<long long>(count));
 }

@@ -11,13 +11,13 @@ namespace redbee {
 struct OverlayOptions {
   std::filesystem::path log;
   std::filesystem::path configuration;
-  std::filesystem::path results;  ///< of detect or collect
+  std::filesystem::path results;  ///< see RunFolder
   std::filesystem::path video;    ///< the MP4 to write
   std::filesystem::path stills;   ///< folder for every `kStillPeriod`th image as PNG; empty: none
   static constexpr int kStillPeriod = 24;
 };
 
-/// Calls `draw` with every frame of the flight that the run has a mask of, drawn over, in order of time.
+/// Calls `draw` with the overlay of every frame of the flight of which the run has a mask, in order of time.
 void forEachOverlay(const std::filesystem::path& log, const std::filesystem::path& configuration,
                     const std::filesystem::path& results,
                     const std::function<void(int64_t utime, const cv::Mat& drawn)>& draw);

@@ -8,12 +8,12 @@ namespace redbee {
 struct ReportOptions {
   std::filesystem::path log;
   std::filesystem::path configuration;
-  std::filesystem::path results;  ///< of detect or collect
-  std::filesystem::path truth;    ///< folder of truth masks; empty: no measures
-  std::filesystem::path page;     ///< the HTML file to write; it stands alone
+  std::filesystem::path results;  ///< see RunFolder
+  std::filesystem::path truth;    ///< folder of ground-truth masks; empty: no measures
+  std::filesystem::path page;     ///< the HTML file to write; it needs no other file
 };
 
-/// Prints one screen of figures too. Throws InputError on what cannot be read or written.
+/// Prints the figures too. Throws InputError on what cannot be read or written.
 void writeReport(const ReportOptions& options);
 
 }  // namespace redbee

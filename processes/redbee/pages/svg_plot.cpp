@@ -3,8 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +10,7 @@
 #include <stdexcept>
 
 #include "processes/redbee/pages/file_content.hpp"
+#include "processes/redbee/pages/number.hpp"
 #include "redbee/files/input_error.hpp"
 
 namespace redbee {
@@ -24,7 +23,7 @@ class ScratchFolder {
  public:
   ScratchFolder() {
     std::string name = (fs::temp_directory_path() / "redbee-plot-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be created");
     path_ = name;
   }
   ~ScratchFolder() {
@@ -45,13 +44,9 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.7g", value);
-  return text.data();
-}
+std::string number(double value) { return significant(value, 7); }
 
-/// The drawing alone: a page that holds several has no place for declarations.
+/// The drawing without XML declarations, which have no place within a page.
 std::string withoutDeclarations(const std::string& svg) {
   const size_t start = svg.find("<svg");
   return start == std::string::npos ? svg : svg.substr(start);
@@ -131,7 +126,7 @@ void SvgPlot::checkInstalled() {
   const int status =
       std::system("command -v gnuplot >/dev/null");  // NOLINT(concurrency-mt-unsafe): one thread
   if (status != 0) {
-    throw InputError("gnuplot is not installed, it draws the curves: apt-get install gnuplot-nox");
+    throw InputError("gnuplot, which draws the plots, is not installed: apt-get install gnuplot-nox");
   }
 }
 

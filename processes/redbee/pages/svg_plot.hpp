@@ -12,7 +12,7 @@ class SvgPlot {
  public:
   SvgPlot(std::string title, std::string x_label, std::string y_label);
 
-  /// What is not finite breaks a line. Colour: #rrggbb or a name that gnuplot knows.
+  /// Values that are not finite interrupt the line. Colour: #rrggbb or a name that gnuplot knows.
   void addLine(const std::string& name, const std::vector<double>& x, const std::vector<double>& y,
                const std::string& colour);
   void addPoints(const std::string& name, const std::vector<Eigen::Vector2d>& points,
@@ -25,8 +25,7 @@ class SvgPlot {
   /// Throws std::runtime_error where gnuplot fails.
   std::string svg() const;
 
-  /// Throws InputError, saying how to mend it, where gnuplot is not installed: before long work, not after
-  /// it.
+  /// Throws InputError with the fix where gnuplot is not installed. Called before long work, not after it.
   static void checkInstalled();
 
  private:
@@ -44,7 +43,7 @@ class SvgPlot {
   std::vector<Series> series_;
   std::vector<std::pair<std::string, double>> marks_;
   double low_ = 0;
-  double high_ = 0;  ///< equal to low_: the data tell the range
+  double high_ = 0;  ///< equal to low_: the range is that of the data
 };
 
 }  // namespace redbee

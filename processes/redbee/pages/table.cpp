@@ -1,66 +1,99 @@
 #include "processes/redbee/pages/table.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "processes/redbee/pages/html.hpp"
 
 namespace redbee {
 namespace {
 
-using Row = std::vector<std::string>;
+using Row = std::vector<Cell>;
 
-std::vector<size_t> widthsOf(const Table& table) {
-  std::vector<size_t> widths(table.columns.size());
-  const auto widen = [&](const Row& row) {
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  };
-  widen(table.columns);
-  for (const Row& row : table.rows) widen(row);
-  return widths;
+Row headingsOf(const Table& table) { return {table.columns.begin(), table.columns.end()}; }
+
+bool isText(const Table& table, size_t column) {
+  return std::count(table.text_columns.begin(), table.text_columns.end(), column) > 0;
 }
 
-std::string padded(const std::string& text, size_t width, bool left) {
-  const std::string blanks(width - text.size(), ' ');
-  return left ? text + blanks : blanks + text;
+/// Pads the cells of each column to one width.
+class Alignment {
+ public:
+  explicit Alignment(const Table& table) : table_(table) {
+    widen(headingsOf(table));
+    for (const Row& row : table.rows) widen(row);
+  }
+
+  std::string line(const Row& row, const std::string& separator) const {
+    std::string text;
+    for (size_t i = 0; i < row.size(); ++i) {
+      const std::string blanks(widths_[i] - row[i].text.size(), ' ');
+      text += i > 0 ? separator : "";
+      text += isText(table_, i) ? row[i].text + blanks : blanks + row[i].text;
+    }
+    return text;
+  }
+  size_t columns() const { return widths_.size(); }
+
+ private:
+  void widen(const Row& row) {
+    widths_.resize(std::max(widths_.size(), row.size()));
+    for (size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], row[i].text.size());
+  }
+
+  const Table& table_;
+  std::vector<size_t> widths_;
+};
+
+std::string withoutTrailingBlanks(const std::string& line) {
+  return line.substr(0, line.find_last_not_of(' ') + 1);
 }
 
-std::string line(const Row& row, const std::vector<size_t>& widths, const std::string& separator) {
-  std::string text;
-  for (size_t i = 0; i < row.size(); ++i)
-    text += (i > 0 ? separator : "") + padded(row[i], widths[i], i == 0);
-  return text;
-}
-
-std::string htmlRow(const Row& row, const std::string& element) {
-  std::string text = "<tr>";
-  for (const std::string& cell : row)
-    text.append("<")
-        .append(element)
-        .append(">")
-        .append(escapeHtml(cell))
-        .append("</")
-        .append(element)
-        .append(">");
-  return text + "</tr>\n";
+std::string htmlRow(const Table& table, const Row& row, const std::string& element) {
+  std::string html = "<tr>";
+  for (size_t i = 0; i < row.size(); ++i) {
+    std::string style = isText(table, i) ? "text" : "";
+    if (row[i].tone != Tone::kNeutral) style += std::string(style.empty() ? "" : " ") + styleOf(row[i].tone);
+    html += "<" + element + (style.empty() ? "" : " class=\"" + style + "\"") + ">" +
+            escapeHtml(row[i].text) + "</" + element + ">";
+  }
+  return html + "</tr>\n";
 }
 
 }  // namespace
 
+const char* styleOf(Tone tone) {
+  switch (tone) {
+    case Tone::kNeutral:
+      return "";
+    case Tone::kNote:
+      return "note";
+    case Tone::kGood:
+      return "good";
+    case Tone::kWeak:
+      return "weak";
+    case Tone::kBad:
+      return "bad";
+  }
+  return "";
+}
+
 std::string asText(const Table& table) {
-  const auto widths = widthsOf(table);
-  std::string text = table.title + "\n" + line(table.columns, widths, "  ") + "\n";
-  for (const Row& row : table.rows) text += line(row, widths, "  ") + "\n";
+  const Alignment alignment(table);
+  std::string text = table.title.empty() ? "" : table.title + "\n";
+  const auto add = [&](const Row& row) { text += withoutTrailingBlanks(alignment.line(row, "  ")) + "\n"; };
+  if (!table.columns.empty()) add(headingsOf(table));
+  for (const Row& row : table.rows) add(row);
   for (const std::string& note : table.notes) text += "  " + note + "\n";
   return text;
 }
 
 std::string asMarkdown(const Table& table) {
-  const auto widths = widthsOf(table);
-  const auto marked = [&](const Row& row) { return "| " + line(row, widths, " | ") + " |\n"; };
-  std::string text = "**" + table.title + "**\n\n" + marked(table.columns) + "|";
-  for (size_t i = 0; i < widths.size(); ++i) text += i == 0 ? " --- |" : " ---: |";
+  const Alignment alignment(table);
+  const auto marked = [&](const Row& row) { return "| " + alignment.line(row, " | ") + " |\n"; };
+  std::string text = table.title.empty() ? "" : "**" + table.title + "**\n\n";
+  // Markdown knows no table without headings.
+  text += marked(table.columns.empty() ? Row(alignment.columns(), "") : headingsOf(table)) + "|";
+  for (size_t i = 0; i < alignment.columns(); ++i) text += isText(table, i) ? " --- |" : " ---: |";
   text += "\n";
   for (const Row& row : table.rows) text += marked(row);
   for (const std::string& note : table.notes) text += "\n" + note + "\n";
@@ -68,17 +101,15 @@ std::string asMarkdown(const Table& table) {
 }
 
 std::string asHtml(const Table& table) {
-  std::string text = "<h3>" + escapeHtml(table.title) + "</h3>\n<table>\n" + htmlRow(table.columns, "th");
-  for (const Row& row : table.rows) text += htmlRow(row, "td");
-  text += "</table>\n";
-  for (const std::string& note : table.notes) text += "<p class=\"note\">" + escapeHtml(note) + "</p>\n";
-  return text;
-}
-
-std::string formatted(const char* pattern, double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), pattern, value);
-  return text.data();
+  std::string html = table.title.empty() ? "" : "<h3>" + escapeHtml(table.title) + "</h3>\n";
+  if (!table.columns.empty() || !table.rows.empty()) {
+    html += "<table>\n";
+    if (!table.columns.empty()) html += htmlRow(table, headingsOf(table), "th");
+    for (const Row& row : table.rows) html += htmlRow(table, row, "td");
+    html += "</table>\n";
+  }
+  for (const std::string& note : table.notes) html += "<p class=\"note\">" + escapeHtml(note) + "</p>\n";
+  return html;
 }
 
 }  // namespace redbee

@@ -2,23 +2,37 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace redbee {
 
-/// The first column is set to the left, the others to the right. Every row has as many cells as `columns`.
+/// Colours of what is shown, where there are colours.
+enum class Tone { kNeutral, kNote, kGood, kWeak, kBad };
+/// Class of an HTML element; empty: none.
+const char* styleOf(Tone tone);
+
+struct Cell {
+  Cell(std::string cell_text,
+       Tone cell_tone = Tone::kNeutral)  // NOLINT(google-explicit-constructor): a text is a cell
+      : text(std::move(cell_text)), tone(cell_tone) {}
+  Cell(const char* cell_text) : text(cell_text) {}  // NOLINT(google-explicit-constructor)
+
+  std::string text;
+  Tone tone = Tone::kNeutral;
+};
+
+/// Every row has as many cells as there are columns.
 struct Table {
-  std::string title;
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> notes;  ///< lines below
+  std::string title;                 ///< empty: none
+  std::vector<std::string> columns;  ///< headings; empty: no headings
+  std::vector<std::vector<Cell>> rows;
+  std::vector<std::string> notes;          ///< lines below
+  std::vector<size_t> text_columns = {0};  ///< set to the left, the others, which hold numbers, to the right
 };
 
 std::string asText(const Table& table);
 std::string asMarkdown(const Table& table);
 std::string asHtml(const Table& table);
-
-/// Like printf, for a cell.
-std::string formatted(const char* pattern, double value);
 
 }  // namespace redbee

@@ -120,20 +120,20 @@ TEST_F(Commands, ARivalTakesThePlaceOfTheSegmentation) {
   }
 }
 
-TEST_F(Commands, AnUnknownMethodIsToldWhichThereAre) {
+TEST_F(Commands, RefusesAnUnknownMethodAndListsTheKnownOnes) {
   DetectOptions options = options_;
   options.method = "nobody";
   try {
     runDetect(options);
     FAIL() << "an unknown method runs";
   } catch (const InputError& error) {
-    const std::string told = error.what();
-    for (const std::string& name : methodNames()) EXPECT_NE(told.find(name), std::string::npos) << name;
-    EXPECT_EQ(told.find('\n'), std::string::npos);
+    const std::string message = error.what();
+    for (const std::string& name : methodNames()) EXPECT_NE(message.find(name), std::string::npos) << name;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
   }
 }
 
-TEST_F(Commands, MapsOfAnEarlierRunAreNotLeftAmongThose) {
+TEST_F(Commands, RemovesTheMapsOfAnEarlierRun) {
   DetectOptions options = options_;
   options.out = folder_ / "again";
   fs::create_directories(options.out / "mask");

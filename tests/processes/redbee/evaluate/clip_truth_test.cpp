@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "processes/redbee/evaluate/evaluate.hpp"
-#include "processes/redbee/evaluate/hits_and_misses.hpp"
+#include "processes/redbee/evaluate/outcome_images.hpp"
 #include "redbee/files/input_error.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -145,7 +145,8 @@ TEST_F(ClipTruthTest, FramesThatTheRunLostAreAnsweredForByEmptyMaps) {
 
 TEST_F(ClipTruthTest, WhatIsNoTruthIsRefusedWithItsName) {
   fs::create_directories(truth());
-  EXPECT_NE(complaintOf([&] { ClipTruth clip(truth()); }).find("holds no truth masks"), std::string::npos);
+  EXPECT_NE(complaintOf([&] { ClipTruth clip(truth()); }).find("holds no ground-truth masks"),
+            std::string::npos);
   write(truth() / "mask" / "00000.png", cv::Mat::zeros(8, 8, CV_8U));
   const ClipTruth clip(truth());
   EXPECT_NE(complaintOf([&] { clip.read(clip.frames(kUtimes)[0], kSize); }).find("00000.png: has 8x8 px"),
@@ -160,33 +161,32 @@ FrameOutcome outcome(int64_t hits, int64_t false_alarms, int64_t misses) {
   return frame;
 }
 
-TEST(TellingFrames, AreTheBestAndTheWorstAndNotNeighbours) {
+TEST(RepresentativeFrames, AreTheBestAndTheWorstAndNotNeighbours) {
   std::vector<FrameOutcome> frames(40, outcome(50, 25, 25));
   frames[10] = outcome(100, 0, 0);
   frames[11] = outcome(99, 0, 1);
   frames[20] = outcome(90, 5, 5);
   frames[30] = outcome(0, 10, 100);
   frames[0] = outcome(0, 0, 5);
-  const TellingFrames telling = chooseTellingFrames(frames, 2);
-  EXPECT_EQ(telling.best, (std::vector<size_t>{10, 20}));
-  EXPECT_EQ(telling.worst, (std::vector<size_t>{0, 30}));
+  const RepresentativeFrames chosen = chooseRepresentativeFrames(frames, 2);
+  EXPECT_EQ(chosen.best, (std::vector<size_t>{10, 20}));
+  EXPECT_EQ(chosen.worst, (std::vector<size_t>{0, 30}));
 }
 
-TEST(TellingFrames, WhereNothingMovesTheMostFalseOnesAreTheWorst) {
+TEST(RepresentativeFrames, WhereNothingMovesTheMostFalseOnesAreTheWorst) {
   std::vector<FrameOutcome> frames(30, outcome(0, 1, 0));
   frames[25] = outcome(0, 50, 0);
-  const TellingFrames telling = chooseTellingFrames(frames, 1);
-  EXPECT_TRUE(telling.best.empty());
-  EXPECT_EQ(telling.worst, std::vector<size_t>{25});
-  EXPECT_TRUE(chooseTellingFrames({}, 2).worst.empty());
+  const RepresentativeFrames chosen = chooseRepresentativeFrames(frames, 1);
+  EXPECT_TRUE(chosen.best.empty());
+  EXPECT_EQ(chosen.worst, std::vector<size_t>{25});
+  EXPECT_TRUE(chooseRepresentativeFrames({}, 2).worst.empty());
 }
 
-TEST(HitsAndMisses, EveryKindHasItsColour) {
+TEST(OutcomeImages, EveryKindHasItsColour) {
   ClipTruth::Labels labels;
   labels.mask = maskWith({0, 0, 8, 8});
   labels.mask(cv::Rect(20, 0, 8, 8)).setTo(170);
-  const cv::Mat drawn =
-      drawHitsAndMisses(cv::Mat(kSize, CV_8U, cv::Scalar(100)), maskWith({4, 0, 8, 8}), labels);
+  const cv::Mat drawn = drawOutcome(cv::Mat(kSize, CV_8U, cv::Scalar(100)), maskWith({4, 0, 8, 8}), labels);
   const auto strongest = [&](int x, int y) {
     const auto& pixel = drawn.at<cv::Vec3b>(y, x);
     return std::max_element(pixel.val, pixel.val + 3) - pixel.val;  // 0 blue, 1 green, 2 red

@@ -2,11 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "processes/redbee/evaluate/compare.hpp"
-#include "processes/redbee/pages/svg_plot.hpp"
 #include "tests/support/scratch.hpp"
 
 namespace redbee {
@@ -56,7 +52,7 @@ TEST_F(ComparisonTest, TablesHoldTheCellsAndTheirMeans) {
   EXPECT_NE(tables.find("1 runs have no result"), std::string::npos) << tables;
 }
 
-TEST_F(ComparisonTest, WhatTheTruthDoesNotTellIsLeftOut) {
+TEST_F(ComparisonTest, MeasuresUndefinedWithThisTruthAreLeftOut) {
   writeCell("still/c/given/ours", "null", "null");
   const std::string tables = text();
   EXPECT_NE(tables.find("- / 2.00 / 0.500"), std::string::npos) << tables;
@@ -70,7 +66,7 @@ TEST_F(ComparisonTest, FramerateIsAllFramesOverAllTime) {
   EXPECT_NE(text().find("ours        26.7"), std::string::npos) << text();  // 400 frames in 15 s
 }
 
-TEST_F(ComparisonTest, AMethodThatSawLessOfTheClipsIsTold) {
+TEST_F(ComparisonTest, NotesAMethodThatWasRunOnFewerFrames) {
   writeCell("flown/a/calibrated/ours", "0.2", "0.8");
   writeCell("flown/a/calibrated/old", "0.2", "0.8");
   writeText(folder_ / "cells/flown/a/calibrated/old/measures.json",
@@ -97,49 +93,13 @@ TEST_F(ComparisonTest, ThePageHoldsTablesCurvesAndImages) {
   EXPECT_EQ(page.find("src=\"/"), std::string::npos);
 }
 
-TEST_F(ComparisonTest, BadListsAreToldWithTheirLine) {
+TEST_F(ComparisonTest, ComplaintsAboutBadListsNameTheLine) {
   writeText(folder_ / "short.txt", "# comment\nflown a asl\n");
   EXPECT_NE(complaintOf([&] { readClipList(folder_ / "short.txt"); }).find("short.txt:2: has 3 words"),
             std::string::npos);
   writeText(folder_ / "empty.txt", "# nothing\n");
   EXPECT_NE(complaintOf([&] { readMethodList(folder_ / "empty.txt"); }).find("lists nothing"),
             std::string::npos);
-}
-
-TEST(Tables, AreAlignedInTextAndMarkedInMarkdownAndEscapedInHtml) {
-  const Table table{"T", {"method", "x"}, {{"a", "1.0"}, {"a<b", "10.0"}}, {"note"}};
-  EXPECT_EQ(asText(table), "T\nmethod     x\na        1.0\na<b     10.0\n  note\n");
-  EXPECT_EQ(asMarkdown(table),
-            "**T**\n\n| method |    x |\n| --- | ---: |\n| a      |  1.0 |\n| a<b    | 10.0 |\n\nnote\n");
-  EXPECT_NE(asHtml(table).find("<td>a&lt;b</td><td>10.0</td>"), std::string::npos);
-}
-
-TEST(SvgPlot, DrawsLinesPointsAndMarks) {
-  SvgPlot plot("it's a title", "x, s", "y, px");
-  plot.addLine("curve", {0, 1, 2}, {0, 1, 4}, "#c0392b");
-  plot.addPoints("dots", {{0.5, 0.5}, {1.5, 2}}, "#1e8449");
-  plot.addMark("here", 1);
-  const std::string svg = plot.svg();
-  EXPECT_EQ(svg.rfind("<svg", 0), 0u);
-  EXPECT_NE(svg.find("</svg>"), std::string::npos);
-  for (const char* text : {"it's a title", "curve", "dots", "here", "y, px"}) {
-    EXPECT_NE(svg.find(text), std::string::npos) << text;
-  }
-}
-
-TEST(SvgPlot, WhatIsNotFiniteBreaksALineAndNothingAtAllIsAnEmptyFrame) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  SvgPlot broken("", "", "");
-  broken.addLine("", {0, 1, 2, 3, 4}, {0, 1, nan, 1, 0}, "#123456");
-  const std::string svg = broken.svg();
-  const size_t start = svg.find("rgb( 18,  52,  86)'  d=");
-  ASSERT_NE(start, std::string::npos);
-  const std::string path = svg.substr(start, svg.find("/>", start) - start);
-  EXPECT_EQ(std::count(path.begin(), path.end(), 'M'), 2) << path;
-  SvgPlot empty("", "", "");
-  empty.addLine("", {}, {}, "#000000");
-  empty.addLine("", {1}, {nan}, "#000000");
-  EXPECT_NE(empty.svg().find("</svg>"), std::string::npos);
 }
 
 }  // namespace

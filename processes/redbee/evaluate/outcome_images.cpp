@@ -1,4 +1,6 @@
-#include "processes/redbee/evaluate/hits_and_misses.hpp"
+#include "processes/redbee/evaluate/outcome_images.hpp"
+
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <map>
@@ -7,20 +9,26 @@
 #include <opencv2/imgproc.hpp>
 
 #include "processes/redbee/evaluate/flight_images.hpp"
+#include "processes/redbee/pages/page.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/files/atomic_file.hpp"
-#include "redbee/files/input_error.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr size_t kOfEach = 2;
-const cv::Scalar kHit(70, 190, 60), kFalse(50, 50, 235), kMiss(235, 120, 30), kUntold(40, 210, 235);
+
+struct Colour {
+  cv::Scalar bgr;
+  const char* html;
+};
+const Colour kHit{{70, 190, 60}, "#3cbe46"}, kFalseAlarm{{50, 50, 235}, "#eb3232"},
+    kMiss{{235, 120, 30}, "#1e78eb"}, kUnlabelled{{40, 210, 235}, "#c9b000"};
 
 double quality(const FrameOutcome& frame) {
   const double all = static_cast<double>(frame.hits + frame.false_alarms + frame.misses);
   if (all > 0) return static_cast<double>(frame.hits) / all;
-  const ObjectCounts& objects = frame.objects;  // labels by boxes: no pixels are told
+  const ObjectCounts& objects = frame.objects;  // labelled by boxes: pixels are unknown
   return objects.present > 0 ? static_cast<double>(objects.found) /
                                    static_cast<double>(objects.present + objects.false_alarms)
                              : 1;
@@ -66,7 +74,7 @@ void writeJpeg(const std::filesystem::path& file, const cv::Mat& image) {
 
 }  // namespace
 
-TellingFrames chooseTellingFrames(const std::vector<FrameOutcome>& frames, size_t of_each) {
+RepresentativeFrames chooseRepresentativeFrames(const std::vector<FrameOutcome>& frames, size_t of_each) {
   std::vector<size_t> order(frames.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -78,7 +86,7 @@ TellingFrames chooseTellingFrames(const std::vector<FrameOutcome>& frames, size_
     into.push_back(candidate);
     taken.push_back(candidate);
   };
-  TellingFrames chosen;
+  RepresentativeFrames chosen;
   for (auto it = order.rbegin(); it != order.rend(); ++it) {
     if (frames[*it].hits > 0 || frames[*it].objects.found > 0) take(chosen.best, *it);
   }
@@ -88,16 +96,16 @@ TellingFrames chooseTellingFrames(const std::vector<FrameOutcome>& frames, size_
   return chosen;
 }
 
-cv::Mat drawHitsAndMisses(const cv::Mat& grey, const cv::Mat& detected, const ClipTruth::Labels& truth) {
-  cv::Mat image;
+cv::Mat3b drawOutcome(const cv::Mat1b& grey, const cv::Mat1b& detected, const ClipTruth::Labels& truth) {
+  cv::Mat3b image;
   cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
   if (truth.mask.empty()) {
-    tint(image, detected, kUntold);
+    tint(image, detected, kUnlabelled.bgr);
     if (!truth.objects.ignored.empty()) hatch(image, truth.objects.ignored);
   } else {
-    tint(image, detected & (truth.mask == 255), kHit);
-    tint(image, detected & (truth.mask == 0), kFalse);
-    tint(image, (detected == 0) & (truth.mask == 255), kMiss);
+    tint(image, detected & (truth.mask == 255), kHit.bgr);
+    tint(image, detected & (truth.mask == 0), kFalseAlarm.bgr);
+    tint(image, (detected == 0) & (truth.mask == 255), kMiss.bgr);
     hatch(image, (truth.mask != 255) & (truth.mask != 0));
   }
   for (const TruthObject& object : truth.objects.objects) {
@@ -106,29 +114,33 @@ cv::Mat drawHitsAndMisses(const cv::Mat& grey, const cv::Mat& detected, const Cl
   return image;
 }
 
-void writeHitsAndMisses(const EvaluateOptions& options, const ClipTruth& truth, const ClipMeasures& clip) {
-  const auto folder = options.results / "images";
+std::string outcomeLegend() {
+  return "<p>" + legendEntry(kHit.html, "hit") + ", " + legendEntry(kFalseAlarm.html, "false alarm") + ", " +
+         legendEntry(kMiss.html, "miss") + ", " +
+         legendEntry(kUnlabelled.html, "detection where only boxes are labelled") +
+         "; hatched: truth unknown. By the mask that the method decided on.</p>";
+}
+
+void writeOutcomeImages(const EvaluatedRun& run, const ClipTruth& truth,
+                        const std::vector<FrameOutcome>& frames) {
+  const auto folder = run.results.path() / "images";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
-  const TellingFrames telling = chooseTellingFrames(clip.frames, kOfEach);
-  const auto times = imageTimes(options.log, options.camera_channel);
-  std::map<int64_t, const char*> wanted;
-  for (const size_t i : telling.best) wanted[clip.frames[i].utime] = "best";
-  for (const size_t i : telling.worst) wanted[clip.frames[i].utime] = "worst";
+  const RepresentativeFrames chosen = chooseRepresentativeFrames(frames, kOfEach);
+  std::map<int64_t, const char*> kinds;
+  for (const size_t i : chosen.best) kinds[frames[i].utime] = "best";
+  for (const size_t i : chosen.worst) kinds[frames[i].utime] = "worst";
   std::map<int64_t, ClipTruth::Frame> labelled;
-  for (const ClipTruth::Frame& frame : truth.frames(times)) labelled[frame.utime] = frame;
-  forEachImage(options.log, options.camera_channel, [&](const image_t& message) {
-    const auto kind = wanted.find(message.utime);
-    const auto grey = kind == wanted.end() ? std::nullopt : decodeGrey(message);
+  for (const ClipTruth::Frame& frame : truth.frames(imageTimes(run.log, run.camera_channel)))
+    labelled[frame.utime] = frame;
+  forEachImage(run.log, run.camera_channel, [&](const image_t& message) {
+    const auto kind = kinds.find(message.utime);
+    const auto grey = kind == kinds.end() ? std::nullopt : decodeGrey(message);
     if (!grey) return;
-    const std::string stamp = std::to_string(message.utime);
-    cv::Mat mask = cv::imread((options.results / "mask" / (stamp + ".png")).string(), cv::IMREAD_GRAYSCALE);
-    if (mask.empty()) mask = cv::Mat::zeros(grey->size(), CV_8U);
-    if (mask.size() != grey->size())
-      throw InputError(options.results / "mask", "does not fit the flight's images");
+    const cv::Mat1b mask = run.results.readOrZeros(RunMap::kMask, message.utime, grey->size());
     const auto labels = truth.read(labelled.at(message.utime), grey->size());
-    writeJpeg(folder / (std::string(kind->second) + "-" + stamp + ".jpg"),
-              drawHitsAndMisses(*grey, mask, labels));
+    writeJpeg(folder / fmt::format("{}-{}.jpg", kind->second, message.utime),
+              drawOutcome(*grey, mask, labels));
   });
 }
 

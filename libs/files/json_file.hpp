@@ -1,0 +1,14 @@
+// JSON files, read and written whole.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+namespace redbee {
+
+/// Throws InputError where the file is missing or is not JSON.
+nlohmann::json readJson(const std::filesystem::path& file);
+/// Indented by two. Throws InputError where the file cannot be written.
+void writeJson(const std::filesystem::path& file, const nlohmann::json& json);
+
+}  // namespace redbee

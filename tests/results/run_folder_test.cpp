@@ -1,0 +1,125 @@
+#include "redbee/results/run_folder.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "redbee/files/json_file.hpp"
+#include "redbee/results/png_file.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace redbee {
+namespace {
+
+using namespace testing;  // NOLINT: the test's own helpers
+
+std::string pngOf(const cv::Mat& image) {
+  std::vector<uint8_t> bytes;
+  cv::imencode(".png", image, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(RunFolder, DetectionsHaveTheColumnsOfMotChallengeAndReadBack) {
+  const ScratchFolder folder;
+  const RunFolder run(folder.path());
+  DetectionsCsv csv = run.createDetections();
+  Detection detection;
+  detection.id = 7;
+  detection.box = {10, 20, 30, 40};
+  detection.score = 0.5;
+  csv.write(0, 123456, detection);
+  EXPECT_FALSE(fs::exists(folder / "detections.csv"));
+  csv.close();
+  EXPECT_EQ(readText(folder / "detections.csv"),
+            "frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z,utime\n"
+            "1,7,10,20,30,40,0.5,-1,-1,-1,123456\n");
+  const DetectionsByTime read = run.detections();
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read.begin()->first, 123456);
+  EXPECT_EQ(read.begin()->second.id, 7);
+  EXPECT_EQ(read.begin()->second.box, detection.box);
+  EXPECT_EQ(read.begin()->second.score, 0.5);
+}
+
+TEST(RunFolder, HomographiesReadBackToTheLastBit) {
+  const ScratchFolder folder;
+  const RunFolder run(folder.path());
+  const Eigen::Matrix3d H =
+      (Eigen::Matrix3d() << 1 + 1e-15, 1.0 / 3, M_PI, -1e-9, 0.99, 7, 1e-7, -2e-7, 1).finished();
+  HomographyCsv csv = run.createHomographies();
+  csv.write(5, {2, H, std::nullopt, "fused"});
+  csv.write(6, {3, std::nullopt, H, "none"});
+  csv.close();
+  const std::string text = readText(folder / "homography.csv");
+  EXPECT_EQ(text.substr(0, 41), "utime,epoch,ground_h11,ground_h12,ground_");
+  EXPECT_NE(text.find("\n5,2,1.0000000000000011,0.33333333333333331,3.1415926535897931,"), std::string::npos);
+  EXPECT_NE(text.find(",front_h33,source\n"), std::string::npos);
+  const auto rows = run.homographies();
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows.at(5).epoch, 2);
+  EXPECT_EQ(*rows.at(5).ground, H);
+  EXPECT_FALSE(rows.at(5).front);
+  EXPECT_EQ(rows.at(5).source, "fused");
+  EXPECT_FALSE(rows.at(6).ground);
+  EXPECT_EQ(*rows.at(6).front, H);
+  EXPECT_EQ(rows.at(6).source, "none");
+}
+
+TEST(RunFolder, MapsAreNamedByTimeAndReadBack) {
+  const ScratchFolder folder;
+  const RunFolder run(folder.path());
+  run.prepare();
+  const cv::Mat image = texture(40, 30, 0, 1);
+  run.write(RunMap::kMask, 2'000'000, pngOf(image));
+  run.write(RunMap::kMask, 1'000'000, pngOf(image));
+  writeText(folder / "mask/notes.txt", "no map");
+  EXPECT_TRUE(fs::exists(folder / "mask/1000000.png"));
+  EXPECT_EQ(run.times(RunMap::kMask), (std::vector<int64_t>{1'000'000, 2'000'000}));
+  EXPECT_TRUE(run.times(RunMap::kProbability).empty());
+  EXPECT_TRUE(run.has(RunMap::kMask, 1'000'000));
+  EXPECT_FALSE(run.has(RunMap::kProbability, 1'000'000));
+  EXPECT_EQ(cv::norm(run.read(RunMap::kMask, 1'000'000), image, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::countNonZero(run.readOrZeros(RunMap::kMask, 3, {40, 30})), 0);
+  EXPECT_NE(complaintOf([&] {
+              run.readOrZeros(RunMap::kMask, 1'000'000, {40, 31});
+            }).find("mask/1000000.png: has 40x30 px instead of 40x31"),
+            std::string::npos);
+}
+
+TEST(RunFolder, PreparingRemovesTheMapsOfAnEarlierRun) {
+  const ScratchFolder folder;
+  const RunFolder run(folder.path() / "new" / "run");
+  run.prepare();
+  run.write(RunMap::kProbability, 7, "stale");
+  run.prepare();
+  EXPECT_TRUE(run.times(RunMap::kProbability).empty());
+}
+
+TEST(RunFolder, ComplaintsNameTheFile) {
+  const ScratchFolder folder;
+  const RunFolder run(folder.path());
+  EXPECT_NE(complaintOf([&] { run.times(RunMap::kMask); }).find("mask: no such folder"), std::string::npos);
+  EXPECT_NE(complaintOf([&] { run.read(RunMap::kMask, 5); }).find("mask/5.png: no such file"),
+            std::string::npos);
+  writeText(folder / "mask/6.png", "no image");
+  EXPECT_NE(complaintOf([&] { run.read(RunMap::kMask, 6); }).find("mask/6.png: not a readable image"),
+            std::string::npos);
+  EXPECT_NE(complaintOf([&] { run.summary(); }).find("summary.json: cannot be read"), std::string::npos);
+  writeText(folder / "homography.csv", "utime,epoch\n1,2\n");
+  EXPECT_NE(complaintOf([&] { run.homographies(); }).find("homography.csv:1: has 2 columns instead of 21"),
+            std::string::npos);
+  EXPECT_NE(complaintOf([&] {
+              writePng(folder / "none" / "mask.png", texture(40, 30, 0, 1));
+            }).find("mask.png: cannot be written"),
+            std::string::npos);
+}
+
+TEST(RunFolder, TheSummaryReadsBack) {
+  const ScratchFolder folder;
+  const RunFolder run(folder.path());
+  run.writeSummary({{"frames", 240}});
+  EXPECT_EQ(run.summary().at("frames"), 240);
+  writeText(folder / "summary.json", "{");
+  EXPECT_NE(complaintOf([&] { run.summary(); }).find("summary.json: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace redbee
