@@ -87,6 +87,7 @@ Table splitHalfTable(const CalibrationResult& result) {
     return table;
   }
   table.columns = {"parameter", "difference", "its sigma", "unit", "ratio"};
+  table.text_columns = {0, 3};
   for (const auto& entry : result.split_half) {
     table.rows.push_back(
         {entry.name, rounded(entry.difference), rounded(entry.sigma), entry.unit, rounded(entry.ratio())});

@@ -60,14 +60,17 @@ std::vector<std::string> overlays(const ReportOptions& options, int64_t frames) 
   std::vector<std::string> figures;
   const int64_t period = std::max<int64_t>(1, frames / kImages);
   int64_t number = 0;
-  forEachOverlay(options.log, options.configuration, options.results,
-                 [&](int64_t utime, const cv::Mat& drawn) {
-                   if (number++ % period != period / 2) return;
-                   std::vector<uint8_t> jpeg;
-                   cv::imencode(".jpg", drawn, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
-                   figures.push_back(jpegFigure({reinterpret_cast<const char*>(jpeg.data()), jpeg.size()},
-                                                fmt::format("frame {}, {} us", number - 1, utime)));
-                 });
+  int64_t first_utime = 0;
+  forEachOverlay(
+      options.log, options.configuration, options.results, [&](int64_t utime, const cv::Mat& drawn) {
+        if (number == 0) first_utime = utime;
+        if (number++ % period != period / 2) return;
+        std::vector<uint8_t> jpeg;
+        cv::imencode(".jpg", drawn, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
+        figures.push_back(jpegFigure(
+            {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()},
+            fmt::format("frame {}, {:.2f} s", number, static_cast<double>(utime - first_utime) * 1e-6)));
+      });
   return figures;
 }
 

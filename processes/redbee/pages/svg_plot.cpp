@@ -84,7 +84,7 @@ bool SvgPlot::isDrawable(const Series& series) {
 std::string SvgPlot::settings() const {
   const bool square = low_ < high_;
   std::ostringstream out;
-  out << "set terminal svg noenhanced size " << (square ? "480,480" : "900,300")
+  out << "set terminal svg noenhanced size " << (square ? "480,480" : "620,260")
       << " font 'sans-serif,12' background '#ffffff'\n"
       << "set title " << quoted(title_) << "\nset xlabel " << quoted(x_label_) << "\nset ylabel "
       << quoted(y_label_) << "\nset key below horizontal height 1\nset grid lc rgb '#dddddd'\n";
