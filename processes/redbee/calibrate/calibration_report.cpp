@@ -50,7 +50,8 @@ Table parameterTable(const CalibrationResult& result) {
   table.text_columns = {0, 1, 2, 3, 4, 5, 6};
   for (const ParameterReport& report : result.parameters) {
     table.rows.push_back({report.name, list(report.value), list(report.sigma), list(report.nominal),
-                          report.unit, Cell(toString(report.verdict), toneOf(report.verdict)), report.explanation});
+                          report.unit, Cell(toString(report.verdict), toneOf(report.verdict)),
+                          report.explanation});
   }
   table.notes = {
       "camera.R_CI: rotation vector from the nominal to the estimated rotation, about the camera's axes."};
