@@ -9,7 +9,7 @@
 namespace redbee {
 
 /// Writes to "<path>.partial" and renames it on close(). Destroyed without close(), it leaves nothing behind.
-/// Every failure to write (a full disk, say) is thrown as InputError naming the file.
+/// Every failure to write, such as a full disk, throws InputError with the file's name.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

@@ -1,4 +1,4 @@
-// Numbers out of CSV files, with the line in every complaint.
+// Numbers from CSV files, with file and line in every error.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace redbee {
 
 /// Reads a CSV file row by row. Empty lines and lines that start with '#' (the ASL layout's headers) are
-/// passed over.
+/// skipped.
 class CsvReader {
  public:
   /// Throws InputError where the file is missing.
@@ -43,8 +43,8 @@ class IncreasingTimes {
   int64_t last_ = 0;
 };
 
-/// ns to us, to the nearest: stamps of 24 and 20 Hz are no whole microseconds, and cutting them off would
-/// move every frame by half a microsecond on average against IMU stamps that are whole.
+/// ns to us, to the nearest: periods of 24 Hz are no whole microseconds, and truncating would shift every
+/// frame by half a microsecond on average against the IMU's.
 constexpr int64_t microseconds(int64_t nanoseconds) {
   const int64_t rest = nanoseconds % 1000;  // rounding before the division could overflow
   return nanoseconds / 1000 + (rest >= 500 ? 1 : 0) - (rest <= -500 ? 1 : 0);

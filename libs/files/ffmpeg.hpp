@@ -36,13 +36,13 @@ struct OutputCloser {
 };
 using Output = std::unique_ptr<AVFormatContext, OutputCloser>;
 
-/// ffmpeg's own words for an error code.
+/// ffmpeg's text for an error code.
 inline std::string explain(int error) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
   return av_strerror(error, text, sizeof text) == 0 ? text : "error " + std::to_string(error);
 }
 
-/// ffmpeg writes its complaints to stderr by itself; ours are exceptions of one line.
+/// Silences ffmpeg's own messages on stderr; errors are exceptions of one line.
 inline void silence() { av_log_set_level(AV_LOG_QUIET); }
 
 }  // namespace redbee::ffmpeg

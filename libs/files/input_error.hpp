@@ -1,4 +1,4 @@
-// Bad input from outside, told in one line.
+// Bad input, reported in one line.
 #pragma once
 
 #include <filesystem>

@@ -80,8 +80,8 @@ bool LogReader::endsWhereItSays(const Header& header) {
   const auto later = resynchronise(position_ + 1);
   if (!later) return true;  // nothing but damage behind it
   if (*later < end) return false;
-  // Either this event's length lies or the next one's start is damaged. In the second case a number is
-  // missing.
+  // Either this event's length is wrong or the next one's start is damaged. In the second case an event
+  // number is missing.
   return headerAt(*later)->number > header.number + 1;
 }
 
@@ -130,7 +130,7 @@ std::optional<LogReader::Header> LogReader::headerAt(int64_t offset) {
 bool LogReader::eventFollows(int64_t offset) {
   if (offset == size_) return true;
   std::array<uint8_t, 4> bytes{};
-  // Fewer bytes than a sync word are the stump of a cut event: what comes before them is whole.
+  // Fewer bytes than a sync word are the rest of a truncated event: what precedes them is whole.
   const size_t there = static_cast<size_t>(std::min<int64_t>(4, size_ - offset));
   if (!readAt(offset, bytes.data(), there)) return false;
   std::vector<uint8_t> sync;

@@ -16,7 +16,7 @@
 
 namespace redbee {
 
-/// What a message says of itself: an event's `utime` is the message's.
+/// An event of the log; `utime` is the time inside the message.
 struct LogEvent {
   int64_t number = 0;
   int64_t utime = 0;  ///< us
@@ -24,8 +24,8 @@ struct LogEvent {
   std::vector<uint8_t> data;
 };
 
-/// The log appears under its name on close(); until then, and for ever if close() is not reached, there is
-/// none. Throws InputError when the disk does not take it.
+/// The log appears under its name on close(); if close() is not reached there is none. Throws InputError
+/// where it cannot be written.
 class LogWriter {
  public:
   explicit LogWriter(const std::filesystem::path& path) : file_(path) {}
@@ -48,9 +48,9 @@ class LogWriter {
   int64_t bytes_ = 0;
 };
 
-/// Events in the order of the file. A damaged event is skipped: the reader looks for the next place where a
-/// plausible event starts and another one (or the end of the file) follows it. Lengths are compared with what
-/// the file still holds before anything is allocated.
+/// Events in the order of the file. A damaged event is skipped: the reader searches for the next position
+/// where a plausible event starts and another one (or the end of the file) follows it. Lengths are compared
+/// with the rest of the file before anything is allocated.
 class LogReader {
  public:
   /// Throws InputError where the file cannot be read or holds no LCM log.
@@ -58,7 +58,7 @@ class LogReader {
 
   /// The next whole event; nothing at the end.
   std::optional<LogEvent> next();
-  /// Back to the first event; the counts start anew.
+  /// Back to the first event; the counts are reset.
   void rewind();
 
   int64_t size() const { return size_; }          ///< bytes

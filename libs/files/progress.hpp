@@ -7,8 +7,8 @@
 
 namespace redbee {
 
-/// Told how far the work is; says so on stderr once it has taken a second: one line redrawn on a terminal, a
-/// line every few seconds elsewhere. Work that is done sooner prints nothing.
+/// Prints progress on stderr once the work has taken a second: one line redrawn on a terminal, a line every
+/// few seconds elsewhere. Shorter work prints nothing.
 class Progress {
  public:
   /// `what`: "importing karma.mp4". `unit`: "frames". `quiet` prints nothing at all.

@@ -25,7 +25,7 @@ void SplitLog::write(const HeardMessage& message) {
   event.timestamp = message.utime;
   event.channel = message.channel;
   event.datalen = static_cast<int32_t>(message.data.size());
-  // LCM's event wants to be able to change what it only writes.
+  // LCM's event takes non-const pointers to what it only reads.
   event.data = const_cast<uint8_t*>(message.data.data());
   if (log_->writeEvent(&event) != 0) fail();
   bytes_ += message.bytes();

@@ -11,7 +11,7 @@
 
 namespace redbee {
 
-/// A message as it was heard.
+/// A message as received.
 struct HeardMessage {
   int64_t utime = 0;  ///< us, of its arrival
   std::string channel;
@@ -20,16 +20,16 @@ struct HeardMessage {
   int64_t bytes() const { return static_cast<int64_t>(sizeof *this + channel.size() + data.size()); }
 };
 
-/// Unlike LogWriter, which finishes a file or leaves none: here whatever is written stays, also of a process
-/// that is killed. Files that are there already are never touched; the numbers go on behind them. What the
-/// disk does not take throws InputError.
+/// Unlike LogWriter, which completes a file or leaves none: whatever is written stays, also when the process
+/// is killed. Existing files are never touched; numbering continues after them. Throws InputError where the
+/// disk refuses a write.
 class SplitLog {
  public:
   /// A new file begins behind the message with which one exceeds `split_bytes`.
   SplitLog(std::filesystem::path prefix, int64_t split_bytes);
 
   void write(const HeardMessage& message);
-  /// Hands everything to the disk and waits until it is there.
+  /// Flushes everything to the disk and waits for it.
   void sync();
   const std::filesystem::path& file() const { return file_; }
 

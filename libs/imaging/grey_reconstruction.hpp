@@ -7,12 +7,11 @@ namespace redbee {
 
 /// Raises `level` to what its pixels reach: at each pixel the highest level at which a path of neighbours (of
 /// four) leads to a pixel of `level` without ever falling below it in `limit`. Both CV_32F, of one size;
-/// level <= limit. Paths that wind more often than a structure or an object does are not followed to their
-/// end.
+/// level <= limit. Paths that wind more often than structures or objects do are not followed to their end.
 void reconstruct(const cv::Mat& limit, cv::Mat& level);
 
-/// `map` (CV_32F, 0..1) with its holes filled: what an outline of higher values goes round is raised to the
-/// lowest value that must be crossed on the way to the border. Gaps in the outline up to `gap_px` are
+/// `map` (CV_32F, 0..1) with its holes filled: what is enclosed by an outline of higher values is raised to
+/// the lowest value that must be crossed on the way to the border. Gaps in the outline up to `gap_px` are
 /// closed first; outlines weaker than 0.05 are none.
 cv::Mat fillHoles(const cv::Mat& map, int gap_px);
 

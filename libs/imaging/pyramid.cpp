@@ -13,7 +13,7 @@ PyramidLevel withMargin(const cv::Mat& image, int margin) {
   level.margin = margin;
   level.width = image.cols;
   level.height = image.rows;
-  // Isolated: a image that is a part of a larger one ends at its own edge.
+  // Isolated: an image that is a part of a larger one ends at its own edge.
   cv::copyMakeBorder(image, level.padded, margin, margin, margin, margin,
                      cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
   return level;

@@ -1,4 +1,4 @@
-// Between the raw image and the ideal one that homographies hold in.
+// Raw images to ideal ones, in which homographies hold, and back.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -1,4 +1,4 @@
-// Images and maps moved by homographies.
+// Images and maps warped by homographies.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@ cv::Mat overlapMask(const cv::Size& size, const Eigen::Matrix3d& H);
 /// True where H is finite and can be inverted.
 bool isUsableHomography(const Eigen::Matrix3d& H);
 
-/// Full-size pixels to those of a image `downscale` times smaller: a pixel of it is the mean of a block, so
+/// Full-size pixels to those of an image `downscale` times smaller: a pixel of it is the mean of a block, so
 /// its centre lies between theirs.
 Eigen::Matrix3d downscaling(double downscale);
 /// That image's size.

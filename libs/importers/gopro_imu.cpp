@@ -9,7 +9,7 @@
 namespace redbee {
 namespace {
 
-/// One payload's share of a sensor with the container's idea of its time.
+/// One payload's samples of a sensor with the container's time.
 struct Batch {
   GpmfSamples samples;
   double start_s = 0;
@@ -29,7 +29,7 @@ std::vector<Batch> batches(const std::vector<DataPacket>& packets, const std::st
     batch.duration_s = packet.duration_s;
     const auto count = static_cast<int64_t>(batch.samples.values.size());
     batch.before = batch.samples.total_after ? *batch.samples.total_after - count : counted;
-    // A count that goes back belongs to a restarted counter: go on from our own.
+    // A count that decreases belongs to a restarted counter: continue from our own.
     if (batch.before < counted && !out.empty()) batch.before = counted;
     counted = batch.before + count;
     out.push_back(std::move(batch));

@@ -84,7 +84,7 @@ std::string text(const GpmfRecord& record) {
   return out;
 }
 
-/// What a stream says of its samples before they come.
+/// A stream's description of its samples, which precedes them.
 struct StreamContext {
   GpmfSamples samples;
   std::vector<double> scale = {1};
@@ -96,7 +96,7 @@ struct StreamContext {
 using Axes = std::array<std::array<double, 3>, 3>;
 
 /// ORIN names the axes as stored, ORIO as they should be; a lower-case letter is the opposite direction. MTRX
-/// says the same in numbers.
+/// is the same as a matrix.
 Axes axisMapping(const StreamContext& context, size_t offset) {
   Axes mapping{};
   if (context.orin.size() == 3 && context.orio.size() == 3) {

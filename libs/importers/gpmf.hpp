@@ -33,16 +33,17 @@ struct GpmfRecord {
   bool isContainer() const { return type == 0; }
 };
 
-/// The records of one level, `size` bytes at `data`. Never reads past the end: a record that claims more is a
-/// GpmfError.
+/// The records of one level, `size` bytes at `data`. Never reads past the end: a record with a larger size is
+/// a GpmfError.
 std::vector<GpmfRecord> gpmfRecords(const uint8_t* data, size_t size, size_t offset = 0);
 
-/// One payload's share of a three-axis sensor.
+/// One payload's samples of a three-axis sensor.
 struct GpmfSamples {
-  std::string name;                           ///< STNM, the camera's words for the axes
+  std::string name;                           ///< STNM, the camera's description of the axes
   std::string unit;                           ///< SIUN or UNIT
   std::vector<std::array<double, 3>> values;  ///< SCAL applied; axes in the order `axes`
-  std::string axes = "ZXY";  ///< ORIO, after ORIN or MTRX has been applied; ZXY where the camera does not say
+  std::string axes =
+      "ZXY";  ///< ORIO, after ORIN or MTRX has been applied; ZXY where the camera does not state it
   std::optional<int64_t> total_after;  ///< TSMP: samples since the recording began, this payload's included
   std::optional<double> stamp_s;       ///< STMP: time of the first sample on the recorder's own clock
 };

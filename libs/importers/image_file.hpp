@@ -19,7 +19,7 @@ struct ImageOptions {
 /// file) where it is missing, cut short or no 8-bit image.
 image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options);
 
-/// Refuses a image of another size than the first one's.
+/// Refuses an image of another size than the first one's.
 class OneResolution {
  public:
   void check(const std::filesystem::path& file, const image_t& image);

@@ -81,8 +81,9 @@ std::filesystem::path writeVehicleConfiguration(const VehicleDescription& vehicl
                                                 const std::filesystem::path& log) {
   std::filesystem::path path = log;
   path.replace_extension(".yaml");
-  writeAtomically(path, "# What the recording says of its vehicle; all else has the reference's values.\n" +
-                            vehicleYaml(vehicle));
+  writeAtomically(path,
+                  "# What the recording states about its vehicle; all else has the reference's values.\n" +
+                      vehicleYaml(vehicle));
   return path;
 }
 
@@ -103,7 +104,7 @@ void assumeIntrinsics(ImportSummary& summary) {
 std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, int64_t first_frame,
                                               int64_t last_frame) {
   if (imu.empty()) return std::nullopt;
-  // A time shift or the last sample of a recording costs a few periods; more than this is a hole.
+  // A time shift or the last sample of a recording costs a few periods; more than this is a gap.
   constexpr int64_t kTolerance = 50'000;
   const int64_t head = imu.front().utime - first_frame;
   const int64_t tail = last_frame - imu.back().utime;

@@ -1,5 +1,5 @@
-// What every import has in common: a flight from elsewhere becomes an LCM log, and what is known of its
-// vehicle a configuration.
+// Common parts of all imports: a recording becomes an LCM log, and what it states about its vehicle a
+// configuration.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ struct ImportChannels {
   std::string altimeter = "ALTIMETER";
 };
 
-/// What a recording says of the vehicle that made it. What it does not say stays empty and comes from the
-/// reference configuration.
+/// What a recording states about its vehicle. The rest stays empty and is taken from the reference
+/// configuration.
 struct VehicleDescription {
   std::string name;
   int width = 0;   ///< px
@@ -47,17 +47,17 @@ struct ImportSummary {
   std::vector<std::string> warnings;  ///< one line each
 };
 
-/// The sections of a vehicle configuration that the recording speaks of (vehicle, camera, plane, imu), as
-/// YAML without `include`: what it leaves out has the reference's values.
+/// The sections of a vehicle configuration that the recording states (vehicle, camera, plane, imu), as YAML
+/// without `include`: what it leaves out has the reference's values.
 std::string vehicleYaml(const VehicleDescription& vehicle);
 
 /// Writes vehicleYaml() beside the log: F.lcm gets F.yaml. The path written.
 std::filesystem::path writeVehicleConfiguration(const VehicleDescription& vehicle,
                                                 const std::filesystem::path& log);
 
-/// Where the recording says nothing of its lens: the principal point in the middle and a focal length of 0.8
-/// of the longer side (64 degrees from edge to edge, as drones and phones have), with a warning that says so.
-/// Vision alone leans on it little; with an IMU it has to be right.
+/// For a recording without lens data: the principal point in the middle and a focal length of 0.8 of the
+/// longer side (64 degrees from edge to edge, as drones and phones have), with a warning. Vision alone
+/// depends on it little; with an IMU it must be right.
 void assumeIntrinsics(ImportSummary& summary);
 
 /// A line for the summary where the IMU leaves frames uncovered; nothing where it covers all of them.

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How far from the first frame an altitude still tells the start height.
+/// How far from the first frame an altitude is still the start height.
 constexpr int64_t kStartHeightWindow = 200'000;
 
 struct NamedFrame {

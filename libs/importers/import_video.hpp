@@ -19,8 +19,8 @@ struct VideoImportOptions {
   std::filesystem::path video;  ///< a file, or a folder of JPEGs or PNGs taken in the order of their names
   std::filesystem::path log;    ///< to be written
   /// CSV with a header line that names its columns, in any order: t_s [s, on the video's clock], gx gy gz
-  /// [rad/s], ax ay az [m/s^2, specific force]. Other columns are passed over. The axes are the IMU's; the
-  /// vehicle's R_CI says how the camera sits on them.
+  /// [rad/s], ax ay az [m/s^2, specific force]. Other columns are ignored. The axes are the IMU's; the
+  /// vehicle's R_CI relates the camera to them.
   std::optional<std::filesystem::path> imu;
   double fps = 0;  ///< Hz, of a folder of images; a file has its own times
   int width = 0;   ///< px, the height keeps the aspect, both even; 0: as recorded. Files only

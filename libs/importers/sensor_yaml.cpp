@@ -16,7 +16,7 @@
 namespace redbee {
 namespace {
 
-/// One parsed file; every access complains with file and line.
+/// One parsed file; every access throws with file and line.
 class SensorFile {
  public:
   explicit SensorFile(const std::filesystem::path& file) : file_(file) {

@@ -25,13 +25,13 @@ struct ImuSensor {
   std::optional<SensorPose> pose;
 };
 
-/// What groundtruth.yaml of a rendered flight says of the camera.
+/// Content of a rendered flight's groundtruth.yaml about the camera.
 struct TrueExtrinsics {
   SensorPose pose;         ///< of cam0, T_BS_cam0_true
   double timeshift_s = 0;  ///< time_offset_s: t_imu = t_cam + timeshift
 };
 
-/// All throw InputError with file and line. OpenCV's "%YAML:1.0" line is passed over.
+/// All throw InputError with file and line. OpenCV's "%YAML:1.0" line is skipped.
 CameraSensor readCameraSensor(const std::filesystem::path& file);
 ImuSensor readImuSensor(const std::filesystem::path& file);
 /// noise_sigma [m] of an altimeter.

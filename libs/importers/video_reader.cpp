@@ -93,14 +93,13 @@ class VideoReader::Implementation {
     }
   }
 
-  /// The decoder still holds frames: they come out first, the complaint (if any) after the last good one.
+  /// The decoder still holds frames: they are returned first, the error (if any) after the last good one.
   void drain(const std::string& complaint) {
     complaint_ = complaint;
     avcodec_send_packet(decoder_.get(), nullptr);
   }
 
-  /// Containers with an index (MP4) know how many packets there should be; they end silently where the file
-  /// does.
+  /// Containers with an index (MP4) state the number of packets; they end silently where the file does.
   std::string missingPackets() const {
     const bool indexed = stream_->nb_frames > 0;
     const int expected = indexed ? avformat_index_get_entries_count(stream_) : 0;

@@ -13,7 +13,7 @@ namespace redbee {
 
 struct VideoFrame {
   int64_t utime = 0;  ///< us, on the video's clock (presentation time)
-  cv::Mat image;      ///< 8-bit, grey or BGR as asked for
+  cv::Mat image;      ///< 8-bit, grey or BGR as requested
 };
 
 /// A packet of a data track.
@@ -36,7 +36,7 @@ class VideoReader {
   ~VideoReader();
 
   std::optional<VideoFrame> next();
-  /// As the container says; 0 where it does not.
+  /// As stated by the container; 0 where it is not.
   int64_t expectedFrames() const;
 
  private:
