@@ -1,4 +1,4 @@
-// Images that nothing should be learned from: black, blank, frozen, noise.
+// Detects images that must not be learned from: black, blank, frozen, noise.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -13,7 +13,7 @@ class ImageCheck {
 
   void reset() { previous_.release(); }
   /// 8-bit grey. False for an empty image, one with next to no contrast, one of pure noise, and one that
-  /// repeats the previous image to the last bit: a sensor's noise never does.
+  /// repeats the previous image to the bit, which a sensor's noise never does.
   bool accepts(const cv::Mat& grey);
 
  private:

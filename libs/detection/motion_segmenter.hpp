@@ -1,4 +1,5 @@
-// From the planes' homographies to moving objects (paper III.A and III.B; method.md, "Segmentation").
+// From the planes' homographies to moving objects (paper III.A and III.B; libs/README.md, "Foreground and
+// objects").
 #pragma once
 
 #include <Eigen/Core>
@@ -19,12 +20,12 @@ namespace redbee {
 enum class SegmentationStatus {
   kGood,
   kLearning,      ///< the background is not known yet: everything is "unknown", the mask is empty
-  kNoHomography,  ///< nothing is known of the camera's motion to this frame: the background starts anew
+  kNoHomography,  ///< the camera's motion to this frame is not known: the background restarts
   kBadImage,      ///< black, blank or frozen: nothing was learned from it, the mask is empty
 };
 const char* toString(SegmentationStatus status);
 
-/// What the segmentation needs to know of one frame. Images and points are undistorted (ideal pixels).
+/// Input of the segmentation for one frame. Images and points are undistorted (ideal pixels).
 struct SegmentationInput {
   int64_t utime_previous = 0;
   int64_t utime = 0;
@@ -33,8 +34,8 @@ struct SegmentationInput {
   cv::Mat colour;  ///< CV_8UC3 (BGR) of the same image; may be empty
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix, for `motion`
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current
-  std::optional<Eigen::Matrix3d> front;             ///< the second plane's; nothing where there is none
-  std::optional<PlaneMotion> motion;  ///< of the camera, where an IMU tells: rotation, translation, plane
+  std::optional<Eigen::Matrix3d> front;             ///< the front plane's; nothing where there is none
+  std::optional<PlaneMotion> motion;  ///< of the camera, from an IMU: rotation, translation, plane
   PointTracks tracks;                 ///< sample points, for the flow's entropy
 };
 
@@ -43,7 +44,7 @@ struct SegmentationOutput {
   SegmentationStatus status = SegmentationStatus::kLearning;
   cv::Mat probability;  ///< CV_8U, P_FG * 255
   cv::Mat mask;         ///< CV_8U, 0 or 255
-  cv::Mat unknown;      ///< CV_8U, 255 where the background has not been seen yet (there the mask is 0)
+  cv::Mat unknown;      ///< CV_8U, 255 where no earlier frame shows the background (there the mask is 0)
   std::vector<Detection> detections;
 };
 
@@ -53,7 +54,7 @@ class MotionSegmenter {
   ~MotionSegmenter();
 
   /// Frames in order of time. A gap in utime_previous / utime, a repeated or earlier frame, or a change of
-  /// size starts the background anew (and says so in the status); identities survive what they can.
+  /// size restarts the background (see the status); identities survive where they can.
   SegmentationOutput step(const SegmentationInput& input);
 
  private:

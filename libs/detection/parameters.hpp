@@ -1,11 +1,11 @@
-// Every tunable of the segmentation, with its meaning. The configuration file has the same names.
+// Every tunable of the segmentation. The configuration file has the same names.
 #pragma once
 
 namespace redbee {
 
 /// Where the raw foreground comes from.
 enum class SegmentationMethod {
-  kTwoPlanes,  ///< the paper: a mixture of Gaussians behind each plane, foreground is what neither explains
+  kTwoPlanes,  ///< the paper: a mixture of Gaussians for each plane; foreground is what neither explains
   kParallax,   ///< dense flow against the camera's motion: foreground is what no depth explains
 };
 
@@ -16,46 +16,50 @@ struct SegmentationParameters {
   int mixture_history = 500;  ///< frames that the mixture remembers
   double mixture_threshold =
       16.0;                     ///< squared Mahalanobis distance beyond which a pixel is not its background
-  double canvas_margin = 0.0;   ///< share of the image's width: border of the canvas that a model is kept
+  double canvas_margin = 0.0;   ///< fraction of the image's width: border of the canvas that a model is kept
                                 ///< on; 0: the model is carried along, into every new frame
   int learning_frames = 5;      ///< frames before the first mask
   bool use_front_plane = true;  ///< false: Table II's "without front plane"
 
   // Parallax: flow between a frame and an earlier one, after the ground's (and above the horizon the
-  // rotation's) motion has been taken out, times how unlike the background a pixel looks.
-  int work_downscale = 2;  ///< 1, 2 or 4: all of it on a image this much smaller
-  /// 1, 2 or 4: the flow on a image this much smaller than the camera's, never larger than work_downscale
+  // rotation's) motion has been taken out, times the appearance difference to the background.
+  int work_downscale = 2;  ///< 1, 2 or 4: all of it on an image this much smaller
+  /// 1, 2 or 4: the flow on an image this much smaller than the camera's, never larger than work_downscale
   /// makes it: its patches of 8 px are to be no larger than the smallest mover.
   int flow_downscale = 2;
-  double baseline_s = 0.083;  ///< s: how much earlier; longer shows slower movers and asks more of the flow
-  bool use_short_baseline = true;  ///< false: as long where large things move fast
-  bool use_epipolar = true;        ///< false: any flow against the ground homography is foreground
+  double baseline_s =
+      0.083;  ///< s: to the reference frame; longer shows slower objects and makes the flow harder
+  bool use_short_baseline =
+      true;                  ///< use the previous frame as reference while large, fast objects are in view
+  bool use_epipolar = true;  ///< false: any flow that the ground homography does not explain is foreground
   double parallax_noise_px = 0.5;  ///< px, one sigma of the flow over good texture, at the full-size image
-  double min_gradient = 1.6;       ///< grey levels a px, of a image four times smaller: texture at which the
+  double min_gradient = 1.6;       ///< grey levels a px, of an image four times smaller: texture at which the
                                    ///< flow's variance doubles
   double direction_error = 0.05;   ///< rad, one sigma of the direction of travel; scales with the parallax
   double nearest_depth_fraction =
       0.15;                      ///< of the height: no static surface is nearer to the camera than this
   double evidence_sigmas = 2.5;  ///< distance from the parallax segment, in sigmas, that is half the evidence
-  double evidence_rate = 0.2;    ///< learning rate of the motion that travels along the flow; 1: none travels
-  bool use_registration = true;  ///< false: what the homography leaves everywhere counts as motion
-  /// Of the image's width: without an IMU, evidence that hangs together with so long a stretch of the
-  /// image's border is a static structure's; 0: it is not.
+  double evidence_rate =
+      0.2;  ///< learning rate of the evidence that is propagated along the flow; 1: no propagation
+  bool use_registration =
+      true;  ///< estimate and remove the residual homography error before testing for motion
+  /// Of the image's width: without an IMU, evidence connected to so long a stretch of the image's border
+  /// belongs to a static structure; 0: off.
   double border_stretch = 0.05;
-  double motion_half = 0.15;     ///< evidence of motion that is half enough
-  bool use_appearance = true;    ///< false: motion alone, without the background's looks
-  int background_downscale = 2;  ///< 1, 2 or 4: the background's looks are kept on a image this much smaller
-  double background_span_s = 0.5;  ///< s: over which they are averaged
+  double motion_half = 0.15;       ///< evidence of motion that gives half of P_FG
+  bool use_appearance = true;      ///< false: motion alone, without the appearance difference
+  int background_downscale = 2;    ///< 1, 2 or 4: the background model is on an image this much smaller
+  double background_span_s = 0.5;  ///< s: over which it is averaged
   double background_noise = 20.0;  ///< grey levels: differences of this size are noise
-  double edge_doubt_px = 3;        ///< px: the background's edges may be off by so much
-  bool use_surfaces = true;        ///< false: the background remembers surfaces that have moved away
-  bool use_shadow_test = true;     ///< false: cast shadows are foreground as their casters are
-  double shadow_noise = 8;         ///< grey levels: what may be left of a shadow once it is brightened
-  double fill_radius_px = 6;       ///< px: reach of the edge-aware filter on the motion
-  double fill_contrast = 12;       ///< grey levels: contrast below this is no edge to it
-  bool use_hole_filling = true;    ///< false: what looks like the background within an object is left hollow
-  double outline_gap_px = 4;       ///< px: gaps in an outline up to this are closed before its hole is filled
-  double region_radius_px = 8;     ///< px: reach of the same filter on P_FG, for half of it; 0: none
+  double edge_doubt_px = 3;        ///< px: tolerance for misaligned edges of the background
+  bool use_surfaces = true;     ///< reset the background where the surface it was learned from has moved away
+  bool use_shadow_test = true;  ///< exclude cast shadows from the foreground
+  double shadow_noise = 8;      ///< grey levels: residual of a shadow after scaling its brightness
+  double fill_radius_px = 6;    ///< px: reach of the edge-aware filter on the motion
+  double fill_contrast = 12;    ///< grey levels: the filter smooths over lower contrast
+  bool use_hole_filling = true;  ///< fill regions inside an object that resemble the background
+  double outline_gap_px = 4;     ///< px: gaps in an outline up to this are closed before its hole is filled
+  double region_radius_px = 8;   ///< px: reach of the same filter on P_FG, for half of it; 0: none
 
   // Foreground refinement (paper III.B).
   bool use_refinement = false;  ///< (13) to (16); false: P_FG is the raw foreground
@@ -77,11 +81,12 @@ struct SegmentationParameters {
   int opening_px = 3;             ///< px: 0 for none
   int closing_px = 7;             ///< px: 0 for none
   double min_area_px = 30;        ///< px^2: smaller components are no objects
-  int max_missed_frames = 24;     ///< frames an identity survives unseen; as many again that are blind
-  int confirm_frames = 2;         ///< frames an object must stand out in before it is told
+  int max_missed_frames =
+      24;                  ///< frames a track survives without a component; as many again that are skipped
+  int confirm_frames = 2;  ///< frames before a track is confirmed
 
-  // Images that nothing can be learned from.
-  double min_contrast = 2.0;  ///< grey levels: standard deviation below which a image is black or blank
+  // Images that are not learned from.
+  double min_contrast = 2.0;  ///< grey levels: standard deviation below which an image is black or blank
 };
 
 /// The paper's own configuration; the default is ours.

@@ -103,8 +103,8 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const
           PlaneMotion{matrix3(fused->R), vector3(fused->t), vector3(fused->normal), fused->plane_distance};
     }
   } else if (fused->epoch == last_->epoch && fused->utime_anchor == last_->utime_anchor) {
-    // A frame between was missed: the anchor bridges it (method.md, "Fusion"). A fusion that was started
-    // again counts its epochs anew, but not its anchors.
+    // A frame between was missed: the anchor homographies bridge it (libs/README.md, equation 25). A
+    // restarted fusion counts its epochs from 0 again, so the anchor's time is compared as well.
     input.ground = normaliseHomography(matrix3(fused->H_anchor) * last_->H_anchor.inverse());
   }
   return input;

@@ -1,4 +1,4 @@
-// The carried background resampled for a view that has moved: a step of CarriedBackground.
+// Resampling of the carried background for a moved camera: a step of CarriedBackground.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,10 +10,10 @@ namespace redbee {
 struct BackgroundMaps {
   cv::Mat model;  ///< CV_32FC4, interpolated between pixels
   cv::Mat speed;  ///< CV_32F, of the nearest pixel
-  cv::Mat age;    ///< CV_8U, of the nearest pixel; 0 for what comes from outside
+  cv::Mat age;    ///< CV_8U, of the nearest pixel; 0 outside of the previous view
 };
 
-/// The maps as the current camera sees them: ground up to the horizon, infinitely far above it.
+/// The maps warped into the current view: ground up to the horizon, infinitely far above it.
 BackgroundMaps carryBackground(const BackgroundMaps& maps, const SceneMotion& scene);
 
 }  // namespace redbee

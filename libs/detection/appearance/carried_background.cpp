@@ -13,12 +13,12 @@ namespace redbee {
 namespace {
 
 constexpr int kColours = 3;
-constexpr float kFirstVariance = 400;  // of a pixel seen once: it may lie on an edge
-constexpr float kMostVariance = 1000;  // what passes by is not the background's variance
-constexpr int kTrusted = 3;            // images after which what moves is told from what is new
+constexpr float kFirstVariance = 400;  // after one image: the pixel may lie on an edge
+constexpr float kMostVariance = 1000;  // a passing object must not raise the background's variance
+constexpr int kTrusted = 3;            // images after which moving pixels are learned slowly
 constexpr double kVarianceSpan_s = 0.4;
 constexpr float kMovingFraction = 0.05F;  // of the learning rate, where it moves for sure
-constexpr float kSurelyMovedAway = 0.5F;  // then it is another surface that is learned, from the start
+constexpr float kSurelyMovedAway = 0.5F;  // above it the pixel is learned again from the start
 
 using Pixel = Eigen::Map<Eigen::Array4f>;
 using ConstPixel = Eigen::Map<const Eigen::Array4f>;
@@ -78,7 +78,7 @@ void CarriedBackground::carry(const SceneMotion& scene) {
   age_ = carried.age;
 }
 
-/// 0..1: that the surface which the model shows has gone, and a slower one stands where it was.
+/// 0..1: that the modelled surface has moved away and a slower one is in its place.
 float CarriedBackground::movedAway(float learned_speed, const cv::Vec2f& speed) const {
   if (!parameters_.use_surfaces) return 0;
   const auto sigmas = static_cast<float>(parameters_.evidence_sigmas);

@@ -1,6 +1,5 @@
-// What the static scene looks like, in colour, pixel by pixel: carried along with the camera, and aware of
-// how well it knows each pixel (after Yi et al. 2013, whose model is carried too, on a coarse grid and in
-// grey).
+// Appearance of the static scene: colour, variance and age per pixel, carried along with the camera (after Yi
+// et al. 2013, whose model is on a coarse grid and in grey).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,8 +9,8 @@
 
 namespace redbee {
 
-/// How fast what a pixel shows moves against the ground: CV_32FC2, speed [px] and its variance [px^2], over
-/// the baseline of the motion. A tree's parallax counts as speed.
+/// Speed of a pixel's surface against the ground: CV_32FC2, speed [px] and its variance [px^2], over the
+/// baseline of the motion. A tree's parallax is speed as well.
 using SurfaceSpeed = cv::Mat;
 
 class CarriedBackground {
@@ -19,15 +18,15 @@ class CarriedBackground {
   explicit CarriedBackground(const SegmentationParameters& parameters) : parameters_(parameters) {}
 
   void reset();
-  /// The view moves (pixels of the images that are compared and learned).
+  /// The camera moves (pixels of the images that are compared and learned).
   void carry(const SceneMotion& scene);
-  /// CV_32F, 0..1: d^2 / (d^2 + variance + noise^2 + (edge doubt * slope)^2) of the pixel's difference d.
-  /// Less where it may be the background in shadow, and where the background was learned from a surface that
-  /// has moved away since; 0 where the model has not seen the scene. `image`: CV_32FC4 (blue, green, red,
-  /// anything).
+  /// CV_32F, 0..1: d^2 / (d^2 + variance + noise^2 + (edge tolerance * slope)^2) of the pixel's difference d
+  /// (libs/README.md, equation 29). Less where it may be the background in shadow, and where the background
+  /// was learned from a surface that has moved away since; 0 where the model has no data. `image`: CV_32FC4
+  /// (blue, green, red, anything).
   cv::Mat appearanceDifference(const cv::Mat& image, const SurfaceSpeed& speed) const;
-  /// What moves (CV_32F, 0..1) is learned slowly, so that it leaves no trail. `elapsed_s`: since the last
-  /// image.
+  /// Moving pixels (`moving`: CV_32F, 0..1) are learned slowly, so that they leave no trail. `elapsed_s`:
+  /// since the last image.
   void learn(const cv::Mat& image, const cv::Mat& moving, const SurfaceSpeed& speed, double elapsed_s);
 
  private:

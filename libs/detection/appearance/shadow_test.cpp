@@ -8,8 +8,8 @@ namespace {
 
 constexpr int kColours = 3;
 constexpr int kWindow = 3;  // px, both ways
-// What a shadow leaves of the light, in the image's (gamma) grey levels: the sky alone gives a tenth to a
-// half of the light, 0.35 to 0.75 of the grey levels.
+// Brightness of a shadow, in the image's (gamma) grey levels: the sky alone gives a tenth to a half of the
+// light, 0.35 to 0.75 of the grey levels.
 constexpr float kDarkest = 0.4F;
 constexpr float kDarkestRamp = 0.1F;
 constexpr float kLightest = 0.95F;

@@ -1,5 +1,5 @@
-// Is a pixel the background in shadow? A shadow scales what lies under it by one factor for all colours and
-// leaves its texture (Horprasert et al. 1999; here over a window, against the noise).
+// Whether a pixel is the background in shadow: a shadow scales the background by one factor for all colours
+// and keeps its texture (Horprasert et al. 1999; here over a window, against the noise).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,10 +9,10 @@ namespace redbee {
 
 class ShadowTest {
  public:
-  /// `noise`: grey levels, what is left of a shadow once it is scaled.
+  /// `noise`: grey levels, residual of a shadow after scaling.
   ShadowTest(const cv::Mat& image, const cv::Mat& background, double noise);
 
-  /// For each pixel of row y: 0 no shadow, 1 surely one. Rows are asked for in order, from 0.
+  /// For each pixel of row y: 0 no shadow, 1 certainly one. Rows must be requested in order, from 0.
   const std::vector<float>& row(int y);
 
  private:

@@ -11,7 +11,7 @@ namespace redbee {
 namespace {
 
 constexpr double kVelocityRate = 0.3;     // of the newest step in an object's velocity
-constexpr double kUnseenVelocity = 0.85;  // share of the velocity that an unseen object keeps per frame
+constexpr double kUnseenVelocity = 0.85;  // fraction of its velocity that a missed object keeps per frame
 constexpr int kUnmatched = -1;
 constexpr double kFull = 255;  // P_FG of 1
 
@@ -24,8 +24,8 @@ cv::Rect boxAt(const cv::Rect& box, const Eigen::Vector2d& centre) {
           static_cast<int>(std::lround(centre.y() - 0.5 * box.height)), box.width, box.height};
 }
 
-/// How badly a component fits an object: 0 on top of each other, above 1 no fit. The distance is measured in
-/// the larger of the two boxes, and the gate opens with the time the object went unseen.
+/// Distance of a component from an object: 0 on top of each other, above 1 no match. It is relative to the
+/// larger of the two boxes, and the gate opens with the number of missed frames.
 double misfit(const Eigen::Vector2d& centre, const cv::Rect& box, int missed, const Detection& component) {
   const double reach = 0.75 * std::max(diagonal(box), diagonal(component.box)) + 4.0 + missed;
   return (centre - centreOf(component.box)).norm() / reach;
@@ -132,7 +132,7 @@ void ObjectTracker::miss(Object& object) {
 
 void ObjectTracker::deleteLostTracks(const cv::Rect& view) {
   const auto lost = [&](const Object& object) {
-    // What was never told is a flicker, and is not waited for.
+    // An unconfirmed track is deleted at its first miss.
     const int patience = object.told ? parameters_.max_missed_frames : 0;
     const bool in_view = (boxAt(object.last.box, object.centre) & view).area() > 0;
     return object.missed - object.blind > patience || !in_view;

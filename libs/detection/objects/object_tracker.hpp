@@ -10,11 +10,11 @@
 namespace redbee {
 
 struct Detection {
-  int id = 0;          ///< identity: the same object keeps it, through missed frames and stops
+  int id = 0;          ///< identity, kept through missed frames and stops
   cv::Rect box;        ///< px
   double area_px = 0;  ///< of its mask
   double score = 0;    ///< mean P_FG over its mask, 0..1
-  bool seen = true;    ///< false: carried by the tracker through a frame in which it did not stand out
+  bool seen = true;    ///< false: predicted by the tracker in a frame without a component
 };
 
 /// Two thresholds (hysteresis), opening, closing, and the components that are large enough. `mask` (CV_8U, 0
@@ -26,20 +26,20 @@ struct ForegroundComponents {
 ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& unknown,
                                     const SegmentationParameters& parameters);
 
-/// Follows objects over the ground: each has a velocity relative to it, which fades while the object is not
-/// seen, for an object that no longer stands out has most likely stopped.
+/// Tracks objects over the ground: each has a velocity relative to it, which decays while the object is
+/// missed, for a missed object has most likely stopped.
 class ObjectTracker {
  public:
   explicit ObjectTracker(const SegmentationParameters& parameters) : parameters_(parameters) {}
 
   void reset() { objects_.clear(); }
-  /// The view moves by the ground homography (previous to current, pixels).
+  /// The camera moves by the ground homography (previous to current, pixels).
   void carry(const Eigen::Matrix3d& ground);
-  /// Gives components their identities. Objects that were told before and are not among the components follow
-  /// with seen = false, until max_missed_frames or until they have left the image.
+  /// Assigns components to tracks. Confirmed tracks without a component follow with seen = false, until
+  /// max_missed_frames or until they have left the image.
   std::vector<Detection> update(const std::vector<Detection>& components, cv::Size image);
-  /// A frame in which nothing could be judged, as while a process of the stack begins anew: nothing was
-  /// looked for, and so nothing was missed. Up to max_missed_frames of these in a row cost no identity.
+  /// A frame in which nothing could be detected, as while a process restarts: nothing counts as missed. Up to
+  /// max_missed_frames of these in a row cost no identity.
   std::vector<Detection> skip(cv::Size image);
 
  private:
@@ -49,7 +49,7 @@ class ObjectTracker {
     Eigen::Vector2d velocity;  ///< px a frame, against the ground
     int hits = 1;
     int missed = 0;  ///< frames in a row without a component
-    int blind = 0;   ///< of these, in how many nothing could be judged
+    int blind = 0;   ///< of these, frames that were skipped
     bool told = false;
   };
 

@@ -49,7 +49,7 @@ cv::Mat fractionOfBorderStructure(const cv::Mat& motion, const cv::Mat& unseen, 
   cv::Mat whole = cv::Mat::zeros(small.size(), CV_32F);
   level.copyTo(whole(seen));
   cv::resize(whole, whole, motion.size(), 0, 0, cv::INTER_LINEAR);
-  constexpr double kNone = 1e-3;  // less evidence is none, of which no share is asked
+  constexpr double kNone = 1e-3;  // less evidence counts as none, and its fraction is 0
   return cv::min(whole / (motion + kNone), 1);
 }
 

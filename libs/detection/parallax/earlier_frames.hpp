@@ -15,17 +15,17 @@ struct EarlierFrame {
   cv::Mat grey;                                          ///< CV_8U
   Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  ///< this frame's pixels to the current frame's
   std::optional<PlaneMotion> motion;                     ///< from this frame to the current one
-  std::optional<Eigen::Matrix3d> front;                  ///< like `ground`, of the second plane
+  std::optional<Eigen::Matrix3d> front;                  ///< like `ground`, of the front plane
   bool still = true;                                     ///< no carry() since: all motion is the identity
 };
 
 class EarlierFrames {
  public:
   void reset() { frames_.clear(); }
-  /// The view moves (previous to current, pixels of the images that are remembered).
+  /// The camera moves (previous to current, pixels of the stored images).
   void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
              const std::optional<Eigen::Matrix3d>& front = std::nullopt);
-  /// Forgets what is older than span_s.
+  /// Stores an image and erases those older than span_s.
   void remember(int64_t utime, const cv::Mat& grey, double span_s);
   /// The frame whose age is nearest to age_s; null while there is none.
   const EarlierFrame* aged(int64_t now, double age_s) const;
@@ -35,8 +35,8 @@ class EarlierFrames {
   std::deque<EarlierFrame> frames_;  ///< oldest first
 };
 
-/// An earlier image as the current camera would see it, were the scene ground up to the horizon and
-/// infinitely far above it.
+/// An earlier image warped into the current view, for a scene of ground up to the horizon and infinitely far
+/// above it.
 struct AlignedImage {
   cv::Mat grey;    ///< CV_8U
   cv::Mat unseen;  ///< CV_8U, 255 where the earlier image does not show the scene, or within margin_px of

@@ -28,8 +28,8 @@ void ForegroundEvidence::reset() {
 
 void ForegroundEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
                                const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K) {
-  // The IMU's translation drifts and is wrong until its filter has settled; the fused homography holds a
-  // better.
+  // The IMU's translation drifts and is wrong until its filter has converged; the fused homography gives a
+  // better one.
   std::optional<PlaneMotion> consistent = motion;
   if (consistent) consistent->t_ba = translationFromHomography(K, ground, *motion);
   motion_.carry(ground, front, consistent);
@@ -52,7 +52,7 @@ cv::Mat ForegroundEvidence::imageToCompare(const cv::Mat& grey, const cv::Mat& c
   return small;
 }
 
-/// Pixels of one region move together: each takes half of its evidence from those around it that look alike.
+/// Pixels of one region move together: each takes half of its evidence from similar pixels around it.
 void ForegroundEvidence::fillRegions(const cv::Mat& image, cv::Mat& foreground) const {
   const double scale = std::max(parameters_.background_downscale, 1);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.region_radius_px / scale)));
@@ -84,7 +84,7 @@ ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::M
       }
       foreground = foreign;
       if (parameters_.region_radius_px > 0) fillRegions(image, foreground);
-      // Half is sure enough: what is learned by mistake is lost for as long as the background remembers.
+      // Half is enough: an object learned by mistake is missed for the background's whole span.
       moving = cv::min(2 * foreground, 1);
     }
     background_.learn(image, moving, speed, elapsed_s);

@@ -1,6 +1,6 @@
-// What moves: what no static surface's motion explains (parallax_evidence.hpp: sure, but coarse) and what
-// does not look like the background (carried_background.hpp: sharp, but trees and facades differ too). P_FG
-// is the second times M / (M + half) of the first.
+// Foreground: motion that no static surface explains (M, parallax_evidence.hpp: reliable, but coarse) times
+// the appearance difference to the background (A, carried_background.hpp: sharp, but trees and facades differ
+// as well). P_FG = A M / (M + half): libs/README.md, equation 30.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class ForegroundEvidence {
   explicit ForegroundEvidence(const SegmentationParameters& parameters);
 
   void reset();
-  /// The view moves (previous to current; full-size pixels).
+  /// The camera moves (previous to current; full-size pixels).
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
              const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K);
 

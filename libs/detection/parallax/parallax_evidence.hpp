@@ -1,9 +1,10 @@
-// What no static surface at any depth explains (plane plus parallax; Irani and Anandan 1998).
+// Motion that no static surface at any depth explains (plane plus parallax; Irani and Anandan 1998;
+// libs/README.md, "Parallax").
 //
-// An earlier image is laid onto the current one by the ground homography (above the horizon, where there is
+// An earlier image is aligned to the current one by the ground homography (above the horizon, where there is
 // no ground, by the rotation). Does the dense flow that remains lie off the segment of possible parallax
-// (parallax_segment.hpp)? The answer is averaged along what moves (travelling_evidence.hpp). It knows trees
-// and facades (without an IMU by where they stand, border_structure.hpp), but its outlines are coarse.
+// (parallax_segment.hpp)? The answer is averaged along what moves (travelling_evidence.hpp). It excludes
+// trees and facades (without an IMU by their position, border_structure.hpp), but its outlines are coarse.
 #pragma once
 
 #include <cstdint>
@@ -28,24 +29,24 @@ class ParallaxEvidence {
   explicit ParallaxEvidence(const SegmentationParameters& parameters);
 
   void reset();
-  /// The view moves (previous to current; full-size pixels).
+  /// The camera moves (previous to current; full-size pixels).
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
              const std::optional<PlaneMotion>& motion);
-  /// Evidence of motion per pixel of the work, CV_32F 0..1; empty where there is no earlier frame. Remembers
-  /// the image (CV_8U, `full` or smaller).
+  /// Evidence of motion per pixel of the work, CV_32F 0..1; empty where there is no earlier frame. Stores the
+  /// image (CV_8U, `full` or smaller).
   cv::Mat learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K, cv::Size full);
 
   /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
   const cv::Mat& unseen() const { return unseen_; }
-  /// What the last learn() saw of the flow; the work's pixels (CV_32FC2, see SurfaceSpeed). Empty where there
-  /// was no earlier frame.
+  /// Flow of the last learn(); the work's pixels (CV_32FC2, see SurfaceSpeed). Empty where there was no
+  /// earlier frame.
   const cv::Mat& speed() const { return speed_; }
 
  private:
   cv::Mat evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K, double frames);
   FrameEvidence judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey, const cv::Mat& flow,
                           double frames);
-  /// Whether much of the image moves, and by so much that the frame before shows it better than an earlier
+  /// Whether much of the image moves so fast that the previous frame is a better reference than an earlier
   /// one. `off`: CV_32FC2, sigmas.
   bool holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, double frames) const;
   void muteBorderStructure(cv::Mat& motion) const;

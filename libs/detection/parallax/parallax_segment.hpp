@@ -1,5 +1,5 @@
-// Where a static surface may have moved in the image, once the ground's motion has been taken out (plane
-// plus parallax; Irani and Anandan 1998).
+// Residual flow that a static surface can have, once the ground's motion has been taken out (plane plus
+// parallax; Irani and Anandan 1998).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -13,15 +13,15 @@ namespace redbee {
 
 /// A static surface nearer than the ground has moved along the line through the epipole e = K t, away from
 /// where the ground would be, and no further than the nearest plausible depth allows: its remaining flow lies
-/// on a known segment, from 0 to where that nearest surface would be. Without an IMU a second plane shows the
-/// same: surfaces between the two move by less than it, beyond it by somewhat more. With neither the segment
-/// is the point 0.
+/// on a known segment, from 0 to where that nearest surface would be. Without an IMU the front plane gives
+/// the segment: surfaces between the two planes move by less, those in front of it by somewhat more. With
+/// neither the segment is the point 0.
 class ParallaxSegment {
  public:
   ParallaxSegment(const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K,
                   const SegmentationParameters& parameters);
-  /// Both homographies from the earlier frame to the current one. Their difference tells the direction less
-  /// well than an IMU does.
+  /// Both homographies from the earlier frame to the current one. Their difference gives the direction less
+  /// accurately than an IMU.
   ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
                   const SegmentationParameters& parameters);
 
@@ -33,7 +33,7 @@ class ParallaxSegment {
   /// `ground`: where the scene point would be in the current image if it lay on the ground [px]; `flow`:
   /// from there to where it is [px], of variance `noise_variance` [px^2].
   Verdict judge(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
-  /// Unit vector along which parallax moves what stands at `ground`; 0 where there is none.
+  /// Unit vector of the parallax at `ground`; 0 where there is none.
   cv::Vec2f direction(const cv::Vec2f& ground) const;
 
  private:
@@ -49,8 +49,9 @@ class ParallaxSegment {
   float direction_variance_;             ///< rad^2
 };
 
-/// Whether what follows the second plane (and not the ground) runs out of the image, as static structures
-/// do: an island in the ground is more likely something that moves. Homographies previous to current.
+/// Whether the points on the front plane (and not on the ground) extend to the image's border, as those of
+/// static structures do: an island in the ground is more likely a moving object. Homographies previous to
+/// current.
 bool runsOutOfImage(const PointTracks& tracks, const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
                     cv::Size image);
 

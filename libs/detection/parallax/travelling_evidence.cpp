@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kSmall = 1e-3F;
 
-/// Where the pixels were in the previous image.
+/// Positions of the pixels in the previous image.
 cv::Mat previousPlaces(const cv::Mat& back_step, const Eigen::Matrix3d& ground) {
   const Eigen::Matrix3f back = ground.inverse().cast<float>();
   cv::Mat places(back_step.size(), CV_32FC2);
@@ -52,8 +52,8 @@ void TravellingEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d&
     const cv::Vec2f* around = off_around.ptr<cv::Vec2f>(y);
     cv::Vec4f* sum = moving.ptr<cv::Vec4f>(y);
     for (int x = 0; x < moving.cols; ++x) {
-      // Background that an object has just uncovered stands still where the object moved: it inherits
-      // nothing.
+      // Background that an object has just uncovered is static where the object moved: it inherits no
+      // evidence.
       const float then2 = sum[x][1] * sum[x][1] + sum[x][2] * sum[x][2];
       const float kept = std::min(1.0F, (4 * around[x].dot(around[x]) + half2) / (then2 + half2));
       const float off2 = off[x].dot(off[x]);

@@ -1,5 +1,5 @@
-// Evidence that travels with what moves. Along an object's own flow its evidence adds up from frame to frame;
-// noise, waves and leaves move to and fro, and their vectors cancel.
+// Evidence propagated along the flow: a moving object's evidence adds up from frame to frame; noise, waves
+// and leaves oscillate, and their vectors cancel (libs/README.md, equation 28).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace redbee {
 
-/// What one frame says, per pixel.
+/// Evidence of one frame, per pixel.
 struct FrameEvidence {
   cv::Mat off;        ///< CV_32FC2: flow off the parallax segment over its standard deviation
   cv::Mat back_step;  ///< CV_32FC2, px: back along the flow by one frame, ground's motion taken out
@@ -23,7 +23,7 @@ class TravellingEvidence {
   /// `ground`: previous to current. Nothing is kept where `unseen` is not 0.
   void update(const FrameEvidence& now, const Eigen::Matrix3d& ground, const cv::Mat& unseen);
 
-  /// CV_32F, 0..1: has it moved, steadily and in one direction?
+  /// CV_32F, 0..1: steady motion in one direction.
   cv::Mat motion() const;
 
  private:

@@ -9,9 +9,9 @@
 // at a tenth of a
 // deviation, since a deviation is held up from below (tuned), graded by (mean - D_k) / deviation. Their
 // grouping of the foreground pixels is an average over a box here (tuned, EXPERIMENTS.md). Mean and deviation
-// of D begin when a pixel is first judged: the first densities are all 1. Images are smoothed first, or
-// what the carrying blurs would be foreground wherever there is fine texture. `aurora-davis` has what was
-// best on DAVIS' clips alone: it forgets sooner.
+// of D start when a pixel is first classified: the first densities are all 1. Images are smoothed first, or
+// what the carrying blurs would be foreground wherever there is fine texture. `aurora-davis` has the best
+// setting on DAVIS' clips alone: a shorter memory.
 #pragma once
 
 #include "redbee/detection/rivals/registration.hpp"
@@ -19,20 +19,20 @@
 
 namespace redbee {
 
-/// The recursion for a image's worth of pixels. Values are colours over `unit` grey levels.
+/// The recursion for all pixels of an image. Values are colours over `unit` grey levels.
 class RecursiveDensity {
  public:
   struct Parameters {
     float unit = 512;    ///< grey levels: distance at which the density has halved; not published, tuned
-    float longest = 10;  ///< frames, k is held here; the paper's grows for ever, this forgets; tuned
-    float least_deviation = 0.05F;  ///< of the density: what is flatter than noise does not stand out; tuned
-    int learning_frames = 4;        ///< a pixel seen less often is not judged
+    float longest = 10;  ///< frames: bound on k, which grows without bound in the paper; tuned
+    float least_deviation = 0.05F;  ///< of the density: lower bound; tuned
+    int learning_frames = 4;        ///< a younger pixel is not classified
   };
   RecursiveDensity(cv::Size size, const Parameters& parameters);
 
   void carry(const cv::Matx33d& H);
-  /// Takes in a image (CV_8UC3). CV_32F: by how many deviations the density lies below its mean, 0 where it
-  /// lies above or the pixel is not judged yet.
+  /// Learns an image (CV_8UC3). CV_32F: deviations of the density below its mean, 0 where it is above or the
+  /// pixel is not classified yet.
   cv::Mat update(const cv::Mat& colour);
 
   const cv::Mat& density() const { return density_; }  ///< CV_32F, D_k of the last update

@@ -3,9 +3,9 @@
 // Sensing 2012.
 //
 // The flow that the camera's motion would give a static ground ("artificial flow") is compared with the flow
-// measured; differences above a threshold are grouped, and groups are followed by a filter, which also tells
-// the lasting ones from noise. Score: kDecisionScore where groups appear at the threshold below, see
-// paintClusters().
+// measured; differences above a threshold are grouped, and groups are tracked by a filter, which also
+// separates the lasting ones from noise. Score: kDecisionScore where groups appear at the threshold below,
+// see paintClusters().
 //
 // The camera's motion is the IMU's here (theirs is parallel tracking and mapping's); without an IMU it is the
 // homography of the points. The filter is a constant-velocity Kalman filter of each group's centre. Nothing

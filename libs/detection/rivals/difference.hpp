@@ -1,9 +1,9 @@
-// The absolute difference to the image before the previous one, laid onto this one by homographies: the
-// simplest of all.
+// The absolute difference to the image before the previous one, aligned to this one by homographies: the
+// simplest detector.
 //
-// Nobody's publication. The difference is averaged over a box, which fills what is hollow and drowns what is
-// speckled. Box, smoothing, how far back and the threshold are tuned (EXPERIMENTS.md). Score: kDecisionScore
-// at 20 grey levels.
+// Not from a publication. The difference is averaged over a box, which fills holes and removes speckles. Box,
+// smoothing, how far back and the threshold are tuned (EXPERIMENTS.md). Score: kDecisionScore at 20 grey
+// levels.
 //
 // `difference-davis` has what was best on DAVIS' clips alone, whose movers are large and fast.
 #pragma once

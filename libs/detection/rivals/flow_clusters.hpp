@@ -39,7 +39,7 @@ using ClusterChoice = std::function<std::vector<FlowCluster>(size_t level, std::
 
 /// A graded score from a method that decides: the decision is made at thresholds from 1/4 to 16 times the
 /// method's own, and a pixel's score is that of the strictest at which a cluster's hull holds it. At
-/// kDecisionScore the map is what the method itself would answer.
+/// kDecisionScore the map is the method's own decision.
 cv::Mat paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
                       const ClusterParameters& parameters, const ClusterChoice& choose = {});
 inline constexpr size_t kDecisionLevels = 13;

@@ -1,10 +1,10 @@
 // Dense flow minus the flow of one homography: whatever moves against the dominant plane.
 //
-// Nobody's publication. Dense inverse search flow (OpenCV's, preset medium) forward from the previous
-// image's grid is not used: it is computed from the current image back to the previous one, so that the
-// score lies on the current image. What remains is
-// averaged over a box. Score: kDecisionScore at 3.25 px. Box, threshold and how many frames back the flow
-// reaches (two) are tuned (EXPERIMENTS.md). `flow-residual-davis` has what was best on DAVIS' clips alone.
+// Not from a publication. Dense inverse search flow (OpenCV's, preset medium) forward from the previous
+// image's grid is not used: it is computed from the current image back to the previous one, so that the score
+// lies on the current image. What remains is averaged over a box. Score: kDecisionScore at 3.25 px. Box,
+// threshold and how many frames back the flow reaches (two) are tuned (EXPERIMENTS.md). `flow-residual-davis`
+// has what was best on DAVIS' clips alone.
 #pragma once
 
 #include <opencv2/video/tracking.hpp>

@@ -27,8 +27,8 @@ inline cv::Mat gradedScore(const cv::Mat& statistic, float threshold) {
   return score;
 }
 
-/// A score as a share of its range, averaged over a box, and graded anew with the decision where that mean is
-/// `decision_fraction`: what is hollow is filled, what is speckled drowns.
+/// A score as a fraction of its range, averaged over a box, and graded again with the decision where that
+/// mean is `decision_fraction`: holes are filled, speckles removed.
 inline cv::Mat averagedScore(const cv::Mat& score, int box_px, float decision_fraction) {
   cv::Mat mean;
   score.convertTo(mean, CV_32F, 1.0 / 255);

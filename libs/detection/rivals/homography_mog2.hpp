@@ -1,11 +1,11 @@
 // One homography and OpenCV's MOG2 on the stabilised image (Zivkovic 2004): what most people build first.
 //
-// OpenCV's model cannot be moved. So it stands on the grid of an anchor frame, onto which images are laid
-// by the homographies since; what a image does not show is fed with the model's own background. Once less
-// than kMinOverlap of the anchor's view is left, a new model is begun on the current frame, with the old
-// one's background as its first image. Score: the mask (shadows are background) decides on which half of
-// the scale a pixel lies, its difference to the background image where within; then averaged over a box,
-// with kDecisionScore where the mean F1 of the development clips is best. History, box and decision are tuned
+// OpenCV's model cannot be warped. So it stays on the grid of an anchor frame, onto which images are warped
+// by the homographies since; pixels outside of an image are fed with the model's own background. Once less
+// than kMinOverlap of the anchor's view is left, a new model is started on the current frame, with the old
+// one's background as its first image. Score: the mask (shadows are background) decides on which half of the
+// scale a pixel lies, its difference to the background image where within; then averaged over a box, with
+// kDecisionScore where the mean F1 of the development clips is best. History, box and decision are tuned
 // (EXPERIMENTS.md), the variances' threshold is OpenCV's.
 #pragma once
 

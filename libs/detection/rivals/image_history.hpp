@@ -13,7 +13,7 @@ class ImageHistory {
 
   void clear() { entries_.clear(); }
   bool empty() const { return entries_.empty(); }
-  /// A new frame is about to come; `H`: from the one before to it. The kept images then answer to it.
+  /// Before a new frame; `H`: from the previous one to it. The kept images' homographies are updated.
   void carry(const cv::Matx33d& H) {
     for (Entry& entry : entries_) entry.to_newest = H * entry.to_newest;
   }

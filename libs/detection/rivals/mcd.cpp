@@ -142,7 +142,7 @@ GreyGaussian Mcd::modelAt(size_t which, double column, double row) const {
 void Mcd::carry(const cv::Matx33d& H) {
   constexpr double kCentre = 0.5 * (kBlockPx - 1);
   const cv::Matx33d back = H.inv();
-  // The authors forget what comes from the outermost blocks, where neighbours are missing.
+  // The authors reset the outermost blocks, where neighbours are missing.
   const cv::Rect2d inner(0.5, 0.5, blocks_.width - 2, blocks_.height - 2);
   std::vector<DualModel> carried(models_.size());
   size_t block = 0;

@@ -2,11 +2,11 @@
 // Objects with Non-Stationary Cameras in 5.8ms", CVPR Workshops 2013.
 //
 // Every block of 4x4 px has two Gaussians of grey (mean, variance, age); the older explains the background,
-// the other waits to replace it. Models are carried into each frame by one homography, the order of judging
-// and learning is that of the authors' public code (99.6 to 99.9 % of the decisions are the same). Constants
-// are theirs but for the oldest age (30) and the least variance (25), and the average over a box is not
-// theirs either: tuned (EXPERIMENTS.md). Score: |grey - mean| / (2 sigma), the published decision, graded,
-// averaged over the box, with kDecisionScore where the mean F1 of the development clips is best.
+// the other waits to replace it. Models are carried into each frame by one homography, the order of
+// classification and learning is that of the authors' public code (99.6 to 99.9 % of the decisions are the
+// same). Constants are theirs but for the oldest age (30) and the least variance (25), and the average over a
+// box is not theirs either: tuned (EXPERIMENTS.md). Score: |grey - mean| / (2 sigma), the published decision,
+// graded, averaged over the box, with kDecisionScore where the mean F1 of the development clips is best.
 #pragma once
 
 #include <array>
@@ -31,11 +31,11 @@ using DualModel = std::array<GreyGaussian, 2>;
 /// is missing lies outside of the image. Age 0 where all is missing.
 GreyGaussian blendGaussians(const std::array<GreyGaussian, 4>& models, const std::array<float, 4>& weights);
 
-/// What the pixels of a block are judged against.
+/// The Gaussian that the pixels of a block are compared with.
 struct BlockBackground {
   float mean;      ///< grey levels, of model 0 once it has learned from the block, if it has
   float variance;  ///< grey levels^2, of model 0 before
-  bool judges;     ///< false: model 0 has seen too little
+  bool judges;     ///< false: model 0 is too young
 };
 
 /// Takes in a block's pixels: the candidate becomes the background where it is as old. `mean`: of the block;
@@ -60,7 +60,7 @@ class Mcd : public Rival {
     return models_[static_cast<size_t>(row * blocks_.width + column)];
   }
 
-  cv::Size blocks_;                ///< whole blocks of the image; what remains at its edge is not judged
+  cv::Size blocks_;                ///< whole blocks of the image; the rest at its edge is not classified
   std::vector<DualModel> models_;  ///< row by row
 };
 

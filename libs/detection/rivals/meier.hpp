@@ -1,11 +1,11 @@
 // Inertial-optical flow: Meier, Brockers, Matthies, Siegwart, Weiss, "Detection and Characterization of
 // Moving Objects with Aerial Vehicles Using Inertial-Optical Flow", IROS 2015.
 //
-// Points are followed from frame to frame; the rotation that the IMU tells is taken out of their flow; what
-// is left must lie on the epipolar line of the direction of travel, point the right way, and be no shorter
-// than the ground's and no longer than the nearest surface's. Points that do not are gathered by place and
-// flow; each gathering is an object, its convex hull the mask. Score: hulls at thresholds from lenient
-// to strict, see paintClusters().
+// Points are followed from frame to frame; the IMU's rotation is taken out of their flow; the rest must lie
+// on the epipolar line of the direction of travel, point the right way, and be no shorter than the ground's
+// and no longer than the nearest surface's. Points that do not are clustered by position and flow; each
+// cluster is an object, its convex hull the mask. Score: hulls at thresholds from lenient to strict, see
+// paintClusters().
 //
 // Without an IMU, rotation and direction come from the essential matrix of the points, and the bound by the
 // ground is left out. Departures: the points lie on a grid; direction of travel and height are those of this

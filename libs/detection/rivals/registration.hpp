@@ -1,5 +1,5 @@
-// Two successive images brought onto each other by one homography: pyramidal Lucas-Kanade on a grid, then
-// RANSAC, both OpenCV's, as the authors of these methods use them.
+// Registration of two successive images by one homography: pyramidal Lucas-Kanade on a grid, then RANSAC,
+// both OpenCV's, as the authors of these methods use them.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -1,7 +1,7 @@
 // Other detectors of moving objects from a moving camera, behind one interface, to be measured against ours.
 //
-// Written from their descriptions; each header says where it departs from them and where its parameters come
-// from. All see ideal (undistorted) images in order of time.
+// Written from their descriptions; each header states where it departs from them and where its parameters
+// come from. All see ideal (undistorted) images in order of time.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,37 +26,37 @@ struct RivalInput {
 
 enum class RivalStatus {
   kGood,
-  kLearning,  ///< nothing is known yet to compare with
-  kLost,      ///< the images could not be registered, or do not follow on each other: it begins anew
+  kLearning,  ///< no model to compare with yet
+  kLost,      ///< the images could not be registered, or are not consecutive: it restarts
   kBadImage,  ///< empty or of the wrong type; nothing was learned from it
 };
 
 struct RivalOutput {
   RivalStatus status = RivalStatus::kLearning;
-  /// CV_8U, the image's size: graded evidence of motion, all 0 unless kGood. 128 is where the published
-  /// (or tuned) decision lies.
+  /// CV_8U, the image's size: graded evidence of motion, all 0 unless kGood. 128 is the published (or tuned)
+  /// decision threshold.
   cv::Mat score;
-  /// The background's homography, previous to current, as the rival sees it; the identity unless kGood.
+  /// The rival's own homography of the background, previous to current; the identity unless kGood.
   cv::Matx33d background = cv::Matx33d::eye();
 };
 
 class Rival {
  public:
-  /// Frames further apart than this do not follow on each other [us].
+  /// Frames further apart than this are not consecutive [us].
   static constexpr int64_t kMaxFrameGapUs = 500'000;
 
   virtual ~Rival() = default;
   virtual bool wantsColour() const { return false; }
   virtual bool wantsMotion() const { return false; }
 
-  /// A gap, a repeated or earlier time, a change of size and a lost registration each start it anew from this
-  /// image, and the status says so.
+  /// A gap, a repeated or earlier time, a change of size and a lost registration each restart it from this
+  /// image; see the status.
   RivalOutput step(const RivalInput& input);
 
  private:
   virtual void reset() = 0;
-  /// Judges a image that follows on the last one, or is the first since reset(). `score` may be left empty
-  /// unless kGood.
+  /// Processes an image that is consecutive to the last one, or the first since reset(). `score` may be left
+  /// empty unless kGood.
   virtual RivalOutput judge(const RivalInput& input) = 0;
 
   bool fits(const RivalInput& input) const;

@@ -1,4 +1,4 @@
-// Points gathered by an affinity: normalised spectral clustering (Ng, Jordan, Weiss 2002).
+// Clustering of points by an affinity: normalised spectral clustering (Ng, Jordan, Weiss 2002).
 #pragma once
 
 #include <Eigen/Core>

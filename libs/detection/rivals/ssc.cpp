@@ -42,7 +42,7 @@ Eigen::MatrixXd softThreshold(const Eigen::MatrixXd& M, double by) {
   return (M.array().abs() - by).max(0.0) * M.array().sign();
 }
 
-/// Keeps the largest entries of the column, up to the share of its L1 norm.
+/// Keeps the largest entries of the column, up to the fraction of its L1 norm.
 void keepLargest(Eigen::Ref<Eigen::VectorXd> column) {
   std::vector<Eigen::Index> order(static_cast<size_t>(column.size()));
   std::iota(order.begin(), order.end(), 0);

@@ -1,4 +1,4 @@
-// Images brought into the current frame's place.
+// Images warped into the current frame.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -6,8 +6,8 @@
 
 namespace redbee {
 
-/// A image or a map of any depth as the current frame sees it; `H` previous to current. 0 where it does not
-/// reach.
+/// An image or a map of any depth, warped into the current frame; `H` previous to current. 0 where it does
+/// not reach.
 inline cv::Mat stabilise(const cv::Mat& previous, const cv::Matx33d& H,
                          int interpolation = cv::INTER_LINEAR) {
   cv::Mat stabilised;

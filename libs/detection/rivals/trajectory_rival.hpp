@@ -2,15 +2,15 @@
 //
 // Tracks over a sliding window (trajectory_window.hpp), thinned to a coarse grid, are clustered afresh in
 // every frame by randomised voting (randomized_voting.hpp), low-rank representation (lrr.hpp) or sparse
-// subspace clustering (ssc.hpp). The background is every cluster that has its share of the tracks, since
-// a ground seen from near to far, facades and trees come apart in several. Each has an affine motion (a
-// subspace of three dimensions and a mean; Tomasi and Kanade 1992). All tracks, those of the fine grid as
-// well, are judged by how badly the best of these motions explains them: half the range at 1 px, less what
-// tracking errs by. Each pixel takes the score of the nearest track within kReachPx (a Voronoi fill), then
-// the mean over a box, with kDecisionScore where the mean F1 of the development clips is best.
+// subspace clustering (ssc.hpp). The background is every cluster with at least a given fraction of the
+// tracks, since ground seen from near to far, facades and trees fall into several. Each has an affine motion
+// (a subspace of three dimensions and a mean; Tomasi and Kanade 1992). All tracks, those of the fine grid as
+// well, are scored by their distance from the best of these motions: half the range at 1 px, less the
+// tracking error. Each pixel takes the score of the nearest track within kReachPx (a Voronoi fill), then the
+// mean over a box, with kDecisionScore where the mean F1 of the development clips is best.
 //
-// The methods are told the number of motions, which nobody knows here. They are batch methods: none says how
-// to run it on a stream, how to tell the background, or how to fill a mask; all of that was tuned
+// The methods need the number of motions, which is unknown here. They are batch methods: none specifies how
+// to run it on a stream, how to select the background, or how to fill a mask; all of that was tuned
 // (EXPERIMENTS.md).
 #pragma once
 
@@ -25,7 +25,7 @@ namespace redbee {
 /// Labels 0 .. count - 1 of the columns of 2F x N trajectories.
 using TrajectoryClustering = std::function<std::vector<int>(const Eigen::MatrixXd& X, int count)>;
 
-/// Labels of the clusters with at least this share of all tracks; the largest one's where none has. Labels
+/// Labels of the clusters with at least this fraction of all tracks; the largest one's where none has. Labels
 /// lie from 0 to `count` - 1.
 std::vector<int> backgroundLabels(const std::vector<int>& labels, int count, double least_fraction);
 

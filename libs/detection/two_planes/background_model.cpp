@@ -11,7 +11,7 @@
 namespace redbee {
 namespace {
 
-// The canvas must neither lose nor invent detail: beyond this change of area it is laid anew.
+// The canvas must neither lose nor invent detail: beyond this change of area it is replaced.
 constexpr double kMaxAreaRatio = 1.2;
 
 int marginPixels(const cv::Size& image, double share) {

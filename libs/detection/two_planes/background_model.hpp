@@ -1,4 +1,4 @@
-// The background as one plane carries it: a Gaussian mixture that follows the plane's homography.
+// The background of one plane: a Gaussian mixture that follows the plane's homography.
 //
 // The model lies on a canvas, the image with a border, and the current frame is warped onto it. When the
 // view leaves the canvas or changes its scale, the model moves into the current view, one nearest-neighbour
@@ -15,16 +15,16 @@ namespace redbee {
 
 struct BackgroundVerdict {
   cv::Mat foreground;  ///< CV_8U in the current image, 255 where the pixel is known and not background
-  cv::Mat unknown;     ///< CV_8U, 255 where the plane has not been seen for long enough
+  cv::Mat unknown;     ///< CV_8U, 255 where the model is too young
 };
 
 class BackgroundModel {
  public:
   BackgroundModel(cv::Size image, const SegmentationParameters& parameters);
 
-  /// The view moves by H (previous to current, pixels) and nothing is learned.
+  /// The camera moves by H (previous to current, pixels) and nothing is learned.
   void carry(const Eigen::Matrix3d& H);
-  /// Judges the image (8-bit grey) by what was learned before it, then learns it. carry() comes first.
+  /// Classifies the image (8-bit grey) against the model, then learns it. carry() comes first.
   BackgroundVerdict learn(const cv::Mat& grey);
 
  private:

@@ -15,9 +15,8 @@ double histogramEntropy(const std::vector<int>& histogram);
 
 /// Reciprocal entropy of the flow's direction per cell of entropy_cell_points^2 sample points, after the
 /// ground's motion has been taken out: floor / max(entropy, floor), in (0, 1]. CV_32F of the image's size.
-/// Points that moved less than flow_noise_px do not vote. A cell in which nothing votes gets the least value
-/// there is, that of a flat histogram, for nothing in it moves together; a cell without any track says
-/// nothing and gets 1.
+/// Points that moved less than flow_noise_px do not vote. A cell without votes gets the smallest value, that
+/// of a flat histogram, for nothing in it moves together; a cell without tracks is no evidence and gets 1.
 cv::Mat flowOrder(const PointTracks& tracks, const Eigen::Matrix3d& ground, cv::Size image,
                   const SegmentationParameters& parameters);
 

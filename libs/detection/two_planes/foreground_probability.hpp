@@ -14,7 +14,7 @@ class ForegroundProbability {
   explicit ForegroundProbability(const SegmentationParameters& parameters) : parameters_(parameters) {}
 
   void reset();
-  /// The view moves by the ground homography (previous to current).
+  /// The camera moves by the ground homography (previous to current).
   void carry(const Eigen::Matrix3d& ground);
   /// `foreground`: CV_32F, 0..1, the D_t of (13) and (14); `order`: CV_32F, 0..1, the E_t of (15), empty for
   /// none. P_FG (16), CV_32F, 0..1.

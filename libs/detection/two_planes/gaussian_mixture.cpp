@@ -100,7 +100,7 @@ cv::Mat GaussianMixture::unknown(int frames) const {
 void GaussianMixture::move(const Eigen::Matrix3d& H) {
   cv::Mat index(size_, CV_32S);
   for (int i = 0; i < size_.area(); ++i) index.at<int>(i / size_.width, i % size_.width) = i + 1;
-  // OpenCV remaps no 32-bit integers; floats hold every index of a image below 2^24 pixels exactly.
+  // OpenCV remaps no 32-bit integers; floats represent every index of an image below 2^24 pixels exactly.
   index.convertTo(index, CV_32F);
   const cv::Mat source = carryMap(index, H, cv::INTER_NEAREST);
   std::vector<Pixel> moved(pixels_.size());

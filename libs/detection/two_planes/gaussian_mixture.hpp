@@ -1,4 +1,4 @@
-// A mixture of Gaussians of the grey value per pixel, the number of Gaussians found as it goes (Zivkovic,
+// A mixture of Gaussians of the grey value per pixel, the number of Gaussians adapted to the data (Zivkovic,
 // "Improved adaptive Gaussian mixture model for background subtraction", ICPR 2004; the paper's [3]).
 //
 // Two departures. Each pixel has its own age, for pixels come into a flying camera's view at different times:

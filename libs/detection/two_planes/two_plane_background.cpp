@@ -25,7 +25,7 @@ BackgroundVerdict TwoPlaneBackground::learn(const cv::Mat& grey) {
   const BackgroundVerdict front = front_->learn(grey);
   BackgroundVerdict both;
   both.foreground = ground.foreground & front.foreground;
-  // A pixel that one plane knows as background is background, whatever the other one has not seen.
+  // A pixel that is background for one plane is background, also where the other has no data.
   const cv::Mat not_background_ground = ground.foreground | ground.unknown;
   const cv::Mat not_background_front = front.foreground | front.unknown;
   both.unknown = (ground.unknown & not_background_front) | (front.unknown & not_background_ground);

@@ -14,8 +14,8 @@ class TwoPlaneBackground {
   explicit TwoPlaneBackground(const SegmentationParameters& parameters) : parameters_(parameters) {}
 
   void reset();
-  /// The view moves (homographies previous to current). A front plane that was not there before starts with
-  /// the ground's model, so that it is not blind; one that is gone is forgotten.
+  /// The camera moves (homographies previous to current). A new front plane starts with the ground's model,
+  /// so that it has data; one that is lost is deleted.
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front);
   /// The first image after a reset is learned without carry().
   BackgroundVerdict learn(const cv::Mat& grey);
