@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <stdexcept>
 
 #include "redbee/configuration/configuration_loader.hpp"
 #include "redbee/configuration/configuration_preset.hpp"
@@ -52,9 +53,17 @@ bool applyPreset(Configuration& configuration, const std::string& name) {
 }
 
 std::string emitYaml(const Configuration& configuration) {
+  return emitYaml(configuration, configurationKeys());
+}
+
+std::string emitYaml(const Configuration& configuration, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) {
+    if (configuration::findSetting(key) == nullptr) throw std::invalid_argument("emitYaml: no key " + key);
+  }
   std::string yaml;
   std::vector<std::string> open;
   for (const auto& setting : configuration::settings()) {
+    if (std::find(keys.begin(), keys.end(), setting.key) == keys.end()) continue;
     const auto parts = splitKey(setting.key);
     const auto sections_end = parts.end() - 1;
     const auto shared = static_cast<size_t>(

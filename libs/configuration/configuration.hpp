@@ -78,6 +78,9 @@ bool applyPreset(Configuration& configuration, const std::string& name);
 
 /// The whole configuration as YAML, which loads back to the same hash.
 std::string emitYaml(const Configuration& configuration);
+/// Only these keys, in the order of the whole; for files that are to be included beside others. Throws
+/// std::invalid_argument where there is no such key.
+std::string emitYaml(const Configuration& configuration, const std::vector<std::string>& keys);
 
 /// 16 hexadecimal digits that are equal for equal contents, however the files were written (FNV-1a of
 /// emitYaml).

@@ -199,6 +199,15 @@ TEST_F(ConfigurationTest, emittedYamlLoadsBackToTheSameHash) {
   EXPECT_EQ(configurationHash(again), configurationHash(configuration));
 }
 
+TEST(Configuration, EmitsSelectedKeysOnly) {
+  Configuration configuration;
+  configuration.inertial.extrinsics.start_height_m = 7;
+  EXPECT_EQ(emitYaml(configuration, {"plane.height_m", "camera.timeshift_s"}),
+            "camera:\n  timeshift_s: 0\nplane:\n  height_m: 7\n");
+  EXPECT_EQ(emitYaml(configuration, {}), "");
+  EXPECT_THROW(emitYaml(configuration, {"plane"}), std::invalid_argument);
+}
+
 TEST_F(ConfigurationTest, hashDependsOnContentAlone) {
   const auto plain = configurationHash(load(kCamera));
   EXPECT_EQ(plain.size(), 16U);

@@ -1,10 +1,11 @@
 #include "processes/redbee/calibrate/calibration_files.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "processes/redbee/pages/number.hpp"
+#include "redbee/configuration/configuration.hpp"
 #include "redbee/geometry/angle.hpp"
 
 namespace redbee {
@@ -28,11 +29,6 @@ std::string list(const Numbers& numbers) {
 }
 
 std::string list(const Eigen::Vector3d& v) { return list(std::vector<double>(v.data(), v.data() + 3)); }
-
-std::string rowMajor(const Eigen::Matrix3d& M) {
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = M;
-  return list(std::vector<double>(rows.data(), rows.data() + 9));
-}
 
 /// Rows of a homogeneous transform as YAML's list of lists.
 std::string transformRows(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const std::string& indent) {
@@ -64,27 +60,45 @@ double imuRate(const CalibrationInput& input) {
   return 1e6 * static_cast<double>(input.imu.size() - 1) / static_cast<double>(last->utime - first->utime);
 }
 
-std::string cameraSection(const CalibrationResult& result) {
+/// Keys of the configuration that the recording shows.
+class FoundKeys {
+ public:
+  template <typename Value>
+  void set(const char* key, Value& member, const Value& value) {
+    member = value;
+    keys_.emplace_back(key);
+  }
+  std::string yaml() const { return emitYaml(configuration, keys_); }
+
+  Configuration configuration;
+
+ private:
+  std::vector<std::string> keys_;
+};
+
+void setExtrinsics(const CalibrationResult& result, FoundKeys& found) {
+  InertialExtrinsics& extrinsics = found.configuration.inertial.extrinsics;
   const InertialExtrinsics& kept = result.values.kept;
-  std::string text;
-  if (isKept(result, "camera.R_CI")) text += "  R_CI: " + rowMajor(kept.R_CI) + "\n";
-  if (isKept(result, "camera.p_IC")) text += "  p_IC: " + list(kept.p_IC) + "  # m\n";
-  if (isKept(result, "camera.timeshift_s")) text += "  timeshift_s: " + exact(kept.timeshift_s) + "\n";
-  return text.empty() ? "" : "camera:\n" + text;
+  if (isKept(result, "camera.R_CI")) found.set("camera.R_CI", extrinsics.R_CI, kept.R_CI);
+  if (isKept(result, "camera.p_IC")) found.set("camera.p_IC", extrinsics.p_IC, kept.p_IC);
+  if (isKept(result, "camera.timeshift_s"))
+    found.set("camera.timeshift_s", extrinsics.timeshift_s, kept.timeshift_s);
+  if (isKept(result, "plane.height_m")) {
+    found.set("plane.height_m", extrinsics.start_height_m, kept.start_height_m);
+    found.set("plane.height_sigma_m", extrinsics.start_height_sigma_m,
+              std::max(kept.start_height_sigma_m, 1e-3));
+  }
 }
 
-/// The turn-on bias that the online filter expects, where the one found is far beyond it.
-std::string imuSection(const CalibrationInput& input, const CalibrationResult& result) {
-  std::string text;
+/// The turn-on bias that the online filter expects, where the estimated one is far beyond it.
+void setBiasSigmas(const CalibrationInput& input, const CalibrationResult& result, FoundKeys& found) {
+  InertialParameters& inertial = found.configuration.inertial;
   const double gyro = result.values.gyro_bias.cwiseAbs().maxCoeff();
   const double accel = result.values.accel_bias.cwiseAbs().maxCoeff();
-  if (isKept(result, "gyro_bias") && gyro > 2 * input.gyro_bias_sigma) {
-    text += "  gyro_bias_sigma: " + exact(gyro) + "  # rad/s, as large as the bias found\n";
-  }
-  if (isKept(result, "accel_bias") && accel > 2 * input.accel_bias_sigma) {
-    text += "  accel_bias_sigma: " + exact(accel) + "  # m/s^2, as large as the bias found\n";
-  }
-  return text.empty() ? "" : "imu:\n" + text;
+  if (isKept(result, "gyro_bias") && gyro > 2 * input.gyro_bias_sigma)
+    found.set("imu.gyro_bias_sigma", inertial.gyro_bias_sigma, gyro);
+  if (isKept(result, "accel_bias") && accel > 2 * input.accel_bias_sigma)
+    found.set("imu.accel_bias_sigma", inertial.accel_bias_sigma, accel);
 }
 
 }  // namespace
@@ -117,8 +131,8 @@ std::string kalibrCamchain(const CalibrationInput& input, const CalibrationResul
 std::string kalibrImu(const CalibrationInput& input, const CalibrationResult& result,
                       const CalibrationSubject& subject) {
   std::ostringstream text;
-  text << origin(subject) << "# Noise densities as configured; the residuals ask for "
-       << rounded(result.imu_sigma_scale) << " times as much.\n"
+  text << origin(subject) << "# Noise densities as configured; the residuals are "
+       << rounded(result.imu_sigma_scale) << " times as large.\n"
        << "accelerometer_noise_density: " << exact(input.noise.accel_noise_density) << "  # m/s^2/sqrt(Hz)\n"
        << "accelerometer_random_walk: " << exact(input.noise.accel_random_walk) << "  # m/s^3/sqrt(Hz)\n"
        << "gyroscope_noise_density: " << exact(input.noise.gyro_noise_density) << "  # rad/s/sqrt(Hz)\n"
@@ -136,19 +150,18 @@ std::string onlineCalibration(const CalibrationInput& input, const CalibrationRe
   text << origin(subject)
        << "# Include it after the vehicle's own file:  include: [vehicle.yaml, calibration.yaml]\n#\n";
   for (const ParameterReport& report : result.parameters) text << verdictComment(result, report.name.c_str());
-  text << "# What was refused is not here, so that the vehicle's own value stays.\n";
-  text << cameraSection(result);
-  if (isKept(result, "plane.height_m")) {
-    text << "plane:  # of this recording's first frame; remove it for flights that start elsewhere\n  "
-            "height_m: "
-         << exact(result.values.kept.start_height_m)
-         << "\n  height_sigma_m: " << exact(std::max(result.values.kept.start_height_sigma_m, 1e-3)) << "\n";
-  }
-  // No estimate is better than what vibration and the model leave open.
+  text << "# Refused parameters are left out, so that the vehicle's own value stays.\n";
+  if (isKept(result, "plane.height_m"))
+    text << "# plane: of the first frame of this recording; remove it for flights that start elsewhere.\n";
+  FoundKeys found;
+  setExtrinsics(result, found);
+  setBiasSigmas(input, result, found);
+  // Vibration and the model leave an error that no estimate removes.
   constexpr double kRotationFloor_deg = 0.02;
-  text << "inertial:\n  extrinsic_rotation_sigma_deg: "
-       << exact(std::max(result.values.rotation_sigma_rad / kDegree, kRotationFloor_deg)) << "\n";
-  text << imuSection(input, result);
+  found.set("inertial.extrinsic_rotation_sigma_deg",
+            found.configuration.inertial.extrinsic_rotation_sigma_deg,
+            std::max(result.values.rotation_sigma_rad / kDegree, kRotationFloor_deg));
+  text << found.yaml();
   return text.str();
 }
 

@@ -2,10 +2,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <limits>
-#include <memory>
-#include <vector>
-
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/csv.hpp"
@@ -23,24 +19,14 @@ double firstHeight(const std::filesystem::path& file) {
   return csv.number(kHeightColumn);
 }
 
-void emitList(YAML::Emitter& out, const char* key, const std::vector<double>& numbers) {
-  out << YAML::Key << key << YAML::Value << YAML::Flow << numbers;
-}
-
 std::string yamlOf(const InertialExtrinsics& extrinsics, const std::filesystem::path& include) {
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = extrinsics.R_CI;
-  YAML::Emitter out;
-  out.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
-  out << YAML::BeginMap << YAML::Key << "include" << YAML::Value << include.string();
-  out << YAML::Key << "camera" << YAML::Value << YAML::BeginMap;
-  emitList(out, "R_CI", std::vector<double>(R.data(), R.data() + 9));
-  emitList(out, "p_IC", std::vector<double>(extrinsics.p_IC.data(), extrinsics.p_IC.data() + 3));
-  out << YAML::Key << "timeshift_s" << YAML::Value << extrinsics.timeshift_s << YAML::EndMap;
-  out << YAML::Key << "plane" << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "height_m" << YAML::Value << extrinsics.start_height_m;
-  out << YAML::Key << "height_sigma_m" << YAML::Value << extrinsics.start_height_sigma_m;
-  out << YAML::EndMap << YAML::EndMap;
-  return std::string(out.c_str()) + "\n";
+  YAML::Emitter first_line;  // quotes the path where it has to be
+  first_line << YAML::BeginMap << YAML::Key << "include" << YAML::Value << include.string() << YAML::EndMap;
+  Configuration configuration;
+  configuration.inertial.extrinsics = extrinsics;
+  return std::string(first_line.c_str()) + "\n" +
+         emitYaml(configuration, {"camera.R_CI", "camera.p_IC", "camera.timeshift_s", "plane.height_m",
+                                  "plane.height_sigma_m"});
 }
 
 }  // namespace
@@ -56,13 +42,13 @@ InertialExtrinsics readTrueExtrinsics(const std::filesystem::path& flight) {
 }
 
 void writeReferenceExtrinsics(const ReferenceExtrinsicsOptions& options) {
-  loadConfiguration(options.configuration);  // what is wrong with it is better told now
+  loadConfiguration(options.configuration);  // throws where the included file is wrong
   const auto flight = std::filesystem::weakly_canonical(options.flight);
   const std::string seed = options.seed.empty() ? flight.filename().string() : options.seed;
   const InertialExtrinsics extrinsics = disturbed(readTrueExtrinsics(flight), options.disturbance, seed);
   const auto include =
       std::filesystem::relative(options.configuration, std::filesystem::absolute(options.out).parent_path());
-  writeAtomically(options.out, "# True extrinsics, disturbed by what a calibration leaves.\n" +
+  writeAtomically(options.out, "# True extrinsics plus the error that a calibration leaves.\n" +
                                    yamlOf(extrinsics, include));
 }
 

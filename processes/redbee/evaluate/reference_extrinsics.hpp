@@ -1,5 +1,5 @@
-// redbee reference-extrinsics: a configuration with a rendered clip's true extrinsics, as wrong as a good
-// calibration leaves them.
+// redbee reference-extrinsics: a configuration with a rendered clip's true extrinsics plus the error that a
+// good calibration leaves.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace redbee {
 
 struct ReferenceExtrinsicsOptions {
   std::filesystem::path flight;         ///< folder with groundtruth.yaml and labels/camera_pose.csv
-  std::filesystem::path configuration;  ///< of the vehicle, included by what is written
+  std::filesystem::path configuration;  ///< of the vehicle, included by the file written
   std::filesystem::path out;            ///< the YAML file to write
   std::string seed;                     ///< empty: the flight folder's name
   ExtrinsicsDisturbance disturbance;
