@@ -25,7 +25,7 @@ class Bus {
   /// Waits up to `timeout` for a message, then hands out all that are waiting. Number of messages handed out;
   /// 0 after the timeout or a signal. Nothing that a handler throws gets through.
   virtual int handle(std::chrono::milliseconds timeout) = 0;
-  /// Exceptions that handlers let out so far: each was logged and cost its message.
+  /// Exceptions thrown by handlers so far: each was logged and cost its message.
   virtual int64_t handlerFailures() const { return 0; }
 
   template <typename Message>

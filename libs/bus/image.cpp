@@ -47,8 +47,8 @@ std::optional<size_t> jpegFrameHeader(const uint8_t* data, size_t size) {
   return std::nullopt;
 }
 
-/// libjpeg fills what is missing of a image with grey and says nothing. Cameras may pad behind the end
-/// marker, and a thumbnail has one of its own, before the frame header.
+/// libjpeg silently fills the rest of a truncated image with grey. Cameras may pad behind the end marker, and
+/// a thumbnail has one of its own, before the frame header.
 bool isWholeJpeg(const std::vector<uint8_t>& data) {
   const std::array<uint8_t, 2> end_of_image = {0xFF, 0xD9};
   const auto header = jpegFrameHeader(data.data(), data.size());
@@ -66,7 +66,7 @@ std::optional<cv::Mat> decodeJpeg(const image_t& message, bool colour, int downs
   return decoded;
 }
 
-/// The message's bytes as a image, without a copy.
+/// The message's bytes as an image, without a copy.
 std::optional<cv::Mat> viewRaw(const image_t& message, int channels) {
   const int64_t row = static_cast<int64_t>(message.width) * channels;
   if (message.row_stride < row || static_cast<int64_t>(message.row_stride) * message.height != message.size) {

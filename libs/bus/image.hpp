@@ -21,8 +21,8 @@ enum PixelFormat : int32_t {
 /// Width and height that a JPEG's header declares; nothing where there is no such header. Decodes nothing.
 std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size);
 
-/// The image as 8-bit grey, or as BGR. Nothing where the message lies about its size or format, or is cut
-/// short: sizes are compared with the header's before anything is decoded.
+/// The image as 8-bit grey, or as BGR. Nothing where the message's size or format is wrong, or it is
+/// truncated: sizes are compared with the header's before anything is decoded.
 std::optional<cv::Mat> decodeGrey(const image_t& message);
 std::optional<cv::Mat> decodeColour(const image_t& message);
 /// The same at a size 1, 2 or 4 times smaller, which must divide the image's. A JPEG is not decoded to its

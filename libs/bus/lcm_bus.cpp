@@ -49,7 +49,7 @@ void checkChannel(const std::string& channel) {
   }
 }
 
-/// The one place that handlers' exceptions reach: beyond it lies C, which they would abort.
+/// Handlers' exceptions end here: in LCM's C code they would abort the process.
 void dispatch(const lcm_recv_buf_t* received, const char*, void* user) noexcept {
   auto& subscription = *static_cast<Subscription*>(user);
   const auto fail = [&](const char* what) {

@@ -48,7 +48,7 @@ UdpBufferCheck checkReceiveBuffer(const std::string& url, std::optional<int64_t>
   }
   if (*wanted < kRecommendedReceiveBuffer) {
     return {false, "images may be lost: the receive buffer in the URL " + url +
-                       " is small; say recv_buf_size=" + recommended};
+                       " is small; use recv_buf_size=" + recommended};
   }
   return {};
 }

@@ -14,13 +14,13 @@ constexpr int64_t kRecommendedReceiveBuffer = 4194304;  ///< bytes
 
 struct UdpBufferCheck {
   bool enough = true;
-  std::string advice;  ///< one line with the exact mend; empty where the buffer is enough
+  std::string advice;  ///< one line with the exact fix; empty where the buffer is large enough
 };
 
 /// The value of `recv_buf_size` in an LCM URL [bytes]; nothing where it has none that is a positive number.
 std::optional<int64_t> receiveBufferOf(const std::string& url);
 
-/// The kernel's limit, net.core.rmem_max [bytes]; nothing where /proc does not tell.
+/// The kernel's limit, net.core.rmem_max [bytes]; nothing where /proc has no such entry.
 std::optional<int64_t> kernelReceiveBufferLimit();
 
 /// Whether a receiver on this URL gets the buffer it asks for, and asks for enough. URLs that are not UDP

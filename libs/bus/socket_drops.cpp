@@ -32,9 +32,9 @@ int64_t droppedPackets(std::istream& table, const std::set<uint64_t>& inodes) {
   std::string line;
   std::getline(table, line);
   while (std::getline(table, line)) {
-    std::istringstream words(line);
+    std::istringstream fields(line);
     std::vector<std::string> row;
-    for (std::string word; words >> word;) row.push_back(word);
+    for (std::string field; fields >> field;) row.push_back(field);
     if (row.size() <= kDrops || inodes.count(std::stoull(row[kInode])) == 0) continue;
     dropped += std::stoll(row[kDrops]);
   }

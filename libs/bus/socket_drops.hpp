@@ -1,4 +1,4 @@
-// What the kernel threw away at this process' UDP sockets: LCM loses such messages without a word.
+// Datagrams that the kernel dropped at this process' UDP sockets: LCM loses such messages silently.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace redbee {
 
 /// Packets dropped, for want of room in the receive buffer, at all UDP sockets of this process since they
-/// were opened; 0 where /proc does not tell.
+/// were opened; 0 where /proc has no such entry.
 int64_t droppedPackets();
 
 /// The same from a table in the form of /proc/net/udp, of the sockets with these inodes.

@@ -15,7 +15,7 @@ struct OverlayStatus {
   double fps = 0;      ///< frames a second; 0: not shown
   std::string source;  ///< of the homography: "fused", "inertial", ...
   int32_t epoch = 0;
-  std::string message;  ///< anything else, "learning" say
+  std::string message;  ///< anything else, such as "learning"
 };
 
 /// `image`: 8-bit grey or BGR. `mask`: 0/255 of the same size, or empty. A new BGR image with the mask's

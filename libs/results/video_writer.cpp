@@ -41,7 +41,7 @@ class VideoWriter::Implementation {
 
   void write(const cv::Mat& image) {
     if (image.size() != size_ || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) {
-      throw std::invalid_argument("VideoWriter: a image of another size or type");
+      throw std::invalid_argument("VideoWriter: an image of another size or type");
     }
     check(av_frame_make_writable(frame_.get()));
     const AVPixelFormat format = image.channels() == 1 ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_BGR24;

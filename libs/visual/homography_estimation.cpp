@@ -19,7 +19,7 @@ constexpr double kPlaneGate = 31.83;
 void requireValid(const PointTracks& tracks, int width, int height, const RansacParameters& parameters) {
   if (tracks.previous.size() != tracks.current.size())
     throw std::invalid_argument("tracks of unequal length");
-  if (width < 2 || height < 2) throw std::invalid_argument("a image of no size");
+  if (width < 2 || height < 2) throw std::invalid_argument("an image of no size");
   if (!(parameters.inlier_px > 0) || parameters.max_iterations < 1) {
     throw std::invalid_argument("RANSAC's threshold and iterations must be positive");
   }

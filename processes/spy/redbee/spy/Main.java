@@ -12,7 +12,7 @@ import lcm.lcm.LCMDataInputStream;
 import redbee.foreground_t;
 import redbee.image_t;
 
-/** Main LCM_URL [CHANNEL...]: lcm-spy, and a window for the pictures of each of the channels. */
+/** Main LCM_URL [CHANNEL...]: lcm-spy, and a window for the images of each of the channels. */
 public final class Main {
   private Main() {}
 
@@ -32,7 +32,7 @@ public final class Main {
     }
     SwingUtilities.invokeLater(() -> {
       JFrame frame = new JFrame(channel);
-      frame.add(new PicturePanel(newest::get));
+      frame.add(new ImagePanel(newest::get));
       frame.pack();
       frame.setLocation(besideTheTable(frame, number));
       frame.setVisible(true);

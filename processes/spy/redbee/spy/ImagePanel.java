@@ -8,16 +8,16 @@ import java.util.function.Supplier;
 import javax.swing.JPanel;
 import javax.swing.Timer;
 
-/** Shows the newest picture of a channel, ten times a second, as large as there is room. */
-final class PicturePanel extends JPanel {
+/** Shows the newest image of a channel, ten times a second, as large as there is room. */
+final class ImagePanel extends JPanel {
   private static final int PERIOD_MS = 100;
   private static final int CAPTION_PX = 18;
 
   private final Supplier<Object> newest;
   private Object shown;
-  private BufferedImage picture;
+  private BufferedImage image;
 
-  PicturePanel(Supplier<Object> newest) {
+  ImagePanel(Supplier<Object> newest) {
     this.newest = newest;
     setPreferredSize(new Dimension(640, 480 + CAPTION_PX));
     setBackground(Color.DARK_GRAY);
@@ -28,7 +28,7 @@ final class PicturePanel extends JPanel {
     Object message = newest.get();
     if (message == null || message == shown || !isShowing()) return;
     shown = message;
-    picture = Pictures.of(message);
+    image = Images.of(message);
     repaint();
   }
 
@@ -36,10 +36,10 @@ final class PicturePanel extends JPanel {
   protected void paintComponent(Graphics g) {
     super.paintComponent(g);
     g.setColor(Color.WHITE);
-    g.drawString(shown == null ? "nothing heard yet" : Pictures.captionOf(shown), 6, 13);
-    if (picture == null) return;
+    g.drawString(shown == null ? "no message yet" : Images.captionOf(shown), 6, 13);
+    if (image == null) return;
     int room = Math.max(1, getHeight() - CAPTION_PX);
-    double scale = Math.min(getWidth() / (double) picture.getWidth(), room / (double) picture.getHeight());
-    g.drawImage(picture, 0, CAPTION_PX, (int) (picture.getWidth() * scale), (int) (picture.getHeight() * scale), null);
+    double scale = Math.min(getWidth() / (double) image.getWidth(), room / (double) image.getHeight());
+    g.drawImage(image, 0, CAPTION_PX, (int) (image.getWidth() * scale), (int) (image.getHeight() * scale), null);
   }
 }
