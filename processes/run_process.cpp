@@ -11,7 +11,7 @@
 namespace redbee {
 
 int runProcess(int argc, char** argv, const std::string& name, const NodeFactory& factory) {
-  CLI::App app("REDBEE " REDBEE_VERSION ", " + name, name);
+  CLI::App app(std::string("REDBEE ") + releaseVersion() + ", " + name, name);
   std::filesystem::path configuration_file;
   std::string url;
   std::string state_folder;

@@ -4,6 +4,8 @@
 
 namespace redbee {
 
+const char* releaseVersion() { return REDBEE_RELEASE; }
+
 const char* buildVersion() { return REDBEE_BUILD_VERSION; }
 
 }  // namespace redbee

@@ -6,6 +6,7 @@
 #include "processes/redbee/pages/number.hpp"
 #include "processes/redbee/pages/page.hpp"
 #include "processes/redbee/pages/svg_plot.hpp"
+#include "redbee/bus/build_version.hpp"
 #include "redbee/geometry/angle.hpp"
 
 namespace redbee {
@@ -213,7 +214,7 @@ std::string calibrationReport(const CalibrationInput& input, const CalibrationRe
                               const CalibrationSubject& subject) {
   const bool target = !input.target.empty();
   const Diagnostics& diagnostics = result.diagnostics;
-  Page page("REDBEE " REDBEE_VERSION ": calibration of " + subject.vehicle);
+  Page page(std::string("REDBEE ") + releaseVersion() + ": calibration of " + subject.vehicle);
   page.addParagraph("From " + subject.source);
   for (const std::string& warning : result.warnings) page.addParagraph("Warning: " + warning, Tone::kWeak);
   page.addHeading("Verdicts");

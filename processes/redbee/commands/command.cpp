@@ -53,7 +53,7 @@ Command::Command(CommandGroup group_, std::string name_, std::string description
 }
 
 int runTool(int argc, char** argv) {
-  CLI::App app("REDBEE " REDBEE_VERSION ": moving objects, seen from a drone", "redbee");
+  CLI::App app(std::string("REDBEE ") + releaseVersion() + ": moving objects, seen from a drone", "redbee");
   app.set_version_flag("--version", buildVersion());
   app.require_subcommand(1);
   cv::setNumThreads(1);  // figures for one core, and the same sums on every machine

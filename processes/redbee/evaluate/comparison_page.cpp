@@ -9,6 +9,7 @@
 #include "processes/redbee/pages/number.hpp"
 #include "processes/redbee/pages/page.hpp"
 #include "processes/redbee/pages/svg_plot.hpp"
+#include "redbee/bus/build_version.hpp"
 
 namespace redbee {
 namespace {
@@ -85,7 +86,7 @@ void addSet(Page& page, const Comparison& comparison, const std::string& set, co
 }  // namespace
 
 std::string comparisonPage(const Comparison& comparison, const std::vector<Table>& tables) {
-  Page page("REDBEE " REDBEE_VERSION ": evaluation");
+  Page page(std::string("REDBEE ") + releaseVersion() + ": evaluation");
   for (const Table& table : tables) page.addTable(table);
   for (const std::string& set : comparison.sets()) {
     for (const std::string& row : comparison.rowsOf(set)) addSet(page, comparison, set, row);

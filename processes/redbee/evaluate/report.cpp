@@ -12,6 +12,7 @@
 #include "processes/redbee/evaluate/overlay_video.hpp"
 #include "processes/redbee/pages/number.hpp"
 #include "processes/redbee/pages/page.hpp"
+#include "redbee/bus/build_version.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/results/run_folder.hpp"
 
@@ -88,7 +89,7 @@ void writeReport(const ReportOptions& options) {
   const std::vector<std::string> lines = headlines(summary, measures);
   const Table processes = processTable(summary);
 
-  Page page("REDBEE " REDBEE_VERSION ": " + options.log.filename().string());
+  Page page(std::string("REDBEE ") + releaseVersion() + ": " + options.log.filename().string());
   page.addList(lines);
   page.addHeading("Processes");
   page.addTable(processes);
@@ -96,7 +97,7 @@ void writeReport(const ReportOptions& options) {
   page.addFigures(overlays(options, summary.at("frames").get<int64_t>()), 2);
   writeAtomically(options.page, page.html());
 
-  std::printf("\nREDBEE " REDBEE_VERSION ", %s\n", options.log.filename().c_str());
+  std::printf("\nREDBEE %s, %s\n", releaseVersion(), options.log.filename().c_str());
   for (const std::string& line : lines) std::printf("  %s\n", line.c_str());
   printIndented(asText(processes));
   std::printf("%s\n", options.page.c_str());
