@@ -31,34 +31,32 @@ double overlap(const cv::Rect2d& a, const cv::Rect2d& b) {
   return both / (a.area() + b.area() - both);
 }
 
-void check(const cv::Mat& detected, const ObjectTruth& truth) {
-  const bool ids_fit =
-      truth.ids.empty() || (truth.ids.type() == CV_32S && truth.ids.size() == detected.size());
-  const bool ignored_fits =
-      truth.ignored.empty() || (truth.ignored.type() == CV_8U && truth.ignored.size() == detected.size());
-  if (detected.empty() || detected.type() != CV_8U || !ids_fit || !ignored_fits) {
-    throw std::invalid_argument("countObjects: maps must be of one size, 8-bit, identities 32-bit");
-  }
+void check(const cv::Mat1b& detected, const ObjectTruth& truth) {
+  const bool ids_fit = truth.ids.empty() || truth.ids.size() == detected.size();
+  const bool ignored_fits = truth.ignored.empty() || truth.ignored.size() == detected.size();
+  if (detected.empty() || !ids_fit || !ignored_fits)
+    throw std::invalid_argument("countObjects: maps must be of one size");
 }
 
-std::vector<Component> componentsOf(const cv::Mat& detected, const ObjectTruth& truth) {
-  cv::Mat labels, statistics, centroids;
+std::vector<Component> componentsOf(const cv::Mat1b& detected, const ObjectTruth& truth) {
+  cv::Mat1i labels, statistics;
+  cv::Mat1d centroids;
   const int count = cv::connectedComponentsWithStats(detected, labels, statistics, centroids, 8, CV_32S);
   std::vector<Component> components(static_cast<size_t>(count));
   for (int i = 1; i < count; ++i) {
-    const int* row = statistics.ptr<int>(i);
+    const int* row = statistics[i];
     components[static_cast<size_t>(i)].box = cv::Rect2d(row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP],
                                                         row[cv::CC_STAT_WIDTH], row[cv::CC_STAT_HEIGHT]);
     components[static_cast<size_t>(i)].area = row[cv::CC_STAT_AREA];
   }
   for (int y = 0; y < labels.rows; ++y) {
     for (int x = 0; x < labels.cols; ++x) {
-      Component& component = components[static_cast<size_t>(labels.at<int>(y, x))];
-      if (!truth.ignored.empty() && truth.ignored.at<uint8_t>(y, x) != 0) ++component.ignored;
-      if (!truth.ids.empty() && truth.ids.at<int>(y, x) != 0) component.touches_object = true;
+      Component& component = components[static_cast<size_t>(labels(y, x))];
+      if (!truth.ignored.empty() && truth.ignored(y, x) != 0) ++component.ignored;
+      if (!truth.ids.empty() && truth.ids(y, x) != 0) component.touches_object = true;
     }
   }
-  components.erase(components.begin());  // what is not detected
+  components.erase(components.begin());  // the background
   if (truth.ids.empty()) {
     for (Component& component : components) {
       component.touches_object = std::any_of(
@@ -69,14 +67,14 @@ std::vector<Component> componentsOf(const cv::Mat& detected, const ObjectTruth& 
   return components;
 }
 
-void countRegions(const cv::Mat& detected, const ObjectTruth& truth, ObjectCounts& counts) {
+void countRegions(const cv::Mat1b& detected, const ObjectTruth& truth, ObjectCounts& counts) {
   std::map<int, std::pair<int64_t, int64_t>> pixels;  // visible, detected
   for (int y = 0; y < truth.ids.rows; ++y) {
     for (int x = 0; x < truth.ids.cols; ++x) {
-      const int id = truth.ids.at<int>(y, x);
+      const int id = truth.ids(y, x);
       if (id == 0) continue;
       ++pixels[id].first;
-      if (detected.at<uint8_t>(y, x) != 0) ++pixels[id].second;
+      if (detected(y, x) != 0) ++pixels[id].second;
     }
   }
   for (const TruthObject& object : truth.objects) {
@@ -100,7 +98,7 @@ void countBoxes(const std::vector<Component>& components, const ObjectTruth& tru
 
 }  // namespace
 
-ObjectTruth objectsOfMask(const cv::Mat& mask) {
+ObjectTruth objectsOfMask(const cv::Mat1b& mask) {
   ObjectTruth truth;
   const int count = cv::connectedComponents(mask == kMoving, truth.ids, 8, CV_32S);
   for (int id = 1; id < count; ++id) truth.objects.push_back({id, {}, true});
@@ -108,7 +106,7 @@ ObjectTruth objectsOfMask(const cv::Mat& mask) {
   return truth;
 }
 
-ObjectCounts countObjects(const cv::Mat& detected, const ObjectTruth& truth) {
+ObjectCounts countObjects(const cv::Mat1b& detected, const ObjectTruth& truth) {
   check(detected, truth);
   const std::vector<Component> components = componentsOf(detected, truth);
   ObjectCounts counts;
@@ -125,7 +123,7 @@ ObjectCounts countObjects(const cv::Mat& detected, const ObjectTruth& truth) {
   return counts;
 }
 
-ObjectCounts ObjectMeasures::add(const cv::Mat& detected, const ObjectTruth& truth) {
+ObjectCounts ObjectMeasures::add(const cv::Mat1b& detected, const ObjectTruth& truth) {
   const ObjectCounts frame = countObjects(detected, truth);
   counts_.present += frame.present;
   counts_.found += frame.found;

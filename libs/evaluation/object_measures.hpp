@@ -23,9 +23,8 @@ struct TruthObject {
 
 /// The objects of one frame.
 struct ObjectTruth {
-  cv::Mat ids;  ///< CV_32S, the identity of each visible pixel, 0: none; empty where objects are labelled by
-                ///< boxes
-  cv::Mat ignored;  ///< CV_8U, not 0 where the truth is not known; empty: known everywhere
+  cv::Mat1i ids;      ///< identity of each visible pixel, 0: none; empty where objects are labelled by boxes
+  cv::Mat1b ignored;  ///< not 0 where the truth is unknown; empty: known everywhere
   std::vector<TruthObject> objects;
 };
 
@@ -40,15 +39,15 @@ struct ObjectCounts {
 inline constexpr int64_t kLeastVisiblePixels = 12;
 
 /// Every 8-connected region of a 0/255 mask (other values are ignored areas) taken for an object that counts.
-ObjectTruth objectsOfMask(const cv::Mat& mask);
+ObjectTruth objectsOfMask(const cv::Mat1b& mask);
 
-/// `detected`: CV_8U, not 0 where the method detects motion. Throws std::invalid_argument on maps of other
-/// types or different sizes.
-ObjectCounts countObjects(const cv::Mat& detected, const ObjectTruth& truth);
+/// `detected`: not 0 where the method detects motion. Throws std::invalid_argument on maps of different
+/// sizes.
+ObjectCounts countObjects(const cv::Mat1b& detected, const ObjectTruth& truth);
 
 class ObjectMeasures {
  public:
-  ObjectCounts add(const cv::Mat& detected, const ObjectTruth& truth);
+  ObjectCounts add(const cv::Mat1b& detected, const ObjectTruth& truth);
 
   int64_t frames() const { return frames_; }
   const ObjectCounts& counts() const { return counts_; }

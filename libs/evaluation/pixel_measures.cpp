@@ -21,13 +21,13 @@ OperatingPoint operatingPoint(int threshold, int64_t hits, int64_t false_alarms,
 
 }  // namespace
 
-void PixelMeasures::add(const cv::Mat& probability, const cv::Mat& truth) {
-  if (probability.type() != CV_8U || truth.type() != CV_8U || probability.size() != truth.size()) {
-    throw std::invalid_argument("PixelMeasures: maps must be 8-bit, one channel, and of one size");
+void PixelMeasures::add(const cv::Mat1b& probability, const cv::Mat1b& truth) {
+  if (probability.size() != truth.size()) {
+    throw std::invalid_argument("PixelMeasures: maps must be of one size");
   }
   for (int row = 0; row < truth.rows; ++row) {
-    const uint8_t* p = probability.ptr<uint8_t>(row);
-    const uint8_t* t = truth.ptr<uint8_t>(row);
+    const uint8_t* p = probability[row];
+    const uint8_t* t = truth[row];
     for (int column = 0; column < truth.cols; ++column) {
       if (t[column] == kMoving) {
         ++moving_[p[column]];

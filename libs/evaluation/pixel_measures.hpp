@@ -18,9 +18,9 @@ struct OperatingPoint {
 /// Counts only: adding a frame costs one pass, and clips of any length fit.
 class PixelMeasures {
  public:
-  /// Both CV_8U of one size. Truth: 255 moves, 0 does not, every other value is ignored. Throws
-  /// std::invalid_argument on anything else.
-  void add(const cv::Mat& probability, const cv::Mat& truth);
+  /// `probability`: P_FG * 255. `truth`: 255 moves, 0 does not, any other value is ignored. Throws
+  /// std::invalid_argument on maps of different sizes.
+  void add(const cv::Mat1b& probability, const cv::Mat1b& truth);
 
   int64_t frames() const { return frames_; }
   int64_t movingPixels() const;

@@ -33,12 +33,12 @@ cv::Vec3b tinted(const cv::Vec3b& pixel) {
   return mixed;
 }
 
-void drawMask(cv::Mat& canvas, const cv::Mat& mask) {
+void drawMask(cv::Mat3b& canvas, const cv::Mat1b& mask) {
   if (mask.empty() || mask.size() != canvas.size()) return;
-  // By hand: OpenCV would tint the whole image first, and a mask covers little of it.
+  // OpenCV would tint the whole image first, of which a mask covers little.
   for (int y = 0; y < canvas.rows; ++y) {
-    const uint8_t* marked = mask.ptr(y);
-    auto* pixels = canvas.ptr<cv::Vec3b>(y);
+    const uint8_t* marked = mask[y];
+    cv::Vec3b* pixels = canvas[y];
     for (int x = 0; x < canvas.cols; ++x) {
       if (marked[x] != 0) pixels[x] = tinted(pixels[x]);
     }
@@ -66,9 +66,9 @@ std::string statusLine(const OverlayStatus& status) {
 
 }  // namespace
 
-cv::Mat drawOverlay(const cv::Mat& image, const cv::Mat& mask, const std::vector<Detection>& detections,
-                    const OverlayStatus& status) {
-  cv::Mat canvas;
+cv::Mat3b drawOverlay(const cv::Mat& image, const cv::Mat1b& mask, const std::vector<Detection>& detections,
+                      const OverlayStatus& status) {
+  cv::Mat3b canvas;
   if (image.channels() == 1) {
     cv::cvtColor(image, canvas, cv::COLOR_GRAY2BGR);
   } else {

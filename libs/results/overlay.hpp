@@ -12,16 +12,16 @@ namespace redbee {
 
 struct OverlayStatus {
   int64_t utime = 0;   ///< us
-  double fps = 0;      ///< frames a second; 0: not shown
+  double fps = 0;      ///< frames per second; 0: not shown
   std::string source;  ///< of the homography: "fused", "inertial", ...
   int32_t epoch = 0;
   std::string message;  ///< anything else, such as "learning"
 };
 
-/// `image`: 8-bit grey or BGR. `mask`: 0/255 of the same size, or empty. A new BGR image with the mask's
-/// tint and outline, a box with the identity per detection (grey if the tracker only predicted it in this
-/// frame), and the status in the top line.
-cv::Mat drawOverlay(const cv::Mat& image, const cv::Mat& mask, const std::vector<Detection>& detections,
-                    const OverlayStatus& status);
+/// `image`: 8-bit grey or BGR. `mask`: 0/255 of the same size, or empty. Returns a new BGR image with the
+/// mask's tint and outline, a box with the identity per detection (grey if the tracker only predicted it in
+/// this frame), and the status in the top line.
+cv::Mat3b drawOverlay(const cv::Mat& image, const cv::Mat1b& mask, const std::vector<Detection>& detections,
+                      const OverlayStatus& status);
 
 }  // namespace redbee

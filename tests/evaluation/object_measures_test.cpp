@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kSide = 40;
 
-cv::Mat emptyMask() { return cv::Mat::zeros(kSide, kSide, CV_8U); }
+cv::Mat1b emptyMask() { return cv::Mat1b::zeros(kSide, kSide); }
 
 cv::Mat maskWith(const std::vector<cv::Rect>& boxes, int value = 255) {
   cv::Mat mask = emptyMask();
@@ -119,8 +119,6 @@ TEST(ObjectMeasures, RecallPoolsTheFrames) {
 
 TEST(ObjectMeasures, RefusesMapsThatDoNotFit) {
   EXPECT_THROW(countObjects(cv::Mat::zeros(3, 3, CV_8U), objectsOfMask(emptyMask())), std::invalid_argument);
-  EXPECT_THROW(countObjects(cv::Mat::zeros(kSide, kSide, CV_32F), objectsOfMask(emptyMask())),
-               std::invalid_argument);
 }
 
 }  // namespace

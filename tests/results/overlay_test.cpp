@@ -9,7 +9,7 @@ namespace {
 
 TEST(Overlay, ShowsMaskAndBoxesAndLeavesTheRest) {
   const cv::Mat image(120, 200, CV_8UC1, cv::Scalar(100));
-  cv::Mat mask = cv::Mat::zeros(image.size(), CV_8UC1);
+  cv::Mat1b mask = cv::Mat1b::zeros(image.size());
   cv::rectangle(mask, {60, 60, 20, 20}, cv::Scalar(255), cv::FILLED);
   Detection detection;
   detection.id = 3;

@@ -182,7 +182,7 @@ std::string verdictJson(const CalibrationResult& result, const CalibrationSubjec
   for (const ParameterReport& report : result.parameters) {
     auto& entry = json["parameters"][report.name];
     entry["status"] = toString(report.verdict);
-    entry["words"] = report.explanation;
+    entry["explanation"] = report.explanation;
     entry["unit"] = report.unit;
     entry["value"] = report.value;
     entry["sigma"] = report.sigma;

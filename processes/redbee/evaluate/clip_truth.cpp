@@ -65,8 +65,8 @@ bool looksLikeFrameNumber(const fs::path& file) {
   return !isDigit(stem.front()) || (stem.size() > 1 && stem.front() == '0');
 }
 
-cv::Mat readLabels(const fs::path& file, cv::Size size) {
-  cv::Mat labels = readGreyPng(file);
+cv::Mat1b readLabels(const fs::path& file, cv::Size size) {
+  cv::Mat1b labels = readGreyPng(file);
   if (labels.size() != size) {
     throw InputError(file, fmt::format("has {}x{} px, the run's maps have {}x{}", labels.cols, labels.rows,
                                        size.width, size.height));
@@ -186,7 +186,7 @@ std::vector<ClipTruth::Frame> ClipTruth::frames(const std::vector<int64_t>& utim
 ClipTruth::Labels ClipTruth::read(const Frame& frame, cv::Size size) const {
   Labels labels;
   if (nothing_moves_) {
-    labels.mask = cv::Mat::zeros(size, CV_8U);
+    labels.mask = cv::Mat1b::zeros(size);
     labels.objects = objectsOfMask(labels.mask);
     return labels;
   }
@@ -201,7 +201,7 @@ ClipTruth::Labels ClipTruth::read(const Frame& frame, cv::Size size) const {
   return labels;
 }
 
-ObjectTruth ClipTruth::objectsFromIdentities(const Frame& frame, const cv::Mat& mask) const {
+ObjectTruth ClipTruth::objectsFromIdentities(const Frame& frame, const cv::Mat1b& mask) const {
   ObjectTruth truth = objectsOfMask(mask);
   truth.objects.clear();
   readLabels(folder_ / "id" / frame.mask.filename(), mask.size()).convertTo(truth.ids, CV_32S);
@@ -212,7 +212,7 @@ ObjectTruth ClipTruth::objectsFromIdentities(const Frame& frame, const cv::Mat& 
 
 ObjectTruth ClipTruth::objectsFromBoxes(const Frame& frame, cv::Size size) const {
   ObjectTruth truth;
-  truth.ignored = cv::Mat::zeros(size, CV_8U);
+  truth.ignored = cv::Mat1b::zeros(size);
   const cv::Rect image({}, size);
   forEachIn(ignored_, frame.index,
             [&](const TruthObject& area) { truth.ignored(pixelsOf(area.box) & image) = kUnknown; });

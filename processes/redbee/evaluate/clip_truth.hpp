@@ -55,7 +55,7 @@ class ClipTruth {
   ClipTruth() = default;
   void findMasks(const std::filesystem::path& folder);
   void readObjectStates();
-  ObjectTruth objectsFromIdentities(const Frame& frame, const cv::Mat& mask) const;
+  ObjectTruth objectsFromIdentities(const Frame& frame, const cv::Mat1b& mask) const;
   ObjectTruth objectsFromBoxes(const Frame& frame, cv::Size size) const;
 
   bool by_number_ = false;

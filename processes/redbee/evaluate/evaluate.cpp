@@ -31,7 +31,7 @@ std::vector<int64_t> mapTimes(const RunFolder& run) {
   return times;
 }
 
-FrameOutcome outcome(int64_t utime, const cv::Mat& detected, const cv::Mat& truth) {
+FrameOutcome outcome(int64_t utime, const cv::Mat1b& detected, const cv::Mat1b& truth) {
   FrameOutcome frame;
   frame.utime = utime;
   if (truth.empty()) return frame;

@@ -47,16 +47,16 @@ bool isFarFrom(const std::vector<size_t>& chosen, size_t candidate, size_t dista
   });
 }
 
-void tint(cv::Mat& image, const cv::Mat& where, const cv::Scalar& colour) {
-  cv::Mat coloured;
+void tint(cv::Mat3b& image, const cv::Mat1b& where, const cv::Scalar& colour) {
+  cv::Mat3b coloured;
   cv::addWeighted(image, 0.35, cv::Mat(image.size(), CV_8UC3, colour), 0.65, 0, coloured);
   coloured.copyTo(image, where);
 }
 
-void hatch(cv::Mat& image, const cv::Mat& where) {
-  cv::Mat lines = cv::Mat::zeros(where.size(), CV_8U);
+void hatch(cv::Mat3b& image, const cv::Mat1b& where) {
+  cv::Mat1b lines = cv::Mat1b::zeros(where.size());
   for (int y = 0; y < lines.rows; ++y) {
-    for (int x = (8 - y % 8) % 8; x < lines.cols; x += 8) lines.at<uint8_t>(y, x) = 255;
+    for (int x = (8 - y % 8) % 8; x < lines.cols; x += 8) lines(y, x) = 255;
   }
   image.setTo(cv::Scalar(200, 200, 200), lines & where);
 }
@@ -103,10 +103,10 @@ cv::Mat3b drawOutcome(const cv::Mat1b& grey, const cv::Mat1b& detected, const Cl
     tint(image, detected, kUnlabelled.bgr);
     if (!truth.objects.ignored.empty()) hatch(image, truth.objects.ignored);
   } else {
-    tint(image, detected & (truth.mask == 255), kHit.bgr);
-    tint(image, detected & (truth.mask == 0), kFalseAlarm.bgr);
-    tint(image, (detected == 0) & (truth.mask == 255), kMiss.bgr);
-    hatch(image, (truth.mask != 255) & (truth.mask != 0));
+    tint(image, cv::Mat1b(detected & (truth.mask == 255)), kHit.bgr);
+    tint(image, cv::Mat1b(detected & (truth.mask == 0)), kFalseAlarm.bgr);
+    tint(image, cv::Mat1b((detected == 0) & (truth.mask == 255)), kMiss.bgr);
+    hatch(image, cv::Mat1b((truth.mask != 255) & (truth.mask != 0)));
   }
   for (const TruthObject& object : truth.objects.objects) {
     if (object.box.area() > 0) cv::rectangle(image, object.box, cv::Scalar(255, 255, 255), 1);
