@@ -6,6 +6,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "processes/common_options.hpp"
+#include "processes/exit_code.hpp"
 #include "redbee/bus/build_version.hpp"
 
 namespace redbee {
@@ -19,16 +20,10 @@ int runProcess(int argc, char** argv, const std::string& name, const NodeFactory
   addConfigurationOption(app, configuration_file);
   addLcmUrlOption(app, url);
   app.add_option("--state-dir", state_folder, "folder for the state that survives a restart of this process");
-  try {
+  return exitCodeOf(app, [&] {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "%s: %s (see %s --help)\n", name.c_str(), error.what(), name.c_str());
-    return 2;
-  }
-  // One process of several on a small computer: its neighbours need the other cores.
-  cv::setNumThreads(1);
-  try {
+    // One process of several on a small computer: its neighbours need the other cores.
+    cv::setNumThreads(1);
     const Configuration configuration = loadConfiguration(configuration_file);
     const auto bus = makeLcmBus(url);
     const auto node = factory(*bus, configuration);
@@ -36,14 +31,7 @@ int runProcess(int argc, char** argv, const std::string& name, const NodeFactory
     spdlog::info("{}: configuration {} ({}), {}", name, configuration_file.string(),
                  configurationHash(configuration), url);
     runNode(*bus, *node, configuration.channels.health, stopOnSignals());
-    return 0;
-  } catch (const ConfigurationError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
-    return 1;
-  }
+  });
 }
 
 }  // namespace redbee

@@ -1,5 +1,6 @@
 #include "redbee/files/progress.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -43,16 +44,9 @@ void Progress::finish() {
 
 std::string Progress::line() const {
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-  char text[160];
-  if (total_ > 0) {
-    std::snprintf(text, sizeof text, ": %lld of %lld %s (%.0f %%), %.1f s", static_cast<long long>(done_),
-                  static_cast<long long>(total_), unit_.c_str(),
-                  100.0 * static_cast<double>(done_) / static_cast<double>(total_), seconds);
-  } else {
-    std::snprintf(text, sizeof text, ": %lld %s, %.1f s", static_cast<long long>(done_), unit_.c_str(),
-                  seconds);
-  }
-  return what_ + text;
+  if (total_ <= 0) return fmt::format("{}: {} {}, {:.1f} s", what_, done_, unit_, seconds);
+  const double percent = 100.0 * static_cast<double>(done_) / static_cast<double>(total_);
+  return fmt::format("{}: {} of {} {} ({:.0f} %), {:.1f} s", what_, done_, total_, unit_, percent, seconds);
 }
 
 }  // namespace redbee

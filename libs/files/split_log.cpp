@@ -1,5 +1,6 @@
 #include "redbee/files/split_log.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -38,10 +39,8 @@ void SplitLog::sync() {
 
 void SplitLog::openNext() {
   do {
-    char suffix[16];
-    std::snprintf(suffix, sizeof suffix, ".%02d", number_++);
     file_ = prefix_;
-    file_ += suffix;
+    file_ += fmt::format(".{:02}", number_++);
   } while (std::filesystem::exists(file_));
   log_ = std::make_unique<lcm::LogFile>(file_.string(), "w");
   if (!log_->good()) fail();

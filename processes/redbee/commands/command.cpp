@@ -2,16 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <opencv2/core/utility.hpp>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "processes/exit_code.hpp"
 #include "redbee/bus/build_version.hpp"
-#include "redbee/configuration/configuration.hpp"
-#include "redbee/files/input_error.hpp"
 
 namespace redbee {
 namespace {
@@ -57,29 +54,10 @@ int runTool(int argc, char** argv) {
   app.set_version_flag("--version", buildVersion());
   app.require_subcommand(1);
   cv::setNumThreads(1);  // figures for one core, and the same sums on every machine
-  try {
+  return exitCodeOf(app, [&] {
     addCommands(app);
     app.parse(argc, argv);
-    return 0;
-  } catch (const CLI::RuntimeError& error) {
-    return error.get_exit_code();
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "redbee: %s (see redbee --help)\n", error.what());
-    return 2;
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  } catch (const ConfigurationError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  } catch (const std::filesystem::filesystem_error& error) {
-    std::fprintf(stderr, "%s: %s\n", error.path1().c_str(), error.code().message().c_str());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "redbee: %s\n", error.what());
-    return 1;
-  }
+  });
 }
 
 }  // namespace redbee

@@ -16,8 +16,8 @@ enum class CommandGroup { kFlights, kEvaluation, kVehicle };
 
 class Command {
  public:
-  /// Adds options and a callback to the subcommand. The callback throws where it fails: runTool() turns what
-  /// it throws into the exit code.
+  /// Adds options and a callback to the subcommand. The callback throws where it fails; see
+  /// exitCodeOf().
   using Setup = std::function<void(CLI::App& command)>;
 
   Command(CommandGroup group, std::string name, std::string description, Setup setup);
@@ -28,8 +28,7 @@ class Command {
   Setup setup;
 };
 
-/// Parses the command line and runs the subcommand. 0 on success, 2 on bad use or bad input (one line on
-/// stderr), 1 on any other failure; a subcommand may state a code of its own (CLI::RuntimeError).
+/// Parses the command line and runs the subcommand; see exitCodeOf().
 int runTool(int argc, char** argv);
 
 }  // namespace redbee
