@@ -5,8 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "redbee/configuration/configuration.hpp"
-#include "redbee/files/input_error.hpp"
+#include "redbee/files/user_error.hpp"
 
 namespace redbee {
 namespace {
@@ -31,9 +30,7 @@ int exitCodeOf(const CLI::App& app, const std::function<void()>& work) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return fail(kBadInput, program + ": " + error.what() + " (see " + program + " --help)");
-  } catch (const InputError& error) {
-    return fail(kBadInput, error.what());
-  } catch (const ConfigurationError& error) {
+  } catch (const UserError& error) {
     return fail(kBadInput, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(kBadInput, error.path1().string() + ": " + error.code().message());

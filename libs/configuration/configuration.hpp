@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "redbee/detection/parameters.hpp"
+#include "redbee/files/user_error.hpp"
 #include "redbee/fusion/homography_fusion.hpp"
 #include "redbee/geometry/camera.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
@@ -56,9 +57,9 @@ struct Configuration {
 };
 
 /// what() is one line: `file:line: key: what is wrong`.
-class ConfigurationError : public std::runtime_error {
+class ConfigurationError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  using UserError::UserError;
 };
 
 /// Reads a vehicle's file. Keys that it leaves out keep the values of the files it includes, else the

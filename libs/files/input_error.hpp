@@ -2,19 +2,20 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
+
+#include "redbee/files/user_error.hpp"
 
 namespace redbee {
 
 /// what() is one line: "file[:line]: what is wrong". The tool prints it and exits with 2.
-class InputError : public std::runtime_error {
+class InputError : public UserError {
  public:
-  explicit InputError(const std::string& line) : std::runtime_error(line) {}
+  explicit InputError(const std::string& line) : UserError(line) {}
   InputError(const std::filesystem::path& file, const std::string& what)
-      : std::runtime_error(file.string() + ": " + what) {}
+      : UserError(file.string() + ": " + what) {}
   InputError(const std::filesystem::path& file, int line, const std::string& what)
-      : std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what) {}
+      : UserError(file.string() + ":" + std::to_string(line) + ": " + what) {}
 };
 
 }  // namespace redbee
