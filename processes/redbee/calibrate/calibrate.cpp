@@ -24,7 +24,7 @@ namespace {
 using calibration::CalibrationInput;
 using calibration::CalibrationResult;
 
-/// Signals wait while files get their names, so that an interrupt leaves all of them or none.
+/// Blocks signals while files are renamed, so that an interrupt leaves either all of them or none.
 class SignalsHeld {
  public:
   SignalsHeld() {

@@ -7,7 +7,7 @@
 
 namespace redbee {
 
-/// Of what and from what.
+/// What was calibrated, and from which recording.
 struct CalibrationSubject {
   std::string vehicle;
   std::string source;  ///< the recording
@@ -16,11 +16,11 @@ struct CalibrationSubject {
 /// Kalibr's camchain-imucam.yaml: T_cam_imu and timeshift_cam_imu; the inverse transform in comments.
 std::string kalibrCamchain(const calibration::CalibrationInput& input,
                            const calibration::CalibrationResult& result, const CalibrationSubject& subject);
-/// Kalibr's imu.yaml; the biases found in comments.
+/// Kalibr's imu.yaml; the estimated biases in comments.
 std::string kalibrImu(const calibration::CalibrationInput& input,
                       const calibration::CalibrationResult& result, const CalibrationSubject& subject);
-/// The keys of a vehicle's configuration that were found, to be included after the vehicle's own file. What
-/// was refused is left out.
+/// The keys of a vehicle's configuration that were estimated, to be included after the vehicle's own file.
+/// Refused parameters are left out.
 std::string onlineCalibration(const calibration::CalibrationInput& input,
                               const calibration::CalibrationResult& result,
                               const CalibrationSubject& subject);

@@ -137,7 +137,7 @@ class LogIntake {
                                  std::to_string(configuration_.camera.height));
     }
     const int64_t previous = input_.frames.empty() ? message.utime : input_.frames.back();
-    // A image that comes twice or late would be tracked backwards.
+    // An image that arrives twice or late would be tracked backwards.
     if (!input_.frames.empty() && message.utime <= previous) return;
     const cv::Mat ideal = rectifier_.toIdeal(*grey);
     PointTracks points = tracker_.advance(ideal, std::nullopt);

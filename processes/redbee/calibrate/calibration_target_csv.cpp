@@ -14,13 +14,13 @@
 namespace redbee {
 namespace {
 
-/// A file in the temporary folder that is gone at the end.
+/// A temporary file, deleted with the object.
 class TemporaryFile {
  public:
   TemporaryFile() {
     std::string name = (std::filesystem::temp_directory_path() / "redbee-XXXXXX").string();
     const int descriptor = mkstemp(name.data());
-    if (descriptor < 0) throw InputError(name, "cannot be made");
+    if (descriptor < 0) throw InputError(name, "cannot be created");
     path_ = name;
     file_ = fdopen(descriptor, "wb");
   }
@@ -47,7 +47,7 @@ class TemporaryFile {
   std::FILE* file_ = nullptr;
 };
 
-/// gzread passes files that are not compressed through as they are.
+/// Reads plain files too: gzread copies what is not compressed.
 void unpack(const std::filesystem::path& archive, TemporaryFile& plain) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(archive.c_str(), "rb"), gzclose);
   if (!file) throw InputError(archive, "cannot be read");

@@ -25,7 +25,7 @@ class ResultCollector {
  public:
   ResultCollector(Bus& bus, const Channels& channels, std::filesystem::path folder);
 
-  /// Frames whose FOREGROUND has come.
+  /// Number of frames whose FOREGROUND message has arrived.
   int64_t frames() const { return static_cast<int64_t>(status_.size()); }
   /// The latest health message of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }

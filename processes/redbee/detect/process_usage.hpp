@@ -1,3 +1,4 @@
+// Memory and processor time of this process.
 #pragma once
 
 #include <sys/resource.h>

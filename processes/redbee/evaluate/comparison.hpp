@@ -24,7 +24,7 @@ std::vector<std::string> readMethodList(const std::filesystem::path& file);
 
 /// Measures of one run; empty: undefined with this truth, or not measured.
 struct CellMeasures {
-  std::map<std::string, double> values;  ///< by the names of kMeasures
+  std::map<std::string, double> values;  ///< by the names in measureNames()
   std::optional<double> value(const std::string& name) const;
 };
 

@@ -1,4 +1,4 @@
-// The camera's messages of a flight, for commands that look at single frames.
+// The camera's messages of a flight, for commands that use single frames.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace redbee {
 
 /// Calls `take` for each image message on `channel`, in the log's order; messages that do not decode are
-/// passed over. Throws InputError where the log cannot be read.
+/// skipped. Throws InputError where the log cannot be read.
 void forEachImage(const std::filesystem::path& log, const std::string& channel,
                   const std::function<void(const image_t& message)>& take);
 

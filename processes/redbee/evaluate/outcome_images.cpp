@@ -34,7 +34,7 @@ double quality(const FrameOutcome& frame) {
                              : 1;
 }
 
-/// Of equally good ones the one with more at stake.
+/// Among equally good frames, the one with more wrong pixels is worse.
 bool isWorse(const FrameOutcome& a, const FrameOutcome& b) {
   const double qa = quality(a), qb = quality(b);
   if (qa != qb) return qa < qb;

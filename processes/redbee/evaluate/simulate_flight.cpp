@@ -27,7 +27,7 @@ const std::map<std::string, ScenarioMaker>& scenarios() {
   return makers;
 }
 
-/// Truth on disk, in the layout of a flight folder's labels.
+/// Ground truth on disk, in the layout of a flight folder's labels.
 class TruthFolder {
  public:
   explicit TruthFolder(const std::filesystem::path& folder) : folder_(folder) {

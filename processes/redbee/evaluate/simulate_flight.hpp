@@ -1,4 +1,4 @@
-// redbee simulate: a flight with exact truth, as a log and a configuration.
+// redbee simulate: a flight with exact ground truth, as a log and a configuration.
 #pragma once
 
 #include <filesystem>

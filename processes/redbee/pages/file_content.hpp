@@ -1,3 +1,4 @@
+// Whole files as strings.
 #pragma once
 
 #include <filesystem>
