@@ -1,5 +1,5 @@
-// What most sources include, parsed once per build (REDBEE_PRECOMPILE). Only a saving of time: each source includes what it uses, which
-// the presets that compile without it (clang, fuzz) check.
+// What most sources include, parsed once per build (REDBEE_PRECOMPILE). Only a saving of time: each source
+// includes what it uses, which the presets that compile without it (clang, fuzz) check.
 #pragma once
 
 #include <Eigen/Cholesky>
