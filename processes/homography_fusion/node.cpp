@@ -1,7 +1,7 @@
 #include "processes/homography_fusion/node.hpp"
 
 #include "processes/conversions.hpp"
-#include "processes/note_calibration.hpp"
+#include "redbee/geometry/homography.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/node/work_timer.hpp"
@@ -10,14 +10,17 @@
 namespace redbee {
 namespace {
 
+static_assert(static_cast<int>(FusionSource::kNone) == fused_homography_t::NONE &&
+              static_cast<int>(FusionSource::kInertial) == fused_homography_t::INERTIAL &&
+              static_cast<int>(FusionSource::kVisual) == fused_homography_t::VISUAL &&
+              static_cast<int>(FusionSource::kFused) == fused_homography_t::FUSED);
+
 constexpr int kQueue = 64;
 constexpr int kImuQueue = 4000;
 constexpr size_t kMaxPending = 64;
-constexpr int8_t kVisualGood = 0;
-constexpr auto kInertialInitialising = static_cast<int8_t>(InertialStatus::kInitialising);
 
 VisualInput inputOf(const visual_homography_t& visual) {
-  return {visual.utime_previous, matrix3(visual.H), matrix8(visual.covariance), visual.inliers,
+  return {visual.utime_previous, matrix3(visual.ground.H), matrix8(visual.ground.covariance), visual.inliers,
           visual.outliers};
 }
 
@@ -47,18 +50,18 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
 
 void HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
   health_.noteSequence(configuration_.channels.inertial_homography, message.sequence);
-  if (!plausibleTimes(message) || (!finiteHomography(message) && message.valid != 0)) {
+  if (!plausibleTimes(message) || (!isFinite(message.ground) && message.valid != 0)) {
     health_.noteDamaged();
     return;
   }
-  if (message.valid == 0 && message.status == kInertialInitialising) inertial_at_first_frame_ = true;
+  if (message.valid == 0 && message.status == inertial_homography_t::INITIALISING) inertial_at_first_frame_ = true;
   expect(message.utime);
   inertial_.put(message.utime, message);
 }
 
 void HomographyFusionNode::takeVisual(const visual_homography_t& message) {
   health_.noteSequence(configuration_.channels.visual_homography, message.sequence);
-  if (!plausibleTimes(message) || (!finiteHomography(message) && message.status == kVisualGood)) {
+  if (!plausibleTimes(message) || (!isFinite(message.ground) && message.status == visual_homography_t::GOOD)) {
     health_.noteDamaged();
     return;
   }
@@ -134,19 +137,26 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
   const visual_homography_t* visual = visual_.find(utime);
   std::optional<InertialInput> inertial_input;
   if (inertial != nullptr && inertial->valid != 0) {
-    inertial_input =
-        InertialInput{inertial->utime_previous, matrix3(inertial->H), matrix8(inertial->covariance)};
+    inertial_input = InertialInput{inertial->utime_previous, matrix3(inertial->ground.H),
+                                   matrix8(inertial->ground.covariance)};
   }
   std::optional<VisualInput> visual_input;
-  if (visual != nullptr && visual->status == kVisualGood) visual_input = inputOf(*visual);
+  if (visual != nullptr && visual->status == visual_homography_t::GOOD) visual_input = inputOf(*visual);
   const FusedHomography fused = fusion_.step(utime, inertial_input, visual_input);
-  if (fused.has_innovation && inertial_input && visual_input &&
-      inertial_input->utime_previous == visual_input->utime_previous) {
-    noteCalibration(calibration_, health_, fused.test_ratio, inertial_input->H, visual_input->H,
-                    configuration_.camera);
+  if (fused.has_innovation && inertial_input && visual_input) {
+    validateCalibration(fused, *inertial_input, *visual_input);
   }
   fused_homography_t message = messageOf(fused);
-  addSources(message, fused, inertial, visual);
+  if (inertial_input && inertial_input->utime_previous == fused.utime_previous) {
+    message.has_motion = 1;
+    message.motion = inertial->motion;
+  }
+  if (visual != nullptr && visual->utime_previous == fused.utime_previous) {
+    const PointTracks tracks = tracksOf(visual->tracks);
+    fill(message.tracks, tracks);
+    if (visual_input) addObservation(message, *visual_input);
+    if (fused.source != FusionSource::kNone) addFrontPlane(message, tracks, fused.H_step);
+  }
   timers.cpu.answered();
   bus_.publish(configuration_.channels.fused_homography, message);
   inertial_.eraseThrough(utime);
@@ -156,6 +166,14 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
                     (!configuration_.has_imu && fused.source == FusionSource::kVisual);
   health_.setState(good ? HealthState::kGood : HealthState::kDegraded,
                    good ? "" : std::string("homography from: ") + toString(fused.source));
+}
+
+void HomographyFusionNode::validateCalibration(const FusedHomography& fused, const InertialInput& inertial,
+                                               const VisualInput& visual) {
+  if (inertial.utime_previous != visual.utime_previous) return;
+  const CameraIntrinsics& camera = configuration_.camera;
+  calibration_.note(fused.test_ratio, meanTransferError(inertial.H, visual.H, camera.width, camera.height));
+  health_.setCalibration(calibration_.verdict());
 }
 
 fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused) {
@@ -168,10 +186,9 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
   message.utime_anchor = fused.utime_anchor;
   message.width = configuration_.camera.width;
   message.height = configuration_.camera.height;
-  fill(message.H, fused.H_step);
-  fill(message.covariance, fused.covariance_step);
-  fill(message.H_anchor, fused.H_anchor);
-  fill(message.covariance_anchor, fused.covariance_anchor);
+  message.calibration = calibration_.verdict();
+  fill(message.step, fused.H_step, fused.covariance_step);
+  fill(message.anchor, fused.H_anchor, fused.covariance_anchor);
   message.has_innovation = fused.has_innovation ? 1 : 0;
   if (fused.has_innovation) {
     fill(message.innovation, fused.innovation);
@@ -181,35 +198,18 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
   return message;
 }
 
-void HomographyFusionNode::addSources(fused_homography_t& message, const FusedHomography& fused,
-                                      const inertial_homography_t* inertial,
-                                      const visual_homography_t* visual) const {
-  if (inertial != nullptr && inertial->valid != 0 && inertial->utime_previous == fused.utime_previous) {
-    message.has_motion = 1;
-    fill(message.R, matrix3(inertial->R));
-    fill(message.t, vector3(inertial->t));
-    fill(message.normal, vector3(inertial->normal));
-    message.plane_distance = inertial->plane_distance;
-  }
-  if (visual != nullptr && visual->utime_previous == fused.utime_previous) {
-    const PointTracks tracks = tracksOf(*visual);
-    fillTracks(message, tracks);
-    if (visual->status == kVisualGood) {
-      // Refused or not: the inertial filter judges for itself, or a filter gone wrong would never be told.
-      message.has_observation = 1;
-      fill(message.H_observed, matrix3(visual->H));
-      fill(message.covariance_observed, measurementCovariance(inputOf(*visual), configuration_.fusion));
-    }
-    if (fused.source != FusionSource::kNone) {
-      const auto front =
-          estimateFrontPlane(tracks, fused.H_step, message.width, message.height, configuration_.front);
-      if (front) {
-        message.has_front = 1;
-        fill(message.H_front, front->H);
-        message.front_inliers = front->inliers;
-      }
-    }
-  }
+void HomographyFusionNode::addObservation(fused_homography_t& message, const VisualInput& visual) const {
+  message.has_observation = 1;
+  fill(message.observed, visual.H, measurementCovariance(visual, configuration_.fusion));
+}
+
+void HomographyFusionNode::addFrontPlane(fused_homography_t& message, const PointTracks& tracks,
+                                         const Eigen::Matrix3d& ground) const {
+  const auto front = estimateFrontPlane(tracks, ground, message.width, message.height, configuration_.front);
+  if (!front) return;
+  message.has_front = 1;
+  fill(message.H_front, front->H);
+  message.front_inliers = front->inliers;
 }
 
 }  // namespace redbee

@@ -17,6 +17,7 @@
 #include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/node/work_timer.hpp"
+#include "redbee/visual/point_tracker.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {
@@ -37,9 +38,13 @@ class HomographyFusionNode : public Node {
   bool ready(int64_t utime);
   void fuse(int64_t utime, const WorkTimer& since_arrival);
   fused_homography_t messageOf(const FusedHomography& fused);
-  /// What the fusion had: the camera's motion, vision's points and homography, the second plane among them.
-  void addSources(fused_homography_t& message, const FusedHomography& fused,
-                  const inertial_homography_t* inertial, const visual_homography_t* visual) const;
+  /// Compares the two sources' homographies of one pair of frames: whether the calibration fits the flight.
+  void validateCalibration(const FusedHomography& fused, const InertialInput& inertial, const VisualInput& visual);
+  /// Vision's own homography, rejected by the fusion or not: the inertial filter validates it for itself, or a
+  /// diverged filter would never be corrected.
+  void addObservation(fused_homography_t& message, const VisualInput& visual) const;
+  /// The second step of the frame: the plane in front, among the tracks that the fused ground does not explain.
+  void addFrontPlane(fused_homography_t& message, const PointTracks& tracks, const Eigen::Matrix3d& ground) const;
   /// To an inertial process that begins: it may have taken the place of one that died. Whether it believes
   /// what it is told is its own affair.
   void publishWarmStart();

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "processes/conversions.hpp"
-#include "processes/note_calibration.hpp"
 #include "redbee/node/frame_intake.hpp"
 #include "redbee/node/work_timer.hpp"
 
@@ -74,6 +73,7 @@ void ImuIntegrationNode::takeFused(const fused_homography_t& message) {
     health_.noteDamaged();
     return;
   }
+  health_.setCalibration(message.calibration);
   feedback_.put(message.utime, message);
 }
 
@@ -120,16 +120,13 @@ void ImuIntegrationNode::applyFeedback() {
   if (!last_frame_utime_) return;
   const fused_homography_t* fused = feedback_.find(*last_frame_utime_);
   if (fused == nullptr || fused->has_observation == 0) return;
-  const HomographyObservation observation{fused->utime_previous, fused->utime, matrix3(fused->H_observed),
-                                          matrix8(fused->covariance_observed)};
+  const HomographyObservation observation{fused->utime_previous, fused->utime, matrix3(fused->observed.H),
+                                          matrix8(fused->observed.covariance)};
   if (!observation.H.allFinite() || !observation.covariance.allFinite()) {
     health_.noteDamaged();
     return;
   }
   feedback_report_ = filter_.correct(observation);
-  if (!last_H_) return;
-  noteCalibration(calibration_, health_, feedback_report_.test_ratio, *last_H_, observation.H,
-                  configuration_.camera);
 }
 
 void ImuIntegrationNode::publishSnapshot() {
@@ -158,7 +155,6 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
   if (last_frame_utime_) feedback_.eraseThrough(*last_frame_utime_);
   const InertialHomography result = filter_.advanceTo(frame.utime);
   last_frame_utime_ = frame.utime;
-  last_H_ = result.valid ? std::optional<Eigen::Matrix3d>(result.H) : std::nullopt;
   timers.cpu.answered();
 
   inertial_homography_t message{};
@@ -169,12 +165,8 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
   message.valid = result.valid ? 1 : 0;
   message.width = configuration_.camera.width;
   message.height = configuration_.camera.height;
-  fill(message.H, result.H);
-  fill(message.covariance, result.covariance);
-  fill(message.R, result.motion.R_ba);
-  fill(message.t, result.motion.t_ba);
-  fill(message.normal, result.motion.m_a);
-  message.plane_distance = result.motion.h_a;
+  fill(message.ground, result.H, result.covariance);
+  fill(message.motion, result.motion);
   fill(message.rotation_covariance, result.rotation_covariance);
   fill(message.down, result.direction_of_gravity);
   message.camera_height = result.height_m;

@@ -12,7 +12,6 @@
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
-#include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/ins_t.hpp"
@@ -63,8 +62,6 @@ class ImuIntegrationNode : public Node {
   MessageSynchronizer<fused_homography_t> feedback_;
   MessageClock clock_;
   std::optional<int64_t> last_frame_utime_;
-  std::optional<Eigen::Matrix3d> last_H_;  ///< what was said of the last frame
-  CalibrationMonitor calibration_;
   std::optional<filter_snapshot_t> kept_;
   CorrectionReport feedback_report_;  ///< of the last frame
   int agreed_in_a_row_ = 0;           ///< frames that vision's correction was accepted at

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "processes/conversions.hpp"
-#include "processes/note_calibration.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/node/work_timer.hpp"
 
@@ -12,7 +11,6 @@ namespace redbee {
 namespace {
 
 constexpr int kFrameQueue = 64;
-constexpr int8_t kVisualGood = 0;
 
 /// How much smaller a image may be decoded: the parallax segmentation shrinks it anyway.
 int imageDownscale(const Configuration& configuration) {
@@ -46,9 +44,9 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
       channels.fused_homography, kFrameQueue,
       [this](const fused_homography_t& m) {
         health_.noteSequence(configuration_.channels.fused_homography, m.sequence);
-        if (finiteHomography(m)) {
+        if (isFinite(m.step)) {
           fused_.put(m.utime, m);
-          judgeCalibration(m);
+          health_.setCalibration(m.calibration);
         } else {
           health_.noteDamaged();
         }
@@ -57,16 +55,9 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
   bus_.subscribe<visual_homography_t>(
       channels.visual_homography, kFrameQueue,
       [this](const visual_homography_t& m) {
-        if (finiteHomography(m)) visual_.put(m.utime, m);
+        if (isFinite(m.ground)) visual_.put(m.utime, m);
       },
       damaged);
-}
-
-void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
-  if (fused.has_innovation == 0 || fused.has_motion == 0 || fused.has_observation == 0) return;
-  const PlaneMotion motion{matrix3(fused.R), vector3(fused.t), vector3(fused.normal), fused.plane_distance};
-  noteCalibration(calibration_, health_, fused.test_ratio, planeHomography(camera_.camera().K(), motion),
-                  matrix3(fused.H_observed), configuration_.camera);
 }
 
 void MotionSegmentationNode::restart() {
@@ -90,22 +81,21 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const
   input.K = camera_.camera().K();
   if (!last_) return input;
   const fused_homography_t* fused = fused_.find(message.utime);
-  if (fused == nullptr || fused->source == 0) {
+  if (fused == nullptr || fused->source == fused_homography_t::NONE) {
     addVisual(input);
     return input;
   }
   if (fused->utime_previous == last_->utime) {
-    input.ground = matrix3(fused->H);
-    input.tracks = tracksOf(*fused);
+    input.ground = matrix3(fused->step.H);
+    input.tracks = tracksOf(fused->tracks);
     if (fused->has_front != 0) input.front = matrix3(fused->H_front);
     if (fused->has_motion != 0) {
-      input.motion =
-          PlaneMotion{matrix3(fused->R), vector3(fused->t), vector3(fused->normal), fused->plane_distance};
+      input.motion = motionOf(fused->motion);
     }
   } else if (fused->epoch == last_->epoch && fused->utime_anchor == last_->utime_anchor) {
     // A frame between was missed: the anchor homographies bridge it (libs/README.md, equation 25). A
     // restarted fusion counts its epochs from 0 again, so the anchor's time is compared as well.
-    input.ground = normaliseHomography(matrix3(fused->H_anchor) * last_->H_anchor.inverse());
+    input.ground = normaliseHomography(matrix3(fused->anchor.H) * last_->H_anchor.inverse());
   }
   return input;
 }
@@ -114,9 +104,9 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const
 /// keeps background and identities.
 void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
   const visual_homography_t* visual = visual_.find(input.utime);
-  if (visual == nullptr || visual->status != kVisualGood || visual->utime_previous != last_->utime) return;
-  input.ground = matrix3(visual->H);
-  input.tracks = tracksOf(*visual);
+  if (visual == nullptr || visual->status != visual_homography_t::GOOD || visual->utime_previous != last_->utime) return;
+  input.ground = matrix3(visual->ground.H);
+  input.tracks = tracksOf(visual->tracks);
 }
 
 void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
@@ -128,7 +118,7 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   timers.cpu.answered();
   publish(message, input, output);
   if (const fused_homography_t* fused = fused_.find(message.utime)) {
-    last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->H_anchor)};
+    last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->anchor.H)};
   } else {
     last_ = Last{message.utime, -1, 0, Eigen::Matrix3d::Identity()};
   }

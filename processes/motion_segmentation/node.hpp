@@ -11,7 +11,6 @@
 #include "redbee/detection/motion_segmenter.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
-#include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/node/image_queue.hpp"
 #include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
@@ -45,7 +44,6 @@ class MotionSegmentationNode : public Node {
   /// Black where there is no image of the camera's size.
   void decodeInto(SegmentationInput& input, const image_t& message);
   void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
-  void judgeCalibration(const fused_homography_t& fused);
   void restart();
 
   Bus& bus_;
@@ -59,7 +57,6 @@ class MotionSegmentationNode : public Node {
   MessageSynchronizer<visual_homography_t> visual_;
   std::optional<Last> last_;
   TrackIdStore identities_;
-  CalibrationMonitor calibration_;
 };
 
 }  // namespace redbee

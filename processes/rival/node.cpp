@@ -58,7 +58,7 @@ RivalNode::RivalNode(Bus& bus, const Configuration& configuration, const std::st
 
 void RivalNode::takeInertial(const inertial_homography_t& message) {
   health_.noteSequence(configuration_.channels.inertial_homography, message.sequence);
-  if (finiteHomography(message)) {
+  if (isFinite(message.ground)) {
     inertial_.put(message.utime, message);
   } else {
     health_.noteDamaged();
@@ -88,8 +88,7 @@ RivalInput RivalNode::inputFor(const image_t& message) {
   const inertial_homography_t* inertial = inertial_.find(message.utime);
   if (inertial != nullptr && inertial->valid != 0 && last_utime_ &&
       inertial->utime_previous == *last_utime_) {
-    input.motion = PlaneMotion{matrix3(inertial->R), vector3(inertial->t), vector3(inertial->normal),
-                               inertial->plane_distance};
+    input.motion = motionOf(inertial->motion);
   }
   return input;
 }

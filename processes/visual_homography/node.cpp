@@ -1,18 +1,13 @@
 #include "processes/visual_homography/node.hpp"
 
-#include <Eigen/Cholesky>
-
 #include "processes/conversions.hpp"
-#include "processes/note_calibration.hpp"
 #include "redbee/bus/image.hpp"
-#include "redbee/geometry/chi_square.hpp"
 #include "redbee/node/work_timer.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr int kFrameQueue = 64;
-constexpr int8_t kImageDoesNotFit = 4;
 
 }  // namespace
 
@@ -37,7 +32,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
 
 void VisualHomographyNode::takeInertial(const inertial_homography_t& message) {
   health_.noteSequence(configuration_.channels.inertial_homography, message.sequence);
-  if (!plausibleTimes(message) || !finiteHomography(message)) {
+  if (!plausibleTimes(message) || !isFinite(message.ground)) {
     health_.noteDamaged();
     return;
   }
@@ -57,15 +52,8 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t uti
   for (int64_t at = utime; at > *from;) {
     const inertial_homography_t* link = inertial_.find(at);
     if (link == nullptr || link->valid == 0 || link->utime_previous >= at) return std::nullopt;
-    const HomographyPrediction step{matrix3(link->H), matrix8(link->covariance)};
-    if (!chain) {
-      chain = step;
-    } else {
-      const auto J = composeJacobians(scaling.scale(chain->H), scaling.scale(step.H));
-      chain->covariance = J.by_left * chain->covariance * J.by_left.transpose() +
-                          J.by_right * step.covariance * J.by_right.transpose();
-      chain->H = normaliseHomography(chain->H * step.H);
-    }
+    const HomographyPrediction step{matrix3(link->ground.H), matrix8(link->ground.covariance)};
+    chain = chain ? compose(*chain, step, scaling) : step;
     at = link->utime_previous;
     if (at < *from) return std::nullopt;
   }
@@ -90,7 +78,7 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
     refusal.utime = message.utime;
     refusal.utime_previous = estimator_->previousTime().value_or(message.utime);
     refusal.sequence = sequence_++;
-    refusal.status = kImageDoesNotFit;
+    refusal.status = visual_homography_t::IMAGE_DOES_NOT_FIT;
     refusal.width = configuration_.camera.width;
     refusal.height = configuration_.camera.height;
     bus_.publish(configuration_.channels.visual_homography, refusal);
@@ -105,23 +93,10 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
   const VisualHomography result = estimator_->step(message.utime, rectifier_.toIdeal(*grey), predicted);
   timers.cpu.answered();
   publish(result);
-  if (predicted && result.ground) judgeCalibration(*predicted, result);
-  // After a image that nothing could be tracked in, the next one is tracked from an earlier frame: its
+  // After an image that nothing could be tracked in, the next one is tracked from an earlier frame: its
   // links are still needed.
   inertial_.eraseThrough(estimator_->previousTime().value_or(message.utime));
   noteDone(health_, message.utime, frame.since, timers);
-}
-
-void VisualHomographyNode::judgeCalibration(const HomographyPrediction& prediction,
-                                            const VisualHomography& result) {
-  const ImageScaling scaling(configuration_.camera.width, configuration_.camera.height);
-  const Vector8d difference =
-      toVector(scaling.scale(result.ground->H)) - toVector(scaling.scale(prediction.H));
-  const Matrix8d S =
-      prediction.covariance + configuration_.fusion.visual_inflation * result.ground->covariance;
-  const double gate = chiSquareQuantile(configuration_.fusion.gate_probability, 8);
-  noteCalibration(calibration_, health_, difference.dot(S.ldlt().solve(difference)) / gate, prediction.H,
-                  result.ground->H, configuration_.camera);
 }
 
 void VisualHomographyNode::publish(const VisualHomography& result) {
@@ -133,15 +108,12 @@ void VisualHomographyNode::publish(const VisualHomography& result) {
   message.width = configuration_.camera.width;
   message.height = configuration_.camera.height;
   message.sampled = result.tracks.sampled;
-  fillTracks(message, result.tracks);
-  message.inlier.assign(result.tracks.current.size(), 0);
+  fill(message.tracks, result.tracks, result.ground ? result.ground->inlier : std::vector<uint8_t>{});
   if (result.ground) {
-    fill(message.H, result.ground->H);
-    fill(message.covariance, result.ground->covariance);
+    fill(message.ground, result.ground->H, result.ground->covariance);
     message.inliers = result.ground->inliers;
     message.outliers = result.ground->outliers;
     message.rms = result.ground->rms_px;
-    message.inlier.assign(result.ground->inlier.begin(), result.ground->inlier.end());
   }
   bus_.publish(configuration_.channels.visual_homography, message);
   const bool good = result.status == VisualStatus::kGood;

@@ -8,7 +8,6 @@
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/imaging/rectifier.hpp"
-#include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/node/image_queue.hpp"
 #include "redbee/node/message_synchronizer.hpp"
@@ -35,7 +34,6 @@ class VisualHomographyNode : public Node {
   void publish(const VisualHomography& result);
   void restart();
 
-  void judgeCalibration(const HomographyPrediction& prediction, const VisualHomography& result);
 
   Bus& bus_;
   Configuration configuration_;
@@ -43,7 +41,6 @@ class VisualHomographyNode : public Node {
   Camera camera_;
   Rectifier rectifier_;
   std::unique_ptr<VisualHomographyEstimator> estimator_;
-  CalibrationMonitor calibration_;
   ImageQueue images_;
   MessageSynchronizer<inertial_homography_t> inertial_;
   int32_t sequence_ = 0;
