@@ -10,10 +10,10 @@
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/geometry/homography.hpp"
 #include "redbee/homography_t.hpp"
-#include "redbee/plane_motion_t.hpp"
-#include "redbee/tracks_t.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
 #include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/plane_motion_t.hpp"
+#include "redbee/tracks_t.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
@@ -129,7 +129,8 @@ inline void fill(plane_motion_t& message, const PlaneMotion& motion) {
   message.distance = motion.h_a;
 }
 
-inline void fill(homography_t& message, const Eigen::Matrix3d& H, const Eigen::Matrix<double, 8, 8>& covariance) {
+inline void fill(homography_t& message, const Eigen::Matrix3d& H,
+                 const Eigen::Matrix<double, 8, 8>& covariance) {
   fill(message.H, H);
   fill(message.covariance, covariance);
 }

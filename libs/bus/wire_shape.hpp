@@ -1,6 +1,6 @@
 // Encoded layout of each message type: the lengths inside a message are compared with its byte count before
-// anything is allocated for them. (Decoders made by lcm-gen resize first and check afterwards.) The shapes are
-// generated from lcmtypes/*.lcm: include redbee/message_types.hpp.
+// anything is allocated for them. (Decoders made by lcm-gen resize first and check afterwards.) The shapes
+// are generated from lcmtypes/*.lcm: include redbee/message_types.hpp.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ namespace redbee {
 /// Each type has, as lcmtypes/message_types.awk makes it:
 ///   kLayout                 its layout
 ///   countsAgree(message)    whether each count member equals the size of its arrays
-///   visit(message, visitor) hands every member to visitor.value(), .count() and .resize(array, count), in the
+///   visit(message, visitor) hands every member to visitor.value(), .count() and .resize(array, count), in
+///   the
 ///                           order of the wire, those of nested types included
 template <typename Message>
 struct WireShape;

@@ -54,14 +54,16 @@ void HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
     health_.noteDamaged();
     return;
   }
-  if (message.valid == 0 && message.status == inertial_homography_t::INITIALISING) inertial_at_first_frame_ = true;
+  if (message.valid == 0 && message.status == inertial_homography_t::INITIALISING)
+    inertial_at_first_frame_ = true;
   expect(message.utime);
   inertial_.put(message.utime, message);
 }
 
 void HomographyFusionNode::takeVisual(const visual_homography_t& message) {
   health_.noteSequence(configuration_.channels.visual_homography, message.sequence);
-  if (!plausibleTimes(message) || (!isFinite(message.ground) && message.status == visual_homography_t::GOOD)) {
+  if (!plausibleTimes(message) ||
+      (!isFinite(message.ground) && message.status == visual_homography_t::GOOD)) {
     health_.noteDamaged();
     return;
   }

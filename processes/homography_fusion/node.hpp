@@ -39,12 +39,15 @@ class HomographyFusionNode : public Node {
   void fuse(int64_t utime, const WorkTimer& since_arrival);
   fused_homography_t messageOf(const FusedHomography& fused);
   /// Compares the two sources' homographies of one pair of frames: whether the calibration fits the flight.
-  void validateCalibration(const FusedHomography& fused, const InertialInput& inertial, const VisualInput& visual);
-  /// Vision's own homography, rejected by the fusion or not: the inertial filter validates it for itself, or a
-  /// diverged filter would never be corrected.
+  void validateCalibration(const FusedHomography& fused, const InertialInput& inertial,
+                           const VisualInput& visual);
+  /// Vision's own homography, rejected by the fusion or not: the inertial filter validates it for itself, or
+  /// a diverged filter would never be corrected.
   void addObservation(fused_homography_t& message, const VisualInput& visual) const;
-  /// The second step of the frame: the plane in front, among the tracks that the fused ground does not explain.
-  void addFrontPlane(fused_homography_t& message, const PointTracks& tracks, const Eigen::Matrix3d& ground) const;
+  /// The second step of the frame: the plane in front, among the tracks that the fused ground does not
+  /// explain.
+  void addFrontPlane(fused_homography_t& message, const PointTracks& tracks,
+                     const Eigen::Matrix3d& ground) const;
   /// To an inertial process that begins: it may have taken the place of one that died. Whether it believes
   /// what it is told is its own affair.
   void publishWarmStart();

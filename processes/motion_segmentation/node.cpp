@@ -104,7 +104,9 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const
 /// keeps background and identities.
 void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
   const visual_homography_t* visual = visual_.find(input.utime);
-  if (visual == nullptr || visual->status != visual_homography_t::GOOD || visual->utime_previous != last_->utime) return;
+  if (visual == nullptr || visual->status != visual_homography_t::GOOD ||
+      visual->utime_previous != last_->utime)
+    return;
   input.ground = matrix3(visual->ground.H);
   input.tracks = tracksOf(visual->tracks);
 }

@@ -34,7 +34,6 @@ class VisualHomographyNode : public Node {
   void publish(const VisualHomography& result);
   void restart();
 
-
   Bus& bus_;
   Configuration configuration_;
   HealthMonitor health_;

@@ -61,7 +61,7 @@ inline bool saysTheSame(const Said& said, const Said& expected, int64_t utime) {
   const fused_homography_t& calm = expected.fused.at(utime);
   if (fused->second.source != calm.source || fused->second.utime_previous != calm.utime_previous)
     return false;
-  const Eigen::Matrix3d H = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(calm.H);
+  const Eigen::Matrix3d H = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(calm.step.H);
   if (groundError(fused->second, H) > kSamePx || foreground->second.status != 0) return false;
   const cv::Mat mask = maskOf(foreground->second);
   const cv::Mat calm_mask = maskOf(expected.foreground.at(utime));

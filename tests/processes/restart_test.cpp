@@ -189,8 +189,8 @@ TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
     fused.source = static_cast<int8_t>(FusionSource::kVisual);
     fused.epoch = 1;
     fused.utime_anchor = utime_anchor;
-    fill(fused.H, walk().homographies[static_cast<size_t>(k)]);
-    fill(fused.H_anchor, walk().homographies[static_cast<size_t>(k)]);
+    fill(fused.step.H, walk().homographies[static_cast<size_t>(k)]);
+    fill(fused.anchor.H, walk().homographies[static_cast<size_t>(k)]);
     bus->publish("FUSED_HOMOGRAPHY", fused);
     for (const Arrival& arrival : walk().arrivals) {
       if (arrival.channel == "CAMERA" && arrival.utime == utimeOf(k))

@@ -113,8 +113,8 @@ inline Said run(const Flight& flight) {
 }
 
 inline double groundError(const fused_homography_t& fused, const Eigen::Matrix3d& truth) {
-  return meanTransferError(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fused.H), truth,
-                           fused.width, fused.height);
+  return meanTransferError(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fused.step.H),
+                           truth, fused.width, fused.height);
 }
 
 }  // namespace redbee::test

@@ -110,8 +110,8 @@ TEST(Stack, TwoRunsAgreeToTheBit) {
   for (const auto& [utime, foreground] : first.foreground) {
     EXPECT_EQ(foreground.mask, second.foreground.at(utime).mask);
     EXPECT_EQ(foreground.probability, second.foreground.at(utime).probability);
-    EXPECT_TRUE(std::equal(std::begin(first.fused.at(utime).H), std::end(first.fused.at(utime).H),
-                           std::begin(second.fused.at(utime).H)));
+    EXPECT_TRUE(std::equal(std::begin(first.fused.at(utime).step.H), std::end(first.fused.at(utime).step.H),
+                           std::begin(second.fused.at(utime).step.H)));
   }
 }
 

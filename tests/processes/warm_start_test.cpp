@@ -179,8 +179,7 @@ class Trial {
     message.height = testing::kHeight;
     const HomographyObservation seen = testing::noisyHomography(
         frame_ > 0 ? sky_.homography(frame_) : Eigen::Matrix3d::Identity().eval(), kNoise_px, random_);
-    fill(message.H, seen.H);
-    fill(message.covariance, seen.covariance);
+    fill(message.ground, seen.H, seen.covariance);
     message.inliers = 48;
     if (plot_.deceive) plot_.deceive(frame_, message);
     return message;
@@ -211,7 +210,8 @@ struct Errors {
 };
 
 double error_px(const Sky& sky, const Said& said, int k) {
-  return meanTransferError(matrix3(said.at(k).H), sky.homography(k), testing::kWidth, testing::kHeight);
+  return meanTransferError(matrix3(said.at(k).ground.H), sky.homography(k), testing::kWidth,
+                           testing::kHeight);
 }
 
 Errors errorsFrom(const Sky& sky, const Said& said, int first) {
@@ -359,7 +359,7 @@ TEST(WarmStart, WhatVisionContradictsIsNotSaid) {
     // A image that turns to and fro as the gyro says it does not.
     const Eigen::Vector3d roll(0, 0, k % 2 == 0 ? 0.5 : -0.5);
     const Eigen::Matrix3d K = testing::testCamera().K();
-    fill(m.H, normaliseHomography(K * expSO3(roll) * K.inverse() * matrix3(m.H)));
+    fill(m.ground.H, normaliseHomography(K * expSO3(roll) * K.inverse() * matrix3(m.ground.H)));
   };
   const Heard heard = fly(sky, plot);
   int after = 0;
