@@ -3,32 +3,30 @@
 #include <chrono>
 #include <utility>
 
-#include "processes/homography_fusion/node.hpp"
-#include "processes/imu_integration/node.hpp"
-#include "processes/motion_segmentation/node.hpp"
-#include "processes/visual_homography/node.hpp"
+#include "processes/node_factory.hpp"
 
 namespace redbee {
 namespace {
 
-Nodes allNodes(Bus& bus, const Configuration& configuration) {
-  Nodes nodes = motionNodes(bus, configuration);
-  nodes.push_back(std::make_unique<MotionSegmentationNode>(bus, configuration));
+/// The stages before `end` in the order of the work.
+Nodes nodesBefore(const ProcessDescription* end, Bus& bus, const Configuration& configuration) {
+  Nodes nodes;
+  for (const ProcessDescription* stage : kStages) {
+    if (stage == end) break;
+    if (stage == &kImuIntegration && !configuration.has_imu) continue;
+    nodes.push_back(makeNode(*stage, bus, configuration));
+  }
   return nodes;
 }
 
 }  // namespace
 
 Nodes motionNodes(Bus& bus, const Configuration& configuration) {
-  Nodes nodes;
-  if (configuration.has_imu) nodes.push_back(std::make_unique<ImuIntegrationNode>(bus, configuration));
-  nodes.push_back(std::make_unique<VisualHomographyNode>(bus, configuration));
-  nodes.push_back(std::make_unique<HomographyFusionNode>(bus, configuration));
-  return nodes;
+  return nodesBefore(&kMotionSegmentation, bus, configuration);
 }
 
 InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration)
-    : InProcessStack(bus, configuration.channels.health, allNodes(bus, configuration)) {}
+    : InProcessStack(bus, configuration.channels.health, nodesBefore(nullptr, bus, configuration)) {}
 
 InProcessStack::InProcessStack(Bus& bus, const std::string& health_channel, Nodes nodes)
     : bus_(bus), health_channel_(health_channel), nodes_(std::move(nodes)) {}

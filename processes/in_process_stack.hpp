@@ -1,4 +1,4 @@
-// Nodes in one process, worked until nothing moves any more: for redbee detect and for tests.
+// Nodes in one process, which work until no message is left: for redbee detect and for tests.
 #pragma once
 
 #include <map>
@@ -14,20 +14,20 @@ namespace redbee {
 
 using Nodes = std::vector<std::unique_ptr<Node>>;
 
-/// What finds the camera's motion: all nodes but the segmentation. Without an IMU vision and fusion.
+/// What estimates the camera's motion: the stages before the segmentation. Without an IMU, vision and fusion.
 Nodes motionNodes(Bus& bus, const Configuration& configuration);
 
 class InProcessStack {
  public:
-  /// The stack that flies.
+  /// Every stage of the process table, as it flies.
   InProcessStack(Bus& bus, const Configuration& configuration);
-  /// `nodes`: on `bus`, which hears of their health on `health_channel`.
+  /// `nodes`: on `bus`. Their health is published on `health_channel`.
   InProcessStack(Bus& bus, const std::string& health_channel, Nodes nodes);
-  /// Hands out what waits on the bus and lets the nodes work, until there is nothing left to do.
+  /// Delivers pending messages and lets the nodes work, until there is nothing left to do.
   void settle();
-  /// No message will come any more.
+  /// No more messages will arrive.
   void finish();
-  /// Each node tells its health once.
+  /// Each node publishes its health once.
   void publishHealth();
   /// Processor time of each node, by its name.
   std::map<std::string, CpuTime> cpu() const;

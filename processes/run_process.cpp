@@ -11,7 +11,8 @@
 
 namespace redbee {
 
-int runProcess(int argc, char** argv, const std::string& name, const NodeFactory& factory) {
+int runProcess(int argc, char** argv, const ProcessDescription& process, const NodeFactory& factory) {
+  const std::string name = programName(process);
   CLI::App app(std::string("REDBEE ") + releaseVersion() + ", " + name, name);
   std::filesystem::path configuration_file;
   std::string url;

@@ -31,8 +31,9 @@ struct Channels {
   std::string health = "PROCESS_HEALTH";
 };
 
-/// How long each process waits for the companions of a frame, in message time. Who waits for a process that
-/// itself waits for another must have the longer patience, or one death makes both give up.
+/// How long each process waits for the companions of a frame, in message time. A process that waits for one
+/// which itself waits for another must have the longer patience, or one death makes both time out: checked
+/// against the process table when a configuration is loaded.
 struct WaitParameters {
   double inertial_s = 0.25;      ///< s, for the fused homography of the frame before
   double visual_s = 0.25;        ///< s, for the inertial homography
@@ -68,7 +69,8 @@ class ConfigurationError : public UserError {
 ///   preset: default | paper        `paper`: the paper's own fusion noise and detector; wins over included
 ///                                  files, and the keys of the file that names it win over it
 /// Throws ConfigurationError on the first fault: unknown or repeated keys, wrong types, impossible values, a
-/// camera that is not described, channels that share a name, files that include each other.
+/// camera that is not described, channels that share a name, waits in the wrong order, files that include
+/// each other.
 Configuration loadConfiguration(const std::filesystem::path& file);
 
 /// Sets one key (`segmentation.threshold`) from YAML text, as a command line gives it. Throws

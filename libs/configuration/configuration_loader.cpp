@@ -6,11 +6,16 @@
 #include "redbee/configuration/configuration_preset.hpp"
 #include "redbee/configuration/configuration_table.hpp"
 #include "redbee/configuration/configuration_value.hpp"
+#include "redbee/configuration/wait_order.hpp"
 
 namespace redbee::configuration {
 namespace {
 
 bool isDirective(const std::string& key) { return key == "include" || key == "preset"; }
+
+double waitOf(const Configuration& configuration, const std::string& key) {
+  return YAML::Load(findSetting(key)->text(configuration)).as<double>();
+}
 
 /// yaml-cpp's messages may have several lines, and so may a key in the file.
 std::string oneLine(std::string text) {
@@ -115,6 +120,22 @@ void Loader::checkWhole(const std::filesystem::path& file) const {
         places_.count(setting.key) > 0 ? places_.find(setting.key) : places_.find(first->second);
     fail(place->second, place->first,
          "channel name " + name + " is used twice, by " + first->second + " and " + setting.key);
+  }
+  checkWaits();
+}
+
+/// Otherwise the death of one process would make both the process that waits for it and whoever waits for
+/// that one time out.
+void Loader::checkWaits() const {
+  for (const WaitOrder& order : waitOrders()) {
+    const double longer = waitOf(configuration_, order.longer);
+    const double shorter = waitOf(configuration_, order.shorter);
+    if (shorter == 0 || longer > shorter) continue;
+    // One of the two may be a default that no file sets.
+    const std::string& key = places_.count(order.longer) > 0 ? order.longer : order.shorter;
+    fail(places_.at(key), key,
+         order.longer + " (" + valueText(longer) + " s) must be longer than " + order.shorter + " (" +
+             valueText(shorter) + " s): " + order.reason);
   }
 }
 

@@ -17,7 +17,8 @@ class Loader {
  public:
   /// All functions throw ConfigurationError.
   void loadFile(const std::filesystem::path& file);
-  /// Checks of the whole: a camera that is not described, channels with the same name.
+  /// Checks of the whole: a camera that is not described, channels with the same name, waits in the wrong
+  /// order.
   void checkWhole(const std::filesystem::path& file) const;
   const Configuration& configuration() const { return configuration_; }
 
@@ -35,6 +36,7 @@ class Loader {
   void applySection(const YAML::Node& section, const std::string& prefix);
   void applyEntry(const YAML::Node& name, const YAML::Node& value, const std::string& key);
   void apply(const std::string& key, const YAML::Node& value, const Place& place);
+  void checkWaits() const;
 
   Configuration configuration_;
   std::map<std::string, Place> places_;

@@ -2,5 +2,5 @@
 #include "processes/run_process.hpp"
 
 int main(int argc, char** argv) {
-  return redbee::runProcess<redbee::HomographyFusionNode>(argc, argv, "redbee-homography-fusion");
+  return redbee::runProcess<redbee::HomographyFusionNode>(argc, argv, redbee::kHomographyFusion);
 }

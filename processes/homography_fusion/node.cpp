@@ -2,6 +2,7 @@
 
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/node/work_timer.hpp"
@@ -26,7 +27,7 @@ VisualInput inputOf(const visual_homography_t& visual) {
 HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& configuration)
     : bus_(bus),
       configuration_(configuration),
-      health_("redbee-homography-fusion", configurationHash(configuration)),
+      health_(programName(kHomographyFusion), configurationHash(configuration)),
       fusion_(configuration.camera.width, configuration.camera.height, configuration.fusion),
       inertial_(microseconds(configuration.waits.fusion_s), configuration.has_imu),
       visual_(microseconds(configuration.waits.fusion_s), true) {

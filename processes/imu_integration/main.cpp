@@ -2,5 +2,5 @@
 #include "processes/run_process.hpp"
 
 int main(int argc, char** argv) {
-  return redbee::runProcess<redbee::ImuIntegrationNode>(argc, argv, "redbee-imu-integration");
+  return redbee::runProcess<redbee::ImuIntegrationNode>(argc, argv, redbee::kImuIntegration);
 }

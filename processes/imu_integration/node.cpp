@@ -6,6 +6,7 @@
 
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/node/frame_intake.hpp"
 #include "redbee/node/work_timer.hpp"
 
@@ -25,7 +26,7 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
     : bus_(bus),
       configuration_(configuration),
       configuration_hash_(configurationHash(configuration)),
-      health_("redbee-imu-integration", configuration_hash_),
+      health_(programName(kImuIntegration), configuration_hash_),
       camera_(configuration.camera),
       filter_(camera_, configuration.inertial),
       feedback_(microseconds(configuration.waits.inertial_s), true) {

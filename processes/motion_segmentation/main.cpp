@@ -2,5 +2,5 @@
 #include "processes/run_process.hpp"
 
 int main(int argc, char** argv) {
-  return redbee::runProcess<redbee::MotionSegmentationNode>(argc, argv, "redbee-motion-segmentation");
+  return redbee::runProcess<redbee::MotionSegmentationNode>(argc, argv, redbee::kMotionSegmentation);
 }

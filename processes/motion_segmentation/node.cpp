@@ -6,6 +6,7 @@
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
 #include "redbee/bus/image.hpp"
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/node/work_timer.hpp"
 
 namespace redbee {
@@ -30,7 +31,7 @@ int imageDownscale(const Configuration& configuration) {
 MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration)
     : bus_(bus),
       configuration_(configuration),
-      health_("redbee-motion-segmentation", configurationHash(configuration)),
+      health_(programName(kMotionSegmentation), configurationHash(configuration)),
       camera_(configuration.camera, imageDownscale(configuration)),
       publisher_(bus_, configuration_, camera_),
       segmenter_(configuration.segmentation),

@@ -2,5 +2,5 @@
 #include "processes/visual_homography/node.hpp"
 
 int main(int argc, char** argv) {
-  return redbee::runProcess<redbee::VisualHomographyNode>(argc, argv, "redbee-visual-homography");
+  return redbee::runProcess<redbee::VisualHomographyNode>(argc, argv, redbee::kVisualHomography);
 }

@@ -5,6 +5,7 @@
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
 #include "redbee/bus/image.hpp"
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/geometry/chi_square.hpp"
 #include "redbee/node/work_timer.hpp"
 
@@ -19,7 +20,7 @@ constexpr int8_t kImageDoesNotFit = 4;
 VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& configuration)
     : bus_(bus),
       configuration_(configuration),
-      health_("redbee-visual-homography", configurationHash(configuration)),
+      health_(programName(kVisualHomography), configurationHash(configuration)),
       camera_(configuration.camera),
       rectifier_(camera_),
       estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual)),

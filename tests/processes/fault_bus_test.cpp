@@ -173,7 +173,7 @@ TEST(BusFault, TwoStacksAtOnce) {
       second = std::make_unique<MortalStack>(*bus, flight.configuration);
     }
     if (second && !over && arrival.utime >= endTime(flight)) {
-      for (const Which which : {kImu, kVisual, kFusion, kSegmentation}) second->kill(which);
+      for (const ProcessDescription* stage : kStages) second->kill(*stage);
       over = true;
     }
     if (second && !over) second->settle();
@@ -225,24 +225,21 @@ TEST(BusFault, ASlowSubscriberSkipsAndHoldsNobodyUp) {
   const auto keep = [](auto& into) { return [&into](const auto& m) { into[m.utime] = m; }; };
   bus->subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(said.fused), nullptr);
   bus->subscribe<foreground_t>("FOREGROUND", 64, keep(said.foreground), nullptr);
-  ImuIntegrationNode imu(*bus, flight.configuration);
-  VisualHomographyNode visual(*bus, flight.configuration);
-  HomographyFusionNode fusion(*bus, flight.configuration);
-  MotionSegmentationNode segmentation(*bus, flight.configuration);
-  const std::vector<Node*> quick = {&imu, &visual, &fusion};
+  const Nodes quick = motionNodes(*bus, flight.configuration);
+  const auto segmentation = makeNode(kMotionSegmentation, *bus, flight.configuration);
   for (const Arrival& arrival : flight.arrivals) {
     bus->publish(arrival.channel, arrival.data);
     const bool stalled = isDisturbed(flight, arrival.utime);
     do {
-      for (Node* node : quick) node->process();
-      if (!stalled) segmentation.process();
+      for (const auto& node : quick) node->process();
+      if (!stalled) segmentation->process();
     } while (bus->handle(std::chrono::milliseconds(0)) > 0);
   }
-  segmentation.finish();
+  segmentation->finish();
   bus->handle(std::chrono::milliseconds(0));
   expectRecovery("segmentation stalls for a second", said, flight, 24);
   const int backlog = flight.configuration.waits.max_backlog;
-  EXPECT_GE(segmentation.health().skipped(), kFaultEnd - kFaultBegin - backlog);
+  EXPECT_GE(segmentation->health().skipped(), kFaultEnd - kFaultBegin - backlog);
   for (int k = kFaultBegin; k < kFaultEnd; ++k) {
     EXPECT_EQ(said.fused.count(flight.frame_utimes[static_cast<size_t>(k)]), 1U) << "frame " << k;
   }

@@ -1,16 +1,13 @@
-// The four nodes on one bus, any of which may be killed and started again in flight time.
+// The nodes of the process table on one bus, any of which may be killed and started again in flight time.
 #pragma once
 
-#include <array>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "processes/homography_fusion/node.hpp"
-#include "processes/imu_integration/node.hpp"
-#include "processes/motion_segmentation/node.hpp"
-#include "processes/visual_homography/node.hpp"
+#include "processes/node_factory.hpp"
 #include "redbee/bus/bus.hpp"
 
 namespace redbee::test {
@@ -41,49 +38,35 @@ struct Process {
   std::unique_ptr<Node> node;
 };
 
-enum Which { kImu, kVisual, kFusion, kSegmentation };
-
 class MortalStack {
  public:
   MortalStack(Bus& bus, Configuration configuration) : bus_(bus), configuration_(std::move(configuration)) {
-    for (const Which which : {kImu, kVisual, kFusion, kSegmentation}) start(which);
+    for (const ProcessDescription* stage : kStages) start(*stage);
   }
 
-  void kill(Which which) {
-    processes_[which].connection->cut = true;
-    dead_.push_back(std::move(processes_[which]));  // the bus still points into it
+  void kill(const ProcessDescription& stage) {
+    Process& process = processes_[&stage];
+    process.connection->cut = true;
+    dead_.push_back(std::move(process));  // the bus still points into it
   }
-  void start(Which which) {
+  void start(const ProcessDescription& stage) {
     auto connection = std::make_unique<Connection>(bus_);
-    auto node = make(which, *connection);
-    processes_[which] = {std::move(connection), std::move(node)};
+    auto node = makeNode(stage, *connection, configuration_);
+    processes_[&stage] = {std::move(connection), std::move(node)};
   }
   void settle() {
     do {
-      for (Process& process : processes_) {
+      for (const ProcessDescription* stage : kStages) {
+        const Process& process = processes_[stage];
         if (process.node) process.node->process();
       }
     } while (bus_.handle(std::chrono::milliseconds(0)) > 0);
   }
 
  private:
-  std::unique_ptr<Node> make(Which which, Bus& bus) const {
-    switch (which) {
-      case kImu:
-        return std::make_unique<ImuIntegrationNode>(bus, configuration_);
-      case kVisual:
-        return std::make_unique<VisualHomographyNode>(bus, configuration_);
-      case kFusion:
-        return std::make_unique<HomographyFusionNode>(bus, configuration_);
-      case kSegmentation:
-        return std::make_unique<MotionSegmentationNode>(bus, configuration_);
-    }
-    return nullptr;
-  }
-
   Bus& bus_;
   Configuration configuration_;
-  std::array<Process, 4> processes_;
+  std::map<const ProcessDescription*, Process> processes_;
   std::vector<Process> dead_;
 };
 

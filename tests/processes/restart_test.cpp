@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "processes/conversions.hpp"
+#include "processes/motion_segmentation/node.hpp"
 #include "tests/processes/mortal_stack.hpp"
 #include "tests/processes/stack_fixture.hpp"
 #include "tests/support/scratch.hpp"
@@ -25,7 +26,7 @@ struct Seen {
 };
 
 /// `kills`: who dies at which frame; each is back kDownFrames later.
-Seen flyWith(const Flight& flight, const std::map<int, Which>& kills) {
+Seen flyWith(const Flight& flight, const std::map<int, const ProcessDescription*>& kills) {
   const auto bus = makeLcmBus("memq://");
   Seen seen;
   int frame = -1;
@@ -44,8 +45,8 @@ Seen flyWith(const Flight& flight, const std::map<int, Which>& kills) {
   for (const Arrival& arrival : flight.arrivals) {
     if (arrival.channel == "CAMERA") {
       ++frame;
-      if (const auto kill = kills.find(frame); kill != kills.end()) stack.kill(kill->second);
-      if (const auto kill = kills.find(frame - kDownFrames); kill != kills.end()) stack.start(kill->second);
+      if (const auto kill = kills.find(frame); kill != kills.end()) stack.kill(*kill->second);
+      if (const auto kill = kills.find(frame - kDownFrames); kill != kills.end()) stack.start(*kill->second);
     }
     bus->publish(arrival.channel, arrival.data);
     stack.settle();
@@ -115,7 +116,7 @@ std::optional<int> firstIdentity(const Said& said, int from, int to, int step = 
 
 struct Case {
   const char* name;
-  Which which;
+  const ProcessDescription* killed;
   int dark;       ///< frames at most without a trusted answer, 24 a second
   int untrusted;  ///< frames at most that never get a mask
 };
@@ -124,7 +125,7 @@ class ProcessKilled : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ProcessKilled, TheOthersGoOnAndNothingWrongIsSaid) {
   const Case& c = GetParam();
-  const Seen seen = flyWith(walk(), {{kKilledAt, c.which}});
+  const Seen seen = flyWith(walk(), {{kKilledAt, c.killed}});
   expectNoWrongMask(seen.said);
   const int dark = framesInTheDark(seen, kKilledAt - 1);
   const int lost = untrusted(seen.said, kKilledAt, kFrames - 10);
@@ -134,21 +135,22 @@ TEST_P(ProcessKilled, TheOthersGoOnAndNothingWrongIsSaid) {
   const auto before = firstIdentity(seen.said, kKilledAt - 1, kKilledAt - 15, -1);
   const auto after = firstIdentity(seen.said, kKilledAt + 1, kFrames);
   ASSERT_TRUE(before && after);
-  if (c.which != kSegmentation) {
+  if (c.killed != &kMotionSegmentation) {
     EXPECT_EQ(*before, *after);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, ProcessKilled,
-                         ::testing::Values(Case{"imu", kImu, 12, 0}, Case{"visual", kVisual, 12, 0},
-                                           Case{"fusion", kFusion, 12, 0},
-                                           Case{"segmentation", kSegmentation, 24, 16}),
+                         ::testing::Values(Case{"imu", &kImuIntegration, 12, 0},
+                                           Case{"visual", &kVisualHomography, 12, 0},
+                                           Case{"fusion", &kHomographyFusion, 12, 0},
+                                           Case{"segmentation", &kMotionSegmentation, 24, 16}),
                          [](const auto& each) { return each.param.name; });
 
 /// An overloaded machine does this: the IMU's homographies come in time, vision's do not, and nobody has told
 /// the filter how fast the drone is.
 TEST(ProcessesStart, WithoutVisionNoWrongMaskIsCalledGood) {
-  const Seen seen = flyWith(walk(), {{0, kVisual}});
+  const Seen seen = flyWith(walk(), {{0, &kVisualHomography}});
   expectNoWrongMask(seen.said);
   for (int k = 0; k < kDownFrames; ++k) EXPECT_FALSE(isGood(seen.said, k)) << "frame " << k;
   EXPECT_EQ(untrusted(seen.said, kKilledAt, kFrames), 0);

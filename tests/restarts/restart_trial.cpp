@@ -1,4 +1,4 @@
-// restart_trial: flies the endless flight into a running stack, kills its four processes (-9) at random
+// restart_trial: flies the endless flight into a running stack, kills its processes (-9) at random
 // moments, in turn, and holds what the stack says against the truth. Exit 1 where something that was promised
 // did not hold. Times are told and not judged: the machine may be busy with other things.
 #include <signal.h>
@@ -8,6 +8,7 @@
 #include <random>
 
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "tests/restarts/live_player.hpp"
 #include "tests/restarts/witness.hpp"
@@ -16,9 +17,6 @@ namespace redbee::test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-const std::vector<std::string> kProcesses = {"redbee-imu-integration", "redbee-visual-homography",
-                                             "redbee-homography-fusion", "redbee-motion-segmentation"};
-constexpr const char* kTracker = "redbee-motion-segmentation";
 constexpr double kSettling_s = 3;
 constexpr double kLongestPause_s = 30;
 constexpr int kSettledFrames = 30;
@@ -32,6 +30,12 @@ std::string vehicleYaml() {
   configuration.inertial.extrinsics = scenario.extrinsics;
   configuration.inertial.noise = scenario.imu.noise;
   return emitYaml(configuration);
+}
+
+std::vector<std::string> allPrograms() {
+  std::vector<std::string> programs;
+  for (const ProcessDescription* stage : kStages) programs.push_back(programName(*stage));
+  return programs;
 }
 
 struct Kill {
@@ -89,7 +93,7 @@ class Trial {
     return done();
   }
   bool settledSince(int64_t utime) const {
-    const bool all_here = std::all_of(kProcesses.begin(), kProcesses.end(), [&](const std::string& process) {
+    const bool all_here = std::all_of(programs_.begin(), programs_.end(), [&](const std::string& process) {
       return !witness_.pids(process).empty();
     });
     return all_here && witness_.allGood(utime + 1, kSettledFrames);
@@ -97,7 +101,7 @@ class Trial {
 
   bool killNext() {
     if (turn_.empty()) {
-      turn_ = kProcesses;
+      turn_ = programs_;
       std::shuffle(turn_.begin(), turn_.end(), random_);
     }
     const std::string process = turn_.back();
@@ -184,7 +188,8 @@ class Trial {
                   process.c_str(), f.resumed_s.size(), at(f.resumed_s, 0.5), at(f.resumed_s, 1),
                   at(f.dark_s, 0.5), at(f.dark_s, 1), f.kept, f.cars, f.reused);
       // A detector that loses one car in ten by itself is not what is tested here.
-      if (process != kTracker && f.kept < 0.8 * f.cars) good = fail("identities did not survive " + process);
+      if (process != programName(kMotionSegmentation) && f.kept < 0.8 * f.cars)
+        good = fail("identities did not survive " + process);
     }
     Figures control;
     for (const Kill& kill : kills_) compareIdentities(kill.utime - 1700000, control);
@@ -195,7 +200,7 @@ class Trial {
 
   bool othersWentOn() {
     bool good = true;
-    for (const std::string& process : kProcesses) {
+    for (const std::string& process : programs_) {
       const auto killed =
           std::count_if(kills_.begin(), kills_.end(), [&](const Kill& k) { return k.process == process; });
       const auto lives = static_cast<std::ptrdiff_t>(witness_.pids(process).size());
@@ -232,6 +237,7 @@ class Trial {
     return wild == 0 || fail(std::to_string(wild) + " masks are wild and were called good");
   }
 
+  std::vector<std::string> programs_ = allPrograms();
   LoopedFlight flight_;
   std::unique_ptr<Bus> bus_;
   Witness witness_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "redbee/bus/bus.hpp"
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/process_health_t.hpp"
 #include "tests/restarts/live_player.hpp"
 
@@ -58,7 +59,7 @@ bool isSteady(const process_health_t& early, const process_health_t& late) {
 bool judge(const std::vector<Point>& points) {
   const Point& early = points[1];
   const Point& late = points.back();
-  bool steady = late.size() >= 4;
+  bool steady = late.size() >= kStages.size();
   if (!steady) std::printf("only %zu processes spoke\n", late.size());
   for (const auto& [process, health] : late) {
     const auto before = early.find(process);

@@ -4,14 +4,11 @@
 #include <cstdio>
 #include <set>
 
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/node/health.hpp"
 
 namespace redbee {
 namespace {
-
-/// The order of the work; others follow by name.
-constexpr const char* kPipeline[] = {"redbee-imu-integration", "redbee-visual-homography",
-                                     "redbee-homography-fusion", "redbee-motion-segmentation"};
 
 std::string shortName(const std::string& process) {
   const std::string prefix = "redbee-";
@@ -57,10 +54,11 @@ Tone toneOf(HealthState state) {
   return Tone::kBad;
 }
 
-/// The four of the stack, heard or not, and who else is heard.
+/// The stages in the order of the work, heard from or not, then other publishers by name.
 template <typename Entries>
 std::vector<std::string> inOrderOfWork(const Entries& entries) {
-  std::vector<std::string> names(std::begin(kPipeline), std::end(kPipeline));
+  std::vector<std::string> names;
+  for (const auto* stage : kStages) names.push_back(programName(*stage));
   for (const auto& [name, entry] : entries) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }

@@ -1,0 +1,72 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "processes/common_options.hpp"
+#include "processes/redbee/commands/command.hpp"
+#include "processes/redbee/vehicle/supervisor_configuration.hpp"
+#include "redbee/configuration/process_table.hpp"
+
+namespace redbee {
+namespace {
+
+struct StackOptions {
+  bool names = false;
+  bool programs = false;
+  bool supervisord = false;
+  bool print_url = false;
+  std::string url;
+};
+
+std::string joined(const KeyList& keys) {
+  std::string text;
+  for (const std::string_view key : keys) text += (text.empty() ? "" : ",") + std::string(key);
+  return text.empty() ? "-" : text;
+}
+
+void printTable() {
+  const char* format = "%-20s %-28s %-9s %-5s %-36s %-40s %s\n";
+  std::printf(format, "NAME", "PROGRAM", "MEMORY_MB", "PRIO", "PUBLISHES", "WAITS_FOR", "PATIENCE");
+  const auto print = [&](const ProcessDescription& process) {
+    const std::string program =
+        process.subcommand.empty() ? programName(process) : "redbee " + std::string(process.subcommand);
+    std::printf(format, std::string(process.name).c_str(), program.c_str(),
+                std::to_string(process.memory_limit / 1'000'000).c_str(),
+                std::to_string(process.priority).c_str(), joined(process.publishes).c_str(),
+                joined(process.waits_for).c_str(),
+                process.patience.empty() ? "-" : ("waits." + std::string(process.patience)).c_str());
+  };
+  for (const auto* process : kStages) print(*process);
+  for (const auto* process : kCompanions) print(*process);
+}
+
+void runStack(const StackOptions& options) {
+  if (options.supervisord) {
+    std::fputs(supervisorConfiguration().c_str(), stdout);
+  } else if (options.print_url) {
+    std::printf("%s\n", options.url.c_str());
+  } else if (options.names || options.programs) {
+    for (const auto* stage : kStages)
+      std::printf("%s\n", options.names ? std::string(stage->name).c_str() : programName(*stage).c_str());
+  } else {
+    printTable();
+  }
+}
+
+const Command kStack(
+    CommandGroup::kVehicle, "stack", "print the table of processes, for people and for scripts",
+    [](CLI::App& command) {
+      auto options = std::make_shared<StackOptions>();
+      auto* output = command.add_option_group("output", "instead of the table");
+      output->add_flag("--names", options->names, "names of the processes that a frame passes through");
+      output->add_flag("--programs", options->programs, "their programs");
+      output->add_flag("--supervisord", options->supervisord, "the configuration for supervisor");
+      output->add_flag("--print-url", options->print_url, "the LCM URL that every program uses here");
+      output->require_option(0, 1);
+      addLcmUrlOption(command, options->url);
+      command.callback([options] { runStack(*options); });
+    });
+
+}  // namespace
+}  // namespace redbee

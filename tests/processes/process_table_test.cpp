@@ -1,0 +1,71 @@
+// The process table agrees with what it describes: programs, nodes, configuration keys.
+#include "redbee/configuration/process_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "processes/node_factory.hpp"
+#include "processes/redbee/vehicle/supervisor_configuration.hpp"
+
+namespace redbee {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ProcessTable, HasEveryProgramAndNoOther) {
+  std::set<std::string> folders;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(REDBEE_SOURCE_DIR) / "processes")) {
+    if (std::filesystem::exists(entry.path() / "main.cpp")) folders.insert(entry.path().filename());
+  }
+  std::set<std::string> expected{"redbee"};
+  for (const ProcessDescription* stage : kStages) {
+    std::string folder(stage->name);
+    std::replace(folder.begin(), folder.end(), '-', '_');
+    expected.insert(folder);
+  }
+  EXPECT_EQ(folders, expected);
+}
+
+TEST(ProcessTable, EveryStageHasANodeOfItsName) {
+  Configuration configuration;
+  configuration.camera = {640, 480, 500, 500, 319.5, 239.5, {}};
+  for (const ProcessDescription* stage : kStages) {
+    const auto bus = makeLcmBus("memq://");
+    EXPECT_EQ(makeNode(*stage, *bus, configuration)->health().process(), programName(*stage));
+  }
+  const auto bus = makeLcmBus("memq://");
+  EXPECT_THROW(makeNode(kWatch, *bus, configuration), std::invalid_argument);
+}
+
+TEST(ProcessTable, NamesOnlyKeysOfTheConfiguration) {
+  const auto keys = configurationKeys();
+  const auto expectKey = [&](const std::string& section, std::string_view key) {
+    EXPECT_THAT(keys, ::testing::Contains(section + "." + std::string(key)));
+  };
+  for (const ProcessDescription* stage : kStages) {
+    expectKey("waits", stage->patience);
+    for (const KeyList& list : {stage->publishes, stage->waits_for, stage->waits_for_previous}) {
+      for (const std::string_view key : list) expectKey("channels", key);
+    }
+  }
+}
+
+TEST(ProcessTable, SupervisorRunsAllOfIt) {
+  const std::string text = supervisorConfiguration();
+  for (const ProcessDescription* stage : kStages) {
+    EXPECT_THAT(text, HasSubstr("[program:" + std::string(stage->name) + "]\n"));
+    EXPECT_THAT(text, HasSubstr("\"%(ENV_REDBEE_BIN)s/" + programName(*stage) + "\" --config"));
+  }
+  EXPECT_THAT(text, HasSubstr("\"%(ENV_REDBEE_BIN)s/redbee\" watch --config"));
+  EXPECT_THAT(text, HasSubstr("nice -n 5 \"%(ENV_REDBEE_BIN)s/redbee\" record --out"));
+  EXPECT_THAT(text, HasSubstr("autostart=%(ENV_REDBEE_RECORD)s"));
+}
+
+}  // namespace
+}  // namespace redbee
