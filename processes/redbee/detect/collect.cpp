@@ -1,5 +1,7 @@
 #include "processes/redbee/detect/collect.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <chrono>
 
 #include "processes/redbee/detect/collector.hpp"
@@ -12,6 +14,7 @@ int64_t runCollect(const CollectOptions& options) {
   const Configuration configuration = loadConfiguration(options.configuration);
   const auto bus = makeLcmBus(options.url);
   ResultCollector collector(*bus, configuration.channels, options.out);
+  spdlog::info("collecting: configuration {}, {}", options.configuration.string(), options.url);
   const std::atomic<bool>& stop = stopOnSignals();
   const WorkTimer timer;
   while (!stop) bus->handle(std::chrono::milliseconds(50));
