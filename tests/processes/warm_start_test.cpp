@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "processes/conversions.hpp"
+#include "processes/homography_fusion/node.hpp"
+#include "processes/imu_integration/node.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/image_t.hpp"
 #include "tests/inertial/simulated_flight.hpp"

@@ -36,7 +36,7 @@ Finding sensorFinding(const std::string& channel, int count, double seconds) {
   char rate[96];
   std::snprintf(rate, sizeof rate, "%s: %.1f messages a second", channel.c_str(), count / seconds);
   if (count > 0) return {true, rate, ""};
-  return {false, channel + ": nothing heard",
+  return {false, channel + ": no messages",
           "start the driver that publishes " + channel +
               " (or lcm-logplayer with a recorded flight) on the same URL"};
 }
@@ -50,22 +50,22 @@ Finding findReceiveBuffer(const std::string& url) {
 }
 
 Finding findMulticast(const std::string& url) {
-  const std::string mend = "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo";
+  const std::string fix = "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo";
   try {
     const auto sender = makeLcmBus(url);
     const auto receiver = makeLcmBus(url);
-    bool heard = false;
+    bool received = false;
     receiver->subscribe<altimeter_t>(
-        kProbeChannel, 4, [&](const altimeter_t&) { heard = true; }, nullptr);
+        kProbeChannel, 4, [&](const altimeter_t&) { received = true; }, nullptr);
     altimeter_t probe{};
     handleUntil(*receiver, 0.05, [] { return false; });
     sender->publish(kProbeChannel, probe);
-    handleUntil(*receiver, 1.0, [&] { return heard; });
-    if (heard) return {true, "multicast: a message to ourselves arrives", ""};
+    handleUntil(*receiver, 1.0, [&] { return received; });
+    if (received) return {true, "multicast: a message to this program itself arrives", ""};
   } catch (const std::exception& error) {
-    return {false, std::string("multicast: ") + error.what(), mend};
+    return {false, std::string("multicast: ") + error.what(), fix};
   }
-  return {false, "multicast: a message to ourselves does not arrive", mend};
+  return {false, "multicast: a message to this program itself does not arrive", fix};
 }
 
 Finding findSpy() {
@@ -73,7 +73,7 @@ Finding findSpy() {
   if (!onPath("java")) missing += " default-jre";
   if (!std::filesystem::exists("/usr/share/java/lcm.jar")) missing += " liblcm-java";
   if (!std::filesystem::exists("/usr/share/java/jchart2d.jar")) missing += " libjchart2d-java";
-  if (missing.empty()) return {true, "lcm-spy: Java and its libraries are here", ""};
+  if (missing.empty()) return {true, "lcm-spy: Java and its libraries are installed", ""};
   return {false, "lcm-spy: missing" + missing, "apt-get install" + missing};
 }
 
@@ -95,13 +95,13 @@ std::vector<Finding> findSensors(const DoctorOptions& options) {
 int runDoctor(const DoctorOptions& options) {
   std::vector<Finding> findings = {findReceiveBuffer(options.url), findMulticast(options.url), findSpy()};
   for (Finding& finding : findSensors(options)) findings.push_back(std::move(finding));
-  int wrong = 0;
+  int failed = 0;
   for (const Finding& finding : findings) {
-    std::printf("[%s] %s\n", finding.good ? " ok " : "MEND", finding.what.c_str());
-    if (!finding.good) std::printf("       %s\n", finding.mend.c_str());
-    wrong += finding.good ? 0 : 1;
+    std::printf("[%s] %s\n", finding.good ? " ok " : "FAIL", finding.what.c_str());
+    if (!finding.good) std::printf("       %s\n", finding.fix.c_str());
+    failed += finding.good ? 0 : 1;
   }
-  return wrong;
+  return failed;
 }
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// redbee doctor: what stands between this machine and a running stack, and the exact mend of each.
+// redbee doctor: checks whether the stack can run on this machine, with a fix for each failed check.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace redbee {
 struct Finding {
   bool good = false;
   std::string what;  ///< one line
-  std::string mend;  ///< the command or the step that puts it right; empty where nothing is wrong
+  std::string fix;   ///< a command or a step; empty where nothing is wrong
 };
 
 struct DoctorOptions {
@@ -20,7 +20,7 @@ struct DoctorOptions {
 };
 
 Finding findReceiveBuffer(const std::string& url);
-/// Sends a message to ourselves on `url`.
+/// Sends a message to itself on `url`.
 Finding findMulticast(const std::string& url);
 Finding findSpy();
 std::vector<Finding> findSensors(const DoctorOptions& options);

@@ -65,7 +65,7 @@ std::vector<std::string> inOrderOfWork(const Entries& entries) {
   return names;
 }
 
-/// Control characters that came over the network must not reach a terminal.
+/// Control characters from the network must not reach a terminal.
 std::string printable(std::string text, int columns) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
@@ -75,7 +75,7 @@ std::string printable(std::string text, int columns) {
 
 }  // namespace
 
-void HealthBoard::hear(const process_health_t& health, Time now) {
+void HealthBoard::onHealth(const process_health_t& health, Time now) {
   const auto [it, is_new] = entries_.try_emplace(health.process);
   Entry& entry = it->second;
   if (!is_new && health.pid != entry.last.pid) {
@@ -83,14 +83,14 @@ void HealthBoard::hear(const process_health_t& health, Time now) {
     entry.restarted = now;
   }
   entry.last = health;
-  entry.heard = now;
+  entry.received = now;
 }
 
 bool HealthBoard::isSilent(const Entry& entry, Time now) {
   const bool is_over = entry.last.state == static_cast<int8_t>(HealthState::kDead) ||
                        entry.last.state == static_cast<int8_t>(HealthState::kStopping);
-  const bool is_script = entry.last.configuration.empty();  // speaks when it has something to say
-  return !is_over && !is_script && now - entry.heard > kSilence;
+  const bool is_script = entry.last.configuration.empty();  // publishes only when its state changes
+  return !is_over && !is_script && now - entry.received > kSilence;
 }
 
 int HealthBoard::good(Time now) const {
@@ -103,12 +103,12 @@ BoardLine HealthBoard::row(const Entry& entry, Time now) {
   const process_health_t& h = entry.last;
   const auto state = static_cast<HealthState>(h.state);
   const bool silent = isSilent(entry, now);
-  const std::string said = silent
-                               ? "mute " + brief(static_cast<int64_t>(secondsBetween(entry.heard, now))) + "s"
-                               : toString(state);
-  // A column is parted from the next by a space even where it is full.
+  const std::string shown =
+      silent ? "mute " + brief(static_cast<int64_t>(secondsBetween(entry.received, now))) + "s"
+             : toString(state);
+  // A space separates a column from the next even where it is full.
   return {formatted("%-19.19s %-9.9s%7d %5s %5s %5s %5s %4s %4s %4s %4s", shortName(h.process).c_str(),
-                    said.c_str(), h.pid, brief(h.rate_in).c_str(), brief(h.rate_out).c_str(),
+                    shown.c_str(), h.pid, brief(h.rate_in).c_str(), brief(h.rate_out).c_str(),
                     brief(h.latency_median).c_str(), brief(h.latency_p99).c_str(), brief(h.skipped).c_str(),
                     brief(h.lost).c_str(), brief(h.damaged).c_str(), brief(h.resident >> 20).c_str()),
           silent ? Tone::kBad : toneOf(state)};
@@ -121,7 +121,8 @@ void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
     const Entry& entry = it->second;
     const std::string who = shortName(name) + ": ";
     if (isSilent(entry, now)) {
-      lines.push_back({who + formatted("silent since %lld s", secondsBetween(entry.heard, now)), Tone::kBad});
+      lines.push_back(
+          {who + formatted("silent since %lld s", secondsBetween(entry.received, now)), Tone::kBad});
     }
     if (!entry.last.message.empty()) {
       lines.push_back({who + entry.last.message, toneOf(static_cast<HealthState>(entry.last.state))});
@@ -131,8 +132,7 @@ void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
     }
     if (entry.last.late > 0) {
       lines.push_back(
-          {who + formatted("%lld inputs given up waiting for", static_cast<long long>(entry.last.late)),
-           Tone::kPlain});
+          {who + formatted("%lld inputs timed out", static_cast<long long>(entry.last.late)), Tone::kPlain});
     }
     if (entry.restarts > 0) {
       lines.push_back({who + formatted("restarts seen: %d, the last %lld s ago", entry.restarts,
@@ -142,7 +142,7 @@ void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
   }
 }
 
-/// Processes of two builds or two configurations must not fly together unnoticed.
+/// Processes of different builds or configurations must not fly together unnoticed.
 void HealthBoard::appendBuilds(std::vector<BoardLine>& lines) const {
   std::map<std::string, std::set<std::string>> processes_of;
   for (const auto& [name, entry] : entries_) {
@@ -168,7 +168,7 @@ std::vector<BoardLine> HealthBoard::table(Time now, int columns) const {
   for (const std::string& name : inOrderOfWork(entries_)) {
     const auto it = entries_.find(name);
     lines.push_back(it == entries_.end()
-                        ? BoardLine{formatted("%-19s unheard", shortName(name).c_str()), Tone::kBad}
+                        ? BoardLine{formatted("%-19s no messages", shortName(name).c_str()), Tone::kBad}
                         : row(it->second, now));
   }
   lines.push_back({"", Tone::kPlain});

@@ -1,4 +1,4 @@
-// What is known of every process from its PROCESS_HEALTH, and the table that a person reads.
+// The newest PROCESS_HEALTH of every process, as a table for people.
 #pragma once
 
 #include <chrono>
@@ -18,27 +18,27 @@ struct BoardLine {
   Tone tone = Tone::kPlain;
 };
 
-/// Times are the reader's own, so that a process that says nothing any more shows.
+/// Times are those of receipt, so that a process that has stopped publishing shows.
 class HealthBoard {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  /// A process speaks once a second; more than this without a word is silence.
+  /// A process publishes its health once a second; after this long without a message it counts as silent.
   static constexpr std::chrono::milliseconds kSilence{2500};
 
-  void hear(const process_health_t& health, Time now);
+  void onHealth(const process_health_t& health, Time now);
 
   int processes() const { return static_cast<int>(entries_.size()); }
   /// Processes that are neither silent nor dead nor degraded.
   int good(Time now) const;
 
-  /// Heading, one line a process (those of the stack also where they are not heard), then what a process has
-  /// to say: at most `columns` (80 or more) wide.
+  /// Heading, one line a process (a stage of the process table also before its first message), then remarks:
+  /// at most `columns` (80 or more) wide.
   std::vector<BoardLine> table(Time now, int columns = 80) const;
 
  private:
   struct Entry {
     process_health_t last;
-    Time heard;
+    Time received;
     int restarts = 0;
     Time restarted;
   };

@@ -10,6 +10,7 @@
 #include "processes/redbee/vehicle/recording_queue.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/bus/socket_drops.hpp"
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/split_log.hpp"
 #include "redbee/node/health.hpp"
@@ -19,14 +20,13 @@ namespace redbee {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr const char* kName = "redbee-record";
 constexpr double kMegabyte = 1 << 20;
 constexpr int64_t kQueueBytes = int64_t{100} << 20;
 constexpr std::chrono::milliseconds kSyncPeriod{100};
 constexpr std::chrono::milliseconds kHealthPeriod{1000};
 constexpr std::chrono::seconds kStopPatience{5};
 constexpr int kPatience_ms = 50;
-constexpr int kBatch = 1000;  ///< messages, between two looks at the clock
+constexpr int kBatch = 1000;  ///< messages handled before the time is checked again
 
 std::filesystem::path prefixNow(const std::filesystem::path& folder) {
   const std::time_t now = std::time(nullptr);
@@ -58,15 +58,14 @@ class Recorder {
         queue_([this](const HeardMessage& message) { write(message); }, kQueueBytes),
         lcm_(options.url) {
     if (!lcm_.good()) throw std::runtime_error("LCM cannot open " + options.url);
-    // No limit here: what is heard is taken at once, and the queue behind it counts what it cannot hold.
-    // By a function and not by a member: there GCC 12's -fsanitize=vptr looks at a register that nothing has
-    // set.
-    lcm_.subscribeFunction(".*", &Recorder::heard, this)->setQueueCapacity(0);
+    // No limit here: received messages are queued at once, and that queue counts what it cannot hold.
+    // A function, not a member function: for that GCC 12's -fsanitize=vptr reads an uninitialized register.
+    lcm_.subscribeFunction(".*", &Recorder::onReceived, this)->setQueueCapacity(0);
     health_.setState(HealthState::kGood, "recording to " + log_.file().string());
     std::fprintf(stderr, "record: recording to %s\n", log_.file().c_str());
   }
 
-  /// Until `stop`, or until the disk ends it: why, else nothing.
+  /// Until `stop`, or until the disk ends it: the reason; empty after `stop`.
   std::string run(const std::atomic<bool>& stop) {
     auto next_health = Clock::now();
     while (!stop) {
@@ -75,36 +74,36 @@ class Recorder {
       next_health += kHealthPeriod;
       if (std::string failure = queue_.failure(); !failure.empty()) return failure;
       if (std::string shortage = shortageOfDisk(options_); !shortage.empty()) return shortage;
-      tellLosses();
-      say();
+      reportLosses();
+      publishHealth();
     }
     return "";
   }
 
-  /// Everything that was sent before this call is written when it returns: it lies in the socket before our
-  /// own last word, which comes back to us.
+  /// Everything sent before this call is written when it returns: in the socket it comes before our own final
+  /// message, which we receive as well.
   void finish(HealthState state, const std::string& message) {
     std::fprintf(stderr, "record: %s\n", message.c_str());
     health_.setState(state, message);
-    last_word_ = say();
+    final_message_ = publishHealth();
     const auto patience_ends = Clock::now() + kStopPatience;
-    while (!last_word_heard_ && Clock::now() < patience_ends) handle();
+    while (!final_message_received_ && Clock::now() < patience_ends) handle();
     queue_.close();
     if (queue_.failure().empty()) log_.sync();
     if (lost() > 0) std::fprintf(stderr, "record: %lld messages lost\n", static_cast<long long>(lost()));
   }
 
  private:
-  static void heard(const lcm::ReceiveBuffer* received, const std::string& channel, Recorder* recorder) {
-    recorder->hear(received, channel);
+  static void onReceived(const lcm::ReceiveBuffer* received, const std::string& channel, Recorder* recorder) {
+    recorder->onMessage(received, channel);
   }
 
-  void hear(const lcm::ReceiveBuffer* received, const std::string& channel) {
+  void onMessage(const lcm::ReceiveBuffer* received, const std::string& channel) {
     const auto* first = static_cast<const uint8_t*>(received->data);
     HeardMessage message{received->recv_utime, channel, {first, first + received->data_size}};
     health_.noteInput(message.utime);
-    if (!last_word_.empty() && channel == options_.channel && message.data == last_word_)
-      last_word_heard_ = true;
+    if (!final_message_.empty() && channel == options_.channel && message.data == final_message_)
+      final_message_received_ = true;
     if (!queue_.push(std::move(message))) ++refused_;
   }
 
@@ -123,27 +122,27 @@ class Recorder {
 
   int64_t lost() const { return refused_ + droppedPackets(); }
 
-  void tellLosses() {
-    if (lost() == lost_told_) return;
-    health_.noteLost(lost() - lost_told_);
-    lost_told_ = lost();
-    health_.setState(HealthState::kDegraded, "lost, of what was sent: " + std::to_string(lost_told_));
+  void reportLosses() {
+    if (lost() == lost_reported_) return;
+    health_.noteLost(lost() - lost_reported_);
+    lost_reported_ = lost();
+    health_.setState(HealthState::kDegraded, "messages lost: " + std::to_string(lost_reported_));
   }
 
-  std::vector<uint8_t> say() {
-    std::vector<uint8_t> word = encodeMessage(health_.nextMessage());
-    lcm_.publish(options_.channel, word.data(), static_cast<unsigned>(word.size()));
-    return word;
+  std::vector<uint8_t> publishHealth() {
+    std::vector<uint8_t> message = encodeMessage(health_.nextMessage());
+    lcm_.publish(options_.channel, message.data(), static_cast<unsigned>(message.size()));
+    return message;
   }
 
   RecordOptions options_;
-  HealthMonitor health_{kName, ""};
+  HealthMonitor health_{programName(kRecord), ""};
   SplitLog log_;
   Clock::time_point last_sync_ = Clock::now();
   int64_t refused_ = 0;
-  int64_t lost_told_ = 0;
-  std::vector<uint8_t> last_word_;
-  bool last_word_heard_ = false;
+  int64_t lost_reported_ = 0;
+  std::vector<uint8_t> final_message_;
+  bool final_message_received_ = false;
   RecordingQueue queue_;
   lcm::LCM lcm_;
 };
@@ -155,7 +154,7 @@ bool runRecord(const RecordOptions& options) {
   std::filesystem::create_directories(options.out);
   if (const std::string shortage = shortageOfDisk(options); !shortage.empty()) {
     std::fprintf(stderr, "record: not recording: %s\n", shortage.c_str());
-    HealthMonitor health(kName, "");
+    HealthMonitor health(programName(kRecord), "");
     health.setState(HealthState::kDegraded, "not recording: " + shortage);
     makeLcmBus(options.url)->publish(options.channel, health.nextMessage());
     return false;

@@ -1,5 +1,5 @@
-// Between hearing and the disk: a disk that stalls for a while must cost no message, one that stalls for good
-// no memory without end.
+// The queue between the network and the disk: a disk that stalls for a while costs no message, and one that
+// stalls for good costs only limited memory.
 #pragma once
 
 #include <condition_variable>
@@ -20,7 +20,7 @@ class RecordingQueue {
  public:
   using Write = std::function<void(const HeardMessage&)>;
 
-  /// `limit_bytes`: of messages that wait. What `write` throws ends the writing.
+  /// `limit_bytes`: of waiting messages. An exception from `write` ends the writing.
   RecordingQueue(Write write, int64_t limit_bytes);
   ~RecordingQueue();
   RecordingQueue(const RecordingQueue&) = delete;
@@ -28,7 +28,7 @@ class RecordingQueue {
 
   /// False where there is no room, or the writing has ended: the message is lost.
   bool push(HeardMessage message);
-  /// What ended the writing; empty while all is well.
+  /// The reason why the writing ended; empty while all is well.
   std::string failure() const;
   /// Returns when all that was pushed is written.
   void close();

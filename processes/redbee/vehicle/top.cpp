@@ -24,7 +24,8 @@ constexpr std::chrono::seconds kRefresh{1};
 std::unique_ptr<Bus> listen(const TopOptions& options, HealthBoard& board) {
   auto bus = makeLcmBus(options.url);
   bus->subscribe<process_health_t>(
-      options.channel, kQueue, [&board](const process_health_t& m) { board.hear(m, Clock::now()); }, nullptr);
+      options.channel, kQueue, [&board](const process_health_t& m) { board.onHealth(m, Clock::now()); },
+      nullptr);
   return bus;
 }
 
@@ -38,7 +39,7 @@ std::string headline(const HealthBoard& board, Clock::time_point now) {
   return text;
 }
 
-/// Puts the terminal back as it was, whatever happens in between.
+/// Restores the terminal on destruction.
 class Screen {
  public:
   Screen() {
@@ -67,7 +68,7 @@ class Screen {
     print(1, {url});
     int y = 3;
     for (const BoardLine& line : board.table(now, std::max(COLS, kMinColumns))) print(y++, line);
-    if (board.processes() == 0) print(y, {"nothing heard yet; redbee doctor looks for the cause"});
+    if (board.processes() == 0) print(y, {"no messages yet; redbee doctor checks for the cause"});
     print(LINES - 1, {"q: quit   MED, P99ms: from frame to answer   DMGD: messages not decoded"});
     refresh();
   }
@@ -109,15 +110,15 @@ void showOnce(const TopOptions& options, HealthBoard& board) {
 }
 
 void showUntilQuit(const TopOptions& options, HealthBoard& board) {
-  const auto bus = listen(options, board);  // before the screen: what LCM says belongs on a plain terminal
+  const auto bus = listen(options, board);  // before the screen: LCM's messages belong on a plain terminal
   const std::atomic<bool>& stop = stopOnSignals();
   const Screen screen;
   auto next = Clock::now();
   while (!stop) {
-    const bool heard = bus->handle(kPoll) > 0;
+    const bool received = bus->handle(kPoll) > 0;
     const int key = getch();
     if (key == 'q' || key == 'Q') return;
-    if (!heard && key == ERR && Clock::now() < next) continue;
+    if (!received && key == ERR && Clock::now() < next) continue;
     screen.show(board, options.url);
     next = Clock::now() + kRefresh;
   }

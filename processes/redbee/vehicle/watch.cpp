@@ -29,44 +29,44 @@ bool hasEnded(int fd) {
 }  // namespace
 
 ProcessWatch::~ProcessWatch() {
-  for (auto& [process, watched] : watched_) forget(watched);
+  for (auto& [process, watched] : watched_) stopWatching(watched);
 }
 
-void ProcessWatch::forget(Watched& watched) {
+void ProcessWatch::stopWatching(Watched& watched) {
   if (watched.fd >= 0) close(watched.fd);
   watched.fd = -1;
 }
 
-void ProcessWatch::hear(const process_health_t& health, Clock::time_point now) {
+void ProcessWatch::onHealth(const process_health_t& health, Clock::time_point now) {
   if (health.state == static_cast<int8_t>(HealthState::kDead)) return;
   Watched& watched = watched_[health.process];
   if (watched.fd < 0 || health.pid != watched.last.pid) {
-    forget(watched);
+    stopWatching(watched);
     watched.fd = pidfd_open(health.pid, 0);
   }
   watched.last = health;
-  watched.heard = now;
-  if (!health.configuration.empty()) anyone_heard_ = now;
+  watched.received = now;
+  if (!health.configuration.empty()) newest_message_ = now;
 }
 
-std::vector<std::string> ProcessWatch::endHanging(Clock::time_point now) {
-  // If nobody is heard it is the network that is gone, and killing everyone would not bring it back.
-  constexpr std::chrono::seconds kSomeoneSpeaks{2};
-  std::vector<std::string> ended;
-  if (anyone_heard_ == Clock::time_point::min() || now - anyone_heard_ > kSomeoneSpeaks) return ended;
+std::vector<std::string> ProcessWatch::killHanging(Clock::time_point now) {
+  // Without messages from anyone the network is gone, and killing every process would not restore it.
+  constexpr std::chrono::seconds kNetworkIsUp{2};
+  std::vector<std::string> killed;
+  if (newest_message_ == Clock::time_point::min() || now - newest_message_ > kNetworkIsUp) return killed;
   for (auto& [process, watched] : watched_) {
-    if (watched.fd < 0 || watched.last.configuration.empty() || now - watched.heard < kHangs) continue;
-    if (pidfd_send_signal(watched.fd, SIGKILL, nullptr, 0) == 0) ended.push_back(process);
-    watched.heard = now;
+    if (watched.fd < 0 || watched.last.configuration.empty() || now - watched.received < kHangs) continue;
+    if (pidfd_send_signal(watched.fd, SIGKILL, nullptr, 0) == 0) killed.push_back(process);
+    watched.received = now;
   }
-  return ended;
+  return killed;
 }
 
-std::vector<process_health_t> ProcessWatch::takeDeaths() {
+std::vector<process_health_t> ProcessWatch::drainDeaths() {
   std::vector<process_health_t> deaths;
   for (auto& [process, watched] : watched_) {
     if (watched.fd < 0 || !hasEnded(watched.fd)) continue;
-    forget(watched);
+    stopWatching(watched);
     const bool was_stopping = watched.last.state == static_cast<int8_t>(HealthState::kStopping);
     process_health_t death = watched.last;
     death.state = static_cast<int8_t>(HealthState::kDead);
@@ -84,16 +84,16 @@ void runWatch(const WatchOptions& options) {
   ProcessWatch watch;
   bus->subscribe<process_health_t>(
       channel, kQueue,
-      [&](const process_health_t& health) { watch.hear(health, ProcessWatch::Clock::now()); }, nullptr);
+      [&](const process_health_t& health) { watch.onHealth(health, ProcessWatch::Clock::now()); }, nullptr);
   const std::atomic<bool>& stop = stopOnSignals();
   auto wake_until = ProcessWatch::Clock::time_point::min();
   while (!stop) {
     bus->handle(kPeriod);
-    for (const std::string& process : watch.endHanging(ProcessWatch::Clock::now())) {
-      std::printf("%s has said nothing for %lld s: killed\n", process.c_str(),
+    for (const std::string& process : watch.killHanging(ProcessWatch::Clock::now())) {
+      std::printf("%s has published nothing for %lld s: killed\n", process.c_str(),
                   static_cast<long long>(ProcessWatch::kHangs.count()));
     }
-    for (const process_health_t& death : watch.takeDeaths()) {
+    for (const process_health_t& death : watch.drainDeaths()) {
       std::printf("%s %s\n", death.process.c_str(), death.message.c_str());
       bus->publish(channel, death);
       wake_until = ProcessWatch::Clock::now() + kWaking;

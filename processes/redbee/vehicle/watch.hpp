@@ -1,4 +1,4 @@
-// redbee watch: sees a process die at once, ends one that hangs, tells the ground, and wakes supervisor.
+// redbee watch: detects a death at once, kills a process that hangs, reports both, and wakes supervisor.
 #pragma once
 
 #include <sys/types.h>
@@ -14,8 +14,8 @@
 
 namespace redbee {
 
-/// Hears of processes by their PROCESS_HEALTH and watches each by a file descriptor of it (pidfd_open(2)), so
-/// that a death is seen when it happens and not when the next word is due.
+/// Knows processes by their PROCESS_HEALTH and watches each by a file descriptor of it (pidfd_open(2)), so
+/// that a death is detected when it happens and not when the next message is due.
 class ProcessWatch {
  public:
   using Clock = std::chrono::steady_clock;
@@ -25,30 +25,30 @@ class ProcessWatch {
   ProcessWatch(const ProcessWatch&) = delete;
   ProcessWatch& operator=(const ProcessWatch&) = delete;
 
-  /// Without a word for so long, while others are heard, a process hangs.
+  /// A process without a message for this long, while others publish, hangs.
   static constexpr std::chrono::seconds kHangs{20};
 
-  /// A process says how it fares. One that does not live on this host is not watched, nor is one that speaks
-  /// but now and then (scripts: they have no configuration) thought to hang.
-  void hear(const process_health_t& health, Clock::time_point now);
+  /// A process that does not run on this host is not watched. One that publishes only now and then (scripts:
+  /// they have no configuration) is never considered to hang.
+  void onHealth(const process_health_t& health, Clock::time_point now);
 
-  /// Kills those that hang (SIGKILL: one that hangs hears nothing else). Their names.
-  std::vector<std::string> endHanging(Clock::time_point now);
+  /// Kills the processes that hang (SIGKILL: they react to nothing else). Their names.
+  std::vector<std::string> killHanging(Clock::time_point now);
 
-  /// Those that died since the last call: their last word, with the state made kDead and a message that says
-  /// so.
-  std::vector<process_health_t> takeDeaths();
+  /// Processes that died since the last call: the last message of each, with the state kDead and a message
+  /// that reports the death.
+  std::vector<process_health_t> drainDeaths();
 
  private:
   struct Watched {
     int fd = -1;
     process_health_t last;
-    Clock::time_point heard;
+    Clock::time_point received;
   };
-  static void forget(Watched& watched);
+  static void stopWatching(Watched& watched);
 
   std::map<std::string, Watched> watched_;
-  Clock::time_point anyone_heard_ = Clock::time_point::min();
+  Clock::time_point newest_message_ = Clock::time_point::min();
 };
 
 struct WatchOptions {
@@ -57,8 +57,8 @@ struct WatchOptions {
 };
 
 /// Until SIGINT or SIGTERM. For half a second after a death a line is printed every 20 ms: supervisor 4.2
-/// looks at its children when one of them prints, otherwise once a second (supervisord.py, runforever), and
-/// needs two looks to start a process again.
+/// polls its children when one of them prints, otherwise once a second (supervisord.py, runforever), and
+/// needs two polls to restart a process.
 void runWatch(const WatchOptions& options);
 
 }  // namespace redbee

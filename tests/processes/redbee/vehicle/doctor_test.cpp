@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* kInProcess = "memq://";
 
-TEST(Doctor, EveryFindingThatIsNotGoodComesWithItsMend) {
+TEST(Doctor, EveryFailedCheckHasAFix) {
   DoctorOptions options;
   options.url = kInProcess;
   options.listen_s = 0.05;
@@ -15,7 +15,7 @@ TEST(Doctor, EveryFindingThatIsNotGoodComesWithItsMend) {
   findings.push_back(findReceiveBuffer("udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2000000000"));
   for (const Finding& finding : findings) {
     EXPECT_FALSE(finding.good) << finding.what;
-    EXPECT_FALSE(finding.mend.empty()) << finding.what;
+    EXPECT_FALSE(finding.fix.empty()) << finding.what;
     EXPECT_EQ(finding.what.find('\n'), std::string::npos);
   }
 }

@@ -14,7 +14,7 @@ using std::chrono::seconds;
 
 const Clock::time_point kNow = Clock::time_point(std::chrono::hours(1));
 
-process_health_t word(const std::string& process, HealthState state, int pid = 100) {
+process_health_t healthOf(const std::string& process, HealthState state, int pid = 100) {
   process_health_t health{};
   health.process = process;
   health.pid = pid;
@@ -39,14 +39,14 @@ std::string textOf(const HealthBoard& board, Clock::time_point now, int columns 
   return text;
 }
 
-TEST(HealthBoard, OneLineAProcessInTheOrderOfTheWork) {
+TEST(HealthBoard, HasOneLineAProcessInTheOrderOfTheWork) {
   HealthBoard board;
-  board.hear(word("redbee-motion-segmentation", HealthState::kGood, 4), kNow);
-  board.hear(word("redbee-imu-integration", HealthState::kGood, 1), kNow);
-  board.hear(word("a-camera-driver", HealthState::kGood, 5), kNow);
+  board.onHealth(healthOf("redbee-motion-segmentation", HealthState::kGood, 4), kNow);
+  board.onHealth(healthOf("redbee-imu-integration", HealthState::kGood, 1), kNow);
+  board.onHealth(healthOf("a-camera-driver", HealthState::kGood, 5), kNow);
   const auto lines = board.table(kNow);
   EXPECT_THAT(lines[1].text, HasSubstr("imu-integration"));
-  EXPECT_THAT(lines[2].text, HasSubstr("visual-homography   unheard"));
+  EXPECT_THAT(lines[2].text, HasSubstr("visual-homography   no messages"));
   EXPECT_EQ(lines[2].tone, Tone::kBad);
   EXPECT_THAT(lines[4].text, HasSubstr("motion-segmentation"));
   EXPECT_THAT(lines[5].text, HasSubstr("a-camera-driver"));
@@ -56,56 +56,56 @@ TEST(HealthBoard, OneLineAProcessInTheOrderOfTheWork) {
   EXPECT_THAT(textOf(board, kNow), HasSubstr("version 1.2, configuration cafe"));
 }
 
-TEST(HealthBoard, WhoStopsSpeakingIsSilentSince) {
+TEST(HealthBoard, ReportsSinceWhenAProcessIsSilent) {
   HealthBoard board;
-  board.hear(word("redbee-visual-homography", HealthState::kGood), kNow);
-  EXPECT_EQ(board.good(kNow + seconds(2)), 1) << "one missed word is no silence";
+  board.onHealth(healthOf("redbee-visual-homography", HealthState::kGood), kNow);
+  EXPECT_EQ(board.good(kNow + seconds(2)), 1) << "one missed message is no silence";
   EXPECT_EQ(board.good(kNow + seconds(7)), 0);
   EXPECT_THAT(textOf(board, kNow + seconds(7)), HasSubstr("visual-homography: silent since 7 s"));
   EXPECT_EQ(board.table(kNow + seconds(7))[2].tone, Tone::kBad);
 }
 
-TEST(HealthBoard, WhoSaidThatItStopsOrIsDeadIsNotSilent) {
+TEST(HealthBoard, AStoppedOrDeadProcessIsNotSilent) {
   HealthBoard board;
-  board.hear(word("redbee-a", HealthState::kStopping), kNow);
-  board.hear(word("redbee-b", HealthState::kDead), kNow);
-  auto script = word("redbee-record", HealthState::kGood);
+  board.onHealth(healthOf("redbee-a", HealthState::kStopping), kNow);
+  board.onHealth(healthOf("redbee-b", HealthState::kDead), kNow);
+  auto script = healthOf("redbee-record", HealthState::kGood);
   script.configuration.clear();
-  board.hear(script, kNow);
+  board.onHealth(script, kNow);
   EXPECT_THAT(textOf(board, kNow + seconds(60)), ::testing::Not(HasSubstr("silent")));
   EXPECT_EQ(board.table(kNow)[6].tone, Tone::kBad);
 }
 
 TEST(HealthBoard, ANewProcessNumberIsARestart) {
   HealthBoard board;
-  board.hear(word("redbee-a", HealthState::kGood, 10), kNow);
-  board.hear(word("redbee-a", HealthState::kDead, 10), kNow + seconds(1));
-  board.hear(word("redbee-a", HealthState::kStarting, 11), kNow + seconds(2));
-  board.hear(word("redbee-a", HealthState::kGood, 11), kNow + seconds(3));
+  board.onHealth(healthOf("redbee-a", HealthState::kGood, 10), kNow);
+  board.onHealth(healthOf("redbee-a", HealthState::kDead, 10), kNow + seconds(1));
+  board.onHealth(healthOf("redbee-a", HealthState::kStarting, 11), kNow + seconds(2));
+  board.onHealth(healthOf("redbee-a", HealthState::kGood, 11), kNow + seconds(3));
   EXPECT_THAT(textOf(board, kNow + seconds(4)), HasSubstr("a: restarts seen: 1, the last 2 s ago"));
 }
 
-TEST(HealthBoard, TwoBuildsOrConfigurationsTogetherStandOut) {
+TEST(HealthBoard, DifferentBuildsOrConfigurationsStandOut) {
   HealthBoard board;
-  board.hear(word("redbee-a", HealthState::kGood), kNow);
-  auto other = word("redbee-b", HealthState::kGood);
+  board.onHealth(healthOf("redbee-a", HealthState::kGood), kNow);
+  auto other = healthOf("redbee-b", HealthState::kGood);
   other.configuration = "beef";
-  board.hear(other, kNow);
+  board.onHealth(other, kNow);
   const auto lines = board.table(kNow);
   EXPECT_EQ(lines.back().tone, Tone::kWarning);
   EXPECT_THAT(textOf(board, kNow), HasSubstr("configuration beef"));
 }
 
-TEST(HealthBoard, NothingIsWiderThanTheTerminalNorReachesItUnfiltered) {
+TEST(HealthBoard, FitsTheTerminalAndRemovesControlCharacters) {
   HealthBoard board;
-  auto wild = word(std::string(200, 'x'), HealthState::kDegraded, 2147483647);
+  auto wild = healthOf(std::string(200, 'x'), HealthState::kDegraded, 2147483647);
   wild.message = std::string(500, 'm') + "\x1b[2J";
   wild.rate_in = 1e300;
   wild.latency_p99 = -1e300;
   wild.skipped = wild.lost = wild.damaged = std::numeric_limits<int64_t>::max();
   wild.state = 99;
   wild.calibration = "does not fit\x1b]0;owned\x07";
-  board.hear(wild, kNow);
+  board.onHealth(wild, kNow);
   for (const BoardLine& line : board.table(kNow)) {
     EXPECT_LE(line.text.size(), 80u);
     EXPECT_EQ(line.text.find('\x1b'), std::string::npos);

@@ -10,7 +10,7 @@ namespace {
 
 HeardMessage numbered(int64_t utime) { return {utime, "A", std::vector<uint8_t>(1000)}; }
 
-TEST(RecordingQueue, CloseWritesAllThatWaitsInOrder) {
+TEST(RecordingQueue, CloseWritesTheWholeQueueInOrder) {
   std::vector<int64_t> written;
   RecordingQueue queue([&](const HeardMessage& m) { written.push_back(m.utime); }, 1 << 20);
   std::vector<int64_t> pushed;
@@ -22,7 +22,7 @@ TEST(RecordingQueue, CloseWritesAllThatWaitsInOrder) {
   EXPECT_EQ(written, pushed);
 }
 
-TEST(RecordingQueue, ADiskThatStallsCostsNothingUntilTheLimit) {
+TEST(RecordingQueue, AStalledDiskCostsNothingUpToTheLimit) {
   std::promise<void> disk;
   std::shared_future<void> goes_on = disk.get_future().share();
   std::vector<int64_t> written;
@@ -40,7 +40,7 @@ TEST(RecordingQueue, ADiskThatStallsCostsNothingUntilTheLimit) {
   EXPECT_EQ(written.size(), static_cast<size_t>(room));
 }
 
-TEST(RecordingQueue, AFailureIsToldAndNothingIsTakenAnyMore) {
+TEST(RecordingQueue, AFailureIsReportedAndEndsTheQueue) {
   RecordingQueue queue([](const HeardMessage&) { throw std::runtime_error("disk full"); }, 1 << 20);
   queue.push(numbered(1));
   queue.close();

@@ -43,7 +43,7 @@ class Child {
   int pid_;
 };
 
-process_health_t word(const std::string& process, int pid, HealthState state = HealthState::kGood) {
+process_health_t healthOf(const std::string& process, int pid, HealthState state = HealthState::kGood) {
   process_health_t health{};
   health.process = process;
   health.pid = pid;
@@ -53,87 +53,87 @@ process_health_t word(const std::string& process, int pid, HealthState state = H
   return health;
 }
 
-TEST(ProcessWatch, ADeathIsToldOnceAndInTheNameOfTheDead) {
+TEST(ProcessWatch, ADeathIsReportedOnceUnderTheProcessName) {
   Child child;
   ProcessWatch watch;
-  watch.hear(word("redbee-a", child.pid()), Clock::now());
-  EXPECT_TRUE(watch.takeDeaths().empty());
+  watch.onHealth(healthOf("redbee-a", child.pid()), Clock::now());
+  EXPECT_TRUE(watch.drainDeaths().empty());
   kill(child.pid(), SIGKILL);
   child.awaitDeath();
-  const auto deaths = watch.takeDeaths();
+  const auto deaths = watch.drainDeaths();
   ASSERT_EQ(deaths.size(), 1u);
   EXPECT_EQ(deaths[0].process, "redbee-a");
   EXPECT_EQ(deaths[0].pid, child.pid());
   EXPECT_EQ(deaths[0].state, static_cast<int8_t>(HealthState::kDead));
   EXPECT_EQ(deaths[0].rate_in, 0);
   EXPECT_THAT(deaths[0].message, ::testing::HasSubstr("died"));
-  EXPECT_TRUE(watch.takeDeaths().empty());
+  EXPECT_TRUE(watch.drainDeaths().empty());
 }
 
-TEST(ProcessWatch, WhoSaidThatItStopsHasNotDied) {
+TEST(ProcessWatch, AStoppingProcessHasNotDied) {
   Child child;
   ProcessWatch watch;
-  watch.hear(word("redbee-a", child.pid(), HealthState::kStopping), Clock::now());
+  watch.onHealth(healthOf("redbee-a", child.pid(), HealthState::kStopping), Clock::now());
   kill(child.pid(), SIGTERM);
   child.awaitDeath();
-  const auto deaths = watch.takeDeaths();
+  const auto deaths = watch.drainDeaths();
   ASSERT_EQ(deaths.size(), 1u);
   EXPECT_THAT(deaths[0].message, ::testing::HasSubstr("stopped"));
 }
 
-TEST(ProcessWatch, AProcessThatCameBackIsWatchedAgain) {
+TEST(ProcessWatch, ARestartedProcessIsWatchedAgain) {
   Child first;
   Child second;
   ProcessWatch watch;
-  watch.hear(word("redbee-a", first.pid()), Clock::now());
-  watch.hear(word("redbee-a", second.pid()), Clock::now());
+  watch.onHealth(healthOf("redbee-a", first.pid()), Clock::now());
+  watch.onHealth(healthOf("redbee-a", second.pid()), Clock::now());
   kill(first.pid(), SIGKILL);
   first.awaitDeath();
-  EXPECT_TRUE(watch.takeDeaths().empty()) << "the first is no longer the process of this name";
+  EXPECT_TRUE(watch.drainDeaths().empty()) << "the first is no longer the process of this name";
   kill(second.pid(), SIGKILL);
   second.awaitDeath();
-  EXPECT_EQ(watch.takeDeaths().size(), 1u);
+  EXPECT_EQ(watch.drainDeaths().size(), 1u);
 }
 
-TEST(ProcessWatch, OneThatHangsWhileOthersSpeakIsEnded) {
+TEST(ProcessWatch, AHangingProcessIsKilledWhileOthersPublish) {
   Child hanging;
-  Child speaking;
+  Child publishing;
   ProcessWatch watch;
   const auto start = Clock::now();
-  watch.hear(word("redbee-hanging", hanging.pid()), start);
-  watch.hear(word("redbee-speaking", speaking.pid()), start + ProcessWatch::kHangs - seconds(1));
-  EXPECT_TRUE(watch.endHanging(start + ProcessWatch::kHangs - seconds(1)).empty());
-  EXPECT_THAT(watch.endHanging(start + ProcessWatch::kHangs), ::testing::ElementsAre("redbee-hanging"));
+  watch.onHealth(healthOf("redbee-hanging", hanging.pid()), start);
+  watch.onHealth(healthOf("redbee-publishing", publishing.pid()), start + ProcessWatch::kHangs - seconds(1));
+  EXPECT_TRUE(watch.killHanging(start + ProcessWatch::kHangs - seconds(1)).empty());
+  EXPECT_THAT(watch.killHanging(start + ProcessWatch::kHangs), ::testing::ElementsAre("redbee-hanging"));
   hanging.awaitDeath();
-  EXPECT_FALSE(speaking.isZombie());
+  EXPECT_FALSE(publishing.isZombie());
 }
 
-TEST(ProcessWatch, WhereNobodySpeaksNobodyIsEnded) {
+TEST(ProcessWatch, NothingIsKilledWhileNobodyPublishes) {
   Child a;
   ProcessWatch watch;
   const auto start = Clock::now();
-  watch.hear(word("redbee-a", a.pid()), start);
-  EXPECT_TRUE(watch.endHanging(start + seconds(60)).empty()) << "the network is gone, not the process";
+  watch.onHealth(healthOf("redbee-a", a.pid()), start);
+  EXPECT_TRUE(watch.killHanging(start + seconds(60)).empty()) << "the network is gone, not the process";
   EXPECT_FALSE(a.isZombie());
 }
 
-TEST(ProcessWatch, AScriptSpeaksWhenItHasSomethingToSay) {
+TEST(ProcessWatch, AScriptMayBeSilent) {
   Child script;
   Child other;
   ProcessWatch watch;
   const auto start = Clock::now();
-  auto recording = word("redbee-record", script.pid());
+  auto recording = healthOf("redbee-record", script.pid());
   recording.configuration.clear();
-  watch.hear(recording, start);
-  watch.hear(word("redbee-other", other.pid()), start + seconds(60));
-  EXPECT_TRUE(watch.endHanging(start + seconds(60)).empty());
+  watch.onHealth(recording, start);
+  watch.onHealth(healthOf("redbee-other", other.pid()), start + seconds(60));
+  EXPECT_TRUE(watch.killHanging(start + seconds(60)).empty());
 }
 
 TEST(ProcessWatch, AProcessOfAnotherHostIsLeftAlone) {
   ProcessWatch watch;
   constexpr int kNobody = 0x3ffffff;  // above any pid_max
-  watch.hear(word("redbee-elsewhere", kNobody), Clock::now());
-  EXPECT_TRUE(watch.takeDeaths().empty());
+  watch.onHealth(healthOf("redbee-elsewhere", kNobody), Clock::now());
+  EXPECT_TRUE(watch.drainDeaths().empty());
 }
 
 }  // namespace
