@@ -1,6 +1,6 @@
-// soak_trial: flies the endless flight (tests/restarts) into a running stack for as long as it is told, and
-// judges what the processes say of themselves: does memory grow, do the frames take longer and longer, is
-// anything lost. Exit 1 where it does.
+// soak_trial: flies the endless flight (tests/restarts) into a running stack for a given time, and checks the
+// health messages: does memory grow, do the frames take longer and longer, is anything lost. Exit 1 where it
+// does.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -56,11 +56,11 @@ bool isSteady(const process_health_t& early, const process_health_t& late) {
   return !grows && !drifts;
 }
 
-bool judge(const std::vector<Point>& points) {
+bool isSteady(const std::vector<Point>& points) {
   const Point& early = points[1];
   const Point& late = points.back();
   bool steady = late.size() >= kStages.size();
-  if (!steady) std::printf("only %zu processes spoke\n", late.size());
+  if (!steady) std::printf("only %zu processes published their health\n", late.size());
   for (const auto& [process, health] : late) {
     const auto before = early.find(process);
     steady = steady && before != early.end() && before->second.pid == health.pid &&
@@ -87,15 +87,15 @@ bool soak(const Options& options) {
     points.push_back(newest);
     print(newest, elapsed / 60, player.frames());
   }
-  return judge(points);
+  return isSteady(points);
 }
 
 }  // namespace
 }  // namespace redbee::test
 
-// A tool for us: an exception ends it with its message. NOLINTNEXTLINE(bugprone-exception-escape)
+// For tests: an exception ends it with its message. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
-  CLI::App app("flies into a running stack for long and watches it");
+  CLI::App app("flies into a running stack for long and checks its health");
   redbee::test::Options options;
   app.add_option("--lcm-url", options.url)->required();
   app.add_option("--minutes", options.minutes)->check(CLI::PositiveNumber);

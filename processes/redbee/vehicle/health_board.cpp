@@ -54,7 +54,7 @@ Tone toneOf(HealthState state) {
   return Tone::kBad;
 }
 
-/// The stages in the order of the work, heard from or not, then other publishers by name.
+/// The stages in the order of the work, with or without messages, then other publishers by name.
 template <typename Entries>
 std::vector<std::string> inOrderOfWork(const Entries& entries) {
   std::vector<std::string> names;
@@ -103,9 +103,7 @@ BoardLine HealthBoard::row(const Entry& entry, Time now) {
   const process_health_t& h = entry.last;
   const auto state = static_cast<HealthState>(h.state);
   const bool silent = isSilent(entry, now);
-  const std::string shown =
-      silent ? "mute " + brief(static_cast<int64_t>(secondsBetween(entry.received, now))) + "s"
-             : toString(state);
+  const std::string shown = silent ? "silent" : toString(state);
   // A space separates a column from the next even where it is full.
   return {formatted("%-19.19s %-9.9s%7d %5s %5s %5s %5s %4s %4s %4s %4s", shortName(h.process).c_str(),
                     shown.c_str(), h.pid, brief(h.rate_in).c_str(), brief(h.rate_out).c_str(),

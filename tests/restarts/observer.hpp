@@ -1,4 +1,4 @@
-// Sees what the stack says while it is disturbed, and holds it against the truth.
+// Collects the output of the stack while it is disturbed, and compares it with the truth.
 #pragma once
 
 #include <algorithm>
@@ -18,23 +18,23 @@
 
 namespace redbee::test {
 
-/// By car, of the detections that lie on it: a car may be seen in pieces.
+/// Track numbers by car, of the detections that lie on it: a car may be seen in pieces.
 using Identities = std::map<int, std::set<int>>;
 
-/// One frame as the stack told it.
-struct Told {
-  std::chrono::steady_clock::time_point when;
+/// The stack's output for one frame.
+struct FrameResult {
+  std::chrono::steady_clock::time_point received;
   int8_t status = -1;
   double false_fraction = 0;  ///< of the image: called moving, background in truth
   double found_fraction = 0;  ///< of the movers' pixels
   Identities ids_of_car;
 };
 
-class Witness {
+class Observer {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Witness(Bus& bus, const LoopedFlight& flight) : flight_(flight) {
+  Observer(Bus& bus, const LoopedFlight& flight) : flight_(flight) {
     bus.subscribe<foreground_t>(
         "FOREGROUND", 64, [this](const foreground_t& m) { take(m); }, nullptr);
     bus.subscribe<detections_t>(
@@ -43,18 +43,18 @@ class Witness {
         "PROCESS_HEALTH", 256, [this](const process_health_t& m) { take(m); }, nullptr);
   }
 
-  const std::map<int64_t, Told>& frames() const { return frames_; }
-  /// Every process number that a process has had, oldest first.
+  const std::map<int64_t, FrameResult>& frames() const { return frames_; }
+  /// Every process id that a program has had, oldest first.
   const std::vector<int>& pids(const std::string& process) const {
     static const std::vector<int> none;
     const auto it = pids_.find(process);
     return it == pids_.end() ? none : it->second;
   }
   const std::map<std::string, process_health_t>& health() const { return health_; }
-  int deathsTold() const { return deaths_; }
+  int deathsReported() const { return deaths_; }
 
   /// The first frame after `utime` that has a trusted mask.
-  std::optional<std::pair<int64_t, Told>> firstGoodAfter(int64_t utime) const {
+  std::optional<std::pair<int64_t, FrameResult>> firstGoodAfter(int64_t utime) const {
     for (auto it = frames_.upper_bound(utime); it != frames_.end(); ++it) {
       if (it->second.status == 0) return *it;
     }
@@ -70,22 +70,22 @@ class Witness {
 
  private:
   void take(const foreground_t& m) {
-    Told& told = frames_[m.utime];
-    told.when = Clock::now();
-    told.status = m.status;
+    FrameResult& result = frames_[m.utime];
+    result.received = Clock::now();
+    result.status = m.status;
     const cv::Mat mask = cv::imdecode(m.mask, cv::IMREAD_GRAYSCALE);
     const cv::Mat truth = flight_.truth(flight_.frameAt(m.utime)).moving;
     if (mask.size() != truth.size()) return;
-    told.false_fraction = cv::countNonZero(mask & (truth == 0)) / static_cast<double>(mask.total());
-    told.found_fraction =
+    result.false_fraction = cv::countNonZero(mask & (truth == 0)) / static_cast<double>(mask.total());
+    result.found_fraction =
         cv::countNonZero(mask & truth) / std::max(1.0, static_cast<double>(cv::countNonZero(truth)));
   }
 
   void take(const detections_t& m) {
     for (const auto& [car, box] : flight_.truth(flight_.frameAt(m.utime)).cars) {
       for (const detection_t& d : m.detections) {
-        const cv::Rect told(d.x, d.y, d.width, d.height);
-        if (d.seen != 0 && (told & box).area() > 0.5 * told.area())
+        const cv::Rect detected(d.x, d.y, d.width, d.height);
+        if (d.seen != 0 && (detected & box).area() > 0.5 * detected.area())
           frames_[m.utime].ids_of_car[car].insert(d.id);
       }
     }
@@ -100,7 +100,7 @@ class Witness {
   }
 
   const LoopedFlight& flight_;
-  std::map<int64_t, Told> frames_;
+  std::map<int64_t, FrameResult> frames_;
   std::map<std::string, std::vector<int>> pids_;
   std::map<std::string, process_health_t> health_;
   int deaths_ = 0;
