@@ -13,7 +13,7 @@
 #include "redbee/detection/two_planes/two_plane_background.hpp"
 #include "redbee/imaging/guided_filter.hpp"
 #include "redbee/simulation/scenarios.hpp"
-#include "tests/detection/simulated_flight.hpp"
+#include "tests/support/detector_flight.hpp"
 
 namespace {
 
@@ -22,7 +22,7 @@ using namespace redbee;
 constexpr int kFrames = 30;
 
 const std::vector<SegmentationInput>& inputs() {
-  static const testing::RecordedFlight flight(simulation::twoPlanes(1), kFrames, simulation::kFacadePatch);
+  static const test::DetectorFlight flight(simulation::twoPlanes(1), kFrames, simulation::kFacadePatch);
   cv::setNumThreads(1);
   return flight.inputs;
 }

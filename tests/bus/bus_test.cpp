@@ -7,13 +7,12 @@
 
 #include "tests/bus/sample_messages.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::sample;
 
-class BusTest : public ::testing::Test {
+class BusTest : public testing::Test {
  protected:
   std::unique_ptr<Bus> bus_ = makeLcmBus("memq://");
   std::vector<int64_t> heard_;
@@ -31,14 +30,14 @@ class BusTest : public ::testing::Test {
   }
 };
 
-TEST_F(BusTest, handsOutEverythingThatWaitsInOrder) {
+TEST_F(BusTest, DeliversEverythingThatWaitsInOrder) {
   hear("A");
   for (int i = 0; i < 100; ++i) say("A", i);
   EXPECT_EQ(bus_->handle(milliseconds(0)), 100);
-  EXPECT_EQ(heard_, testing::counted<int64_t>(100, 0));
+  EXPECT_EQ(heard_, counted<int64_t>(100, 0));
 }
 
-TEST_F(BusTest, drainsWhatHandlersPublish) {
+TEST_F(BusTest, DrainsWhatHandlersPublish) {
   hear("B");
   bus_->subscribe<altimeter_t>("A", 30, [this](const altimeter_t& message) { say("B", message.utime + 1); },
                                {});
@@ -47,12 +46,12 @@ TEST_F(BusTest, drainsWhatHandlersPublish) {
   EXPECT_EQ(heard_, std::vector<int64_t>{2});
 }
 
-TEST_F(BusTest, nothingWaitingIsNoMessage) {
+TEST_F(BusTest, NothingWaitingIsNoMessage) {
   hear("A");
   EXPECT_EQ(bus_->handle(milliseconds(1)), 0);
 }
 
-TEST_F(BusTest, channelIsANameAndNoPattern) {
+TEST_F(BusTest, AChannelIsANameAndNoPattern) {
   hear("A.B");
   say("AxB", 1);
   say("A.B", 2);
@@ -61,7 +60,7 @@ TEST_F(BusTest, channelIsANameAndNoPattern) {
   EXPECT_EQ(heard_, std::vector<int64_t>{2});
 }
 
-TEST_F(BusTest, damagedMessageIsCountedAndTheNextArrives) {
+TEST_F(BusTest, ADamagedMessageIsCountedAndTheNextArrives) {
   hear("A");
   bus_->publish("A", std::vector<uint8_t>{1, 2, 3});
   say("A", 5);
@@ -70,7 +69,7 @@ TEST_F(BusTest, damagedMessageIsCountedAndTheNextArrives) {
   EXPECT_EQ(heard_, std::vector<int64_t>{5});
 }
 
-TEST_F(BusTest, whatAHandlerThrowsGoesNoFurther) {
+TEST_F(BusTest, AnExceptionOfAHandlerGoesNoFurther) {
   bus_->subscribe("A", 30, [](const uint8_t*, int) { throw std::runtime_error("broken handler"); });
   bus_->subscribe("A", 30, [](const uint8_t*, int) { throw 1; });
   hear("A");
@@ -81,16 +80,16 @@ TEST_F(BusTest, whatAHandlerThrowsGoesNoFurther) {
   EXPECT_EQ(heard_.size(), 2U);
 }
 
-TEST_F(BusTest, impossibleChannelsAndSizesAreRefused) {
+TEST_F(BusTest, ImpossibleChannelsAndSizesAreRefused) {
   EXPECT_THROW(say("", 1), std::invalid_argument);
   EXPECT_THROW(say(std::string(64, 'x'), 1), std::invalid_argument);
   EXPECT_THROW(hear(""), std::invalid_argument);
   EXPECT_THROW(bus_->publish("A", std::vector<uint8_t>((size_t{64} << 20) + 1)), std::length_error);
 }
 
-TEST(LcmBus, unknownProviderIsAnError) { EXPECT_THROW(makeLcmBus("nonsense://"), std::runtime_error); }
+TEST(LcmBus, AnUnknownProviderIsAnError) { EXPECT_THROW(makeLcmBus("nonsense://"), std::runtime_error); }
 
-TEST(LcmBus, policyNoneAllowsOnlyMemory) {
+TEST(LcmBus, PolicyNoneAllowsOnlyMemory) {
   const char* before = std::getenv("REDBEE_NETWORK_POLICY");
   const std::string kept = before != nullptr ? before : "";
   setenv("REDBEE_NETWORK_POLICY", "none", 1);
@@ -100,4 +99,4 @@ TEST(LcmBus, policyNoneAllowsOnlyMemory) {
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

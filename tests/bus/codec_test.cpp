@@ -32,16 +32,14 @@ void note(size_t size) {
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using testing::sample;
 
 /// A decoder may allocate a small multiple of the bytes it was given.
 size_t allowedAllocation(size_t bytes) { return 16 * bytes + 256; }
 
 template <typename Message>
-class CodecTest : public ::testing::Test {
+class CodecTest : public testing::Test {
  protected:
   static bool decodes(const std::vector<uint8_t>& data) {
     Message message;
@@ -57,9 +55,9 @@ class CodecTest : public ::testing::Test {
   }
 };
 
-using AllTypes = ::testing::Types<image_t, image_metadata_t, ins_t, altimeter_t, detection_t, detections_t,
-                                  foreground_t, inertial_homography_t, filter_snapshot_t, visual_homography_t,
-                                  fused_homography_t, process_health_t>;
+using AllTypes = testing::Types<image_t, image_metadata_t, ins_t, altimeter_t, detection_t, detections_t,
+                                foreground_t, inertial_homography_t, filter_snapshot_t, visual_homography_t,
+                                fused_homography_t, process_health_t>;
 
 struct MessageName {
   template <typename Message>
@@ -74,7 +72,7 @@ void overwrite(std::vector<uint8_t>& data, size_t at, int32_t value) {
     data[at + i] = static_cast<uint8_t>(static_cast<uint32_t>(value) >> (24 - 8 * i));
 }
 
-TYPED_TEST(CodecTest, whatIsEncodedDecodesToTheSame) {
+TYPED_TEST(CodecTest, WhatIsEncodedDecodesToTheSame) {
   const auto data = encodeMessage(sample<TypeParam>());
   TypeParam decoded;
   ASSERT_TRUE(decodeMessage(data.data(), static_cast<int>(data.size()), decoded));
@@ -82,9 +80,9 @@ TYPED_TEST(CodecTest, whatIsEncodedDecodesToTheSame) {
   EXPECT_NE(encodeMessage(TypeParam{}), data) << "the sample says nothing";
 }
 
-TYPED_TEST(CodecTest, emptyMessageDecodes) { EXPECT_TRUE(this->decodes(encodeMessage(TypeParam{}))); }
+TYPED_TEST(CodecTest, AnEmptyMessageDecodes) { EXPECT_TRUE(this->decodes(encodeMessage(TypeParam{}))); }
 
-TYPED_TEST(CodecTest, everyTruncationIsRefused) {
+TYPED_TEST(CodecTest, RefusesEveryTruncation) {
   const auto data = encodeMessage(sample<TypeParam>());
   for (size_t size = 0; size < data.size(); ++size) {
     // A copy of just this size, so that a sanitizer sees a read beyond it.
@@ -94,13 +92,13 @@ TYPED_TEST(CodecTest, everyTruncationIsRefused) {
   }
 }
 
-TYPED_TEST(CodecTest, surplusByteIsRefused) {
+TYPED_TEST(CodecTest, RefusesASurplusByte) {
   auto data = encodeMessage(sample<TypeParam>());
   data.push_back(0);
   EXPECT_FALSE(this->decodesCheaply(data));
 }
 
-TYPED_TEST(CodecTest, otherHashIsRefused) {
+TYPED_TEST(CodecTest, RefusesAnotherHash) {
   for (size_t i = 0; i < 8; ++i) {
     auto data = encodeMessage(sample<TypeParam>());
     data[i] ^= 1;
@@ -110,7 +108,7 @@ TYPED_TEST(CodecTest, otherHashIsRefused) {
 
 // Wherever a length may stand: what decodes must encode to the same bytes, all else is refused, and neither
 // costs much.
-TYPED_TEST(CodecTest, lyingLengthAnywhereCostsNothing) {
+TYPED_TEST(CodecTest, AFalseLengthAnywhereAllocatesNothing) {
   const auto data = encodeMessage(sample<TypeParam>());
   const int32_t lies[] = {-1,
                           std::numeric_limits<int32_t>::min(),
@@ -132,7 +130,7 @@ TYPED_TEST(CodecTest, lyingLengthAnywhereCostsNothing) {
   }
 }
 
-TYPED_TEST(CodecTest, randomBytesBehindTheHashCostNothing) {
+TYPED_TEST(CodecTest, RandomBytesBehindTheHashAllocateNothing) {
   std::mt19937 random(7);
   const auto data = encodeMessage(sample<TypeParam>());
   for (int trial = 0; trial < 2000; ++trial) {
@@ -166,7 +164,7 @@ void expectRefusedLengths(const Lengths& lengths) {
   }
 }
 
-TEST(Codec, everyCorruptedLengthIsRefused) {
+TEST(Codec, RefusesEveryCorruptedLength) {
   // Sizes in bytes: hash 8, then the members in the order of the .lcm file.
   expectRefusedLengths<image_t>({{8 + 24, 8 + 28 + 12, 8 + 28 + 12 + 4, 8 + 28 + 12 + 4 + 4 + 9}});
   expectRefusedLengths<image_metadata_t>({{8, 8 + 4 + 9}});
@@ -180,7 +178,7 @@ TEST(Codec, everyCorruptedLengthIsRefused) {
   expectRefusedLengths<process_health_t>({{8 + 8, 8 + 8 + 4 + 12 + 9}});
 }
 
-TEST(Codec, countThatDisagreesWithItsArrayIsNotEncoded) {
+TEST(Codec, DoesNotEncodeACountThatDisagreesWithItsArray) {
   auto image = sample<image_t>();
   image.size += 1;
   EXPECT_THROW(encodeMessage(image), std::invalid_argument);
@@ -192,16 +190,16 @@ TEST(Codec, countThatDisagreesWithItsArrayIsNotEncoded) {
   EXPECT_THROW(encodeMessage(visual), std::invalid_argument);
 }
 
-TEST(Codec, stringWithANulIsNotEncoded) {
+TEST(Codec, DoesNotEncodeAStringWithANul) {
   auto health = sample<process_health_t>();
   health.message = std::string("a\0b", 3);
   EXPECT_THROW(encodeMessage(health), std::invalid_argument);
 }
 
-TEST(Codec, hashesOfTypesSharedWithOtherVehiclesStayFixed) {
+TEST(Codec, HashesOfTypesSharedWithOtherVehiclesStayFixed) {
   EXPECT_EQ(static_cast<uint64_t>(image_t::getHash()), 0x14739ffe13d5f5f0U);
   EXPECT_EQ(static_cast<uint64_t>(ins_t::getHash()), 0x88a7df61422b0840U);
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

@@ -106,7 +106,7 @@ TEST(Image, OneBitAPixelIsEnoughForAMask) {
   EXPECT_LT(png.size(), encodePng(mask).size());
 }
 
-TEST(Image, HeaderOfAJpegTellsItsSize) {
+TEST(Image, HeaderOfAJpegHasItsSize) {
   const image_t jpeg = jpegMessage(7, ramp(), 90);
   EXPECT_EQ(jpegSize(jpeg.data.data(), jpeg.data.size()), cv::Size(64, 48));
   for (size_t cut = 0; cut < 40; ++cut) EXPECT_FALSE(jpegSize(jpeg.data.data(), cut).has_value()) << cut;

@@ -11,7 +11,7 @@
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/ins_t.hpp"
 
-namespace redbee::testing {
+namespace redbee::test {
 
 template <typename Number>
 std::vector<Number> counted(size_t n, int start) {
@@ -156,4 +156,4 @@ inline process_health_t sample() {
   return message;
 }
 
-}  // namespace redbee::testing
+}  // namespace redbee::test

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "tests/calibration/simulated_recording.hpp"
+#include "tests/support/calibration_recording.hpp"
 
 namespace redbee::calibration {
 namespace {
@@ -17,16 +17,19 @@ namespace {
 using simulation::Channel;
 using simulation::Trajectory;
 using simulation::TrajectoryParameters;
+using test::RecordingOptions;
+using test::SimulatedRecording;
+using test::simulateRecording;
 
 double rotationError_deg(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return logSO3(a * b.transpose()).norm() / kDegree;
 }
 
-SimulationChoices briefly() {
-  SimulationChoices choices;
-  choices.duration_s = 6;
-  choices.grid_px = 40;
-  return choices;
+RecordingOptions briefly() {
+  RecordingOptions options;
+  options.duration_s = 6;
+  options.grid_px = 40;
+  return options;
 }
 
 /// Squared errors over squared deviations, added up over recordings.
@@ -46,16 +49,16 @@ unsigned numberOfSeeds() {
   return number != nullptr ? static_cast<unsigned>(std::max(1, std::atoi(number))) : 5U;
 }
 
-TEST(Calibration, simulatedFlightsWithinTheLimitsAndTheirDeviations) {
+TEST(Calibration, SimulatedFlightsStayWithinTheLimitsAndTheirDeviations) {
   const unsigned seeds = numberOfSeeds();
   double worst_rotation = 0, worst_shift = 0, worst_height = 0;
   Consistency rotation, shift, height, gyro, accel;
   for (unsigned seed = 1; seed <= seeds; ++seed) {
-    SimulationChoices choices;
-    choices.duration_s = 8;
-    choices.grid_px = 40;
-    choices.outlier_ratio = 0.05;
-    const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed, choices);
+    RecordingOptions options;
+    options.duration_s = 8;
+    options.grid_px = 40;
+    options.outlier_ratio = 0.05;
+    const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed, options);
     const CalibrationResult result = calibrate(r.input);
     const InertialExtrinsics& estimated = result.values.estimated;
     worst_rotation = std::max(worst_rotation, rotationError_deg(estimated.R_CI, r.truth.R_CI));
@@ -89,14 +92,14 @@ TEST(Calibration, simulatedFlightsWithinTheLimitsAndTheirDeviations) {
 
 /// Errors that all points of a quarter of the image share do not average out over the points; the residuals
 /// show them.
-TEST(Calibration, deviationsGrowWithErrorsThatNeighbouringPointsShare) {
+TEST(Calibration, DeviationsGrowWithErrorsThatNeighbouringPointsShare) {
   Consistency rotation;
   for (unsigned seed = 1; seed <= 2; ++seed) {
-    SimulationChoices choices;
-    choices.duration_s = 8;
-    choices.grid_px = 40;
-    choices.common_noise_px = 0.1;
-    const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed, choices);
+    RecordingOptions options;
+    options.duration_s = 8;
+    options.grid_px = 40;
+    options.common_noise_px = 0.1;
+    const SimulatedRecording r = simulateRecording(Trajectory::calibration(seed, 6), seed, options);
     const CalibrationResult result = calibrate(r.input);
     const Eigen::Vector3d turn = logSO3(result.values.estimated.R_CI * r.truth.R_CI.transpose()) / kDegree;
     for (int i = 0; i < 3; ++i)
@@ -106,14 +109,14 @@ TEST(Calibration, deviationsGrowWithErrorsThatNeighbouringPointsShare) {
   EXPECT_LT(rotation.rms(), 1.6);
 }
 
-TEST(Calibration, aNominalMountingAQuarterTurnOffDoesNotMatter) {
+TEST(Calibration, ANominalMountingAQuarterTurnOffDoesNotMatter) {
   SimulatedRecording r = simulateRecording(Trajectory::calibration(11, 6), 11, briefly());
   r.input.nominal.R_CI = Eigen::Matrix3d::Identity();
   const CalibrationResult result = calibrate(r.input);
   EXPECT_LT(rotationError_deg(result.values.kept.R_CI, r.truth.R_CI), 0.1);
 }
 
-TEST(Calibration, nothingIsRefusedWhereEverythingMoves) {
+TEST(Calibration, NothingIsRefusedWhereEverythingMoves) {
   const SimulatedRecording r = simulateRecording(Trajectory::calibration(12, 6), 12, briefly());
   const CalibrationResult result = calibrate(r.input);
   for (const ParameterReport& report : result.parameters) {
@@ -131,7 +134,7 @@ TrajectoryParameters straightFlight(double speed) {
   return p;
 }
 
-TEST(Calibration, hoverRefusesRotationTimeShiftAndHeight) {
+TEST(Calibration, HoverRefusesRotationTimeShiftAndHeight) {
   const SimulatedRecording r = simulateRecording(Trajectory(straightFlight(0)), 21, briefly());
   const CalibrationResult result = calibrate(r.input);
   for (const char* name : {"camera.timeshift_s", "plane.height_m", "camera.R_CI", "camera.p_IC"}) {
@@ -143,24 +146,24 @@ TEST(Calibration, hoverRefusesRotationTimeShiftAndHeight) {
   EXPECT_EQ(result.values.kept.start_height_m, r.input.nominal.start_height_m);
 }
 
-TEST(Calibration, constantVelocityHidesTheHeightUntilAnAltimeterOrAPersonTellsIt) {
+TEST(Calibration, ConstantVelocityHidesTheHeightUntilAnAltimeterOrAPersonGivesIt) {
   SimulatedRecording blind = simulateRecording(Trajectory(straightFlight(1.5)), 22, briefly());
   EXPECT_EQ(calibrate(blind.input).parameter("plane.height_m").verdict, Verdict::kRefused);
 
-  SimulatedRecording told = blind;
-  told.input.start_height = MeasuredHeight{blind.truth.start_height_m, 0.05};
-  EXPECT_EQ(calibrate(told.input).parameter("plane.height_m").verdict, Verdict::kFound);
+  SimulatedRecording given = blind;
+  given.input.start_height = MeasuredHeight{blind.truth.start_height_m, 0.05};
+  EXPECT_EQ(calibrate(given.input).parameter("plane.height_m").verdict, Verdict::kFound);
 
-  SimulationChoices choices = briefly();
-  choices.altimeter = true;
-  const SimulatedRecording measured = simulateRecording(Trajectory(straightFlight(1.5)), 22, choices);
+  RecordingOptions options = briefly();
+  options.altimeter = true;
+  const SimulatedRecording measured = simulateRecording(Trajectory(straightFlight(1.5)), 22, options);
   const CalibrationResult result = calibrate(measured.input);
   EXPECT_EQ(result.parameter("plane.height_m").verdict, Verdict::kFound);
   EXPECT_NEAR(result.values.kept.start_height_m, measured.truth.start_height_m,
               0.02 * measured.truth.start_height_m);
 }
 
-TEST(Calibration, turningAboutOneAxisDoesNotShowTheRotation) {
+TEST(Calibration, TurningAboutOneAxisDoesNotShowTheRotation) {
   TrajectoryParameters p = straightFlight(0);
   p.yaw_pitch_roll[0].sinusoids = {{0.4, 0.4, 0}, {0.1, 0.9, 1}};
   const SimulatedRecording r = simulateRecording(Trajectory(p), 23, briefly());
@@ -170,7 +173,7 @@ TEST(Calibration, turningAboutOneAxisDoesNotShowTheRotation) {
   EXPECT_LT(result.excitation.rotation(1), 0.1 * result.excitation.rotation(0));
 }
 
-TEST(Calibration, aTargetInsteadOfGround) {
+TEST(Calibration, ATargetReplacesTheGround) {
   SimulatedRecording r = simulateRecording(Trajectory::calibration(31, 1.2), 31);
   r.input.ground.clear();
   const Trajectory trajectory = Trajectory::calibration(31, 1.2);
@@ -214,7 +217,7 @@ std::string complaintAbout(const CalibrationInput& input) {
   return "";
 }
 
-TEST(Calibration, saysWhyARecordingIsOfNoUse) {
+TEST(Calibration, ReportsWhyARecordingIsUnusable) {
   const SimulatedRecording whole = simulateRecording(Trajectory::calibration(1, 6), 1);
   CalibrationInput input = whole.input;
   input.imu.clear();

@@ -69,21 +69,21 @@ PreintegrationCost imuCost() {
   return cost;
 }
 
-TEST(CostFunctions, groundHomographyDerivativesAgreeWithNumericOnes) {
+TEST(CostFunctions, GroundHomographyDerivativesAgreeWithNumericOnes) {
   expectDerivatives<GroundHomographyCost, 4, 3, 3, 4, 3, 3, 4, 3, 1, 2>(
       groundCost(), {q_a, p_a, v_a, q_b, p_b, v_b, q_CI, p_IC, shift, tilt});
 }
 
-TEST(CostFunctions, preintegrationDerivativesAgreeWithNumericOnes) {
+TEST(CostFunctions, PreintegrationDerivativesAgreeWithNumericOnes) {
   expectDerivatives<PreintegrationCost, 4, 3, 3, 4, 3, 3, 3, 3>(
       imuCost(), {q_a, p_a, v_a, q_b, p_b, v_b, gyro_bias, accel_bias});
 }
 
-TEST(CostFunctions, altitudeDerivativesAgreeWithNumericOnes) {
+TEST(CostFunctions, AltitudeDerivativesAgreeWithNumericOnes) {
   expectDerivatives<AltitudeCost, 4, 3, 3, 3, 2>({5.1, 0.05, 0.012}, {q_a, p_a, v_a, p_IC, tilt});
 }
 
-TEST(CostFunctions, targetPoseDerivativesAgreeWithNumericOnes) {
+TEST(CostFunctions, TargetPoseDerivativesAgreeWithNumericOnes) {
   TargetPoseCost cost;
   cost.q_CT = Eigen::Quaterniond(expSO3({0.3, 0.2, -0.1}));
   cost.p_CT = {0.1, 0.2, 1.5};
@@ -92,7 +92,7 @@ TEST(CostFunctions, targetPoseDerivativesAgreeWithNumericOnes) {
   expectDerivatives<TargetPoseCost, 4, 3, 3, 4, 3, 1, 4>(cost, {q_a, p_a, v_a, q_CI, p_IC, shift, q_b});
 }
 
-TEST(CostFunctions, priorDerivativesAgreeWithNumericOnes) {
+TEST(CostFunctions, PriorDerivativesAgreeWithNumericOnes) {
   const Eigen::Quaterniond expected(expSO3({0.3, 0.2, -0.1}));
   expectDerivatives<RotationPriorCost, 4>({expected, 0.1}, {q_a});
   expectDerivatives<YawGaugeCost, 4>({expected, 0.1}, {q_a});
@@ -100,7 +100,7 @@ TEST(CostFunctions, priorDerivativesAgreeWithNumericOnes) {
   expectDerivatives<BiasWalkCost, 3, 3>({0.1}, {gyro_bias, accel_bias});
 }
 
-TEST(CostFunctions, groundHomographyResidualVanishesForThePlanesOwnHomography) {
+TEST(CostFunctions, GroundHomographyResidualVanishesForThePlanesOwnHomography) {
   GroundHomographyCost cost = groundCost();
   const CameraAt<double> a = cameraAt(q_a, p_a, v_a, cost.rate_a, q_CI, p_IC, shift[0]);
   const CameraAt<double> b = cameraAt(q_b, p_b, v_b, cost.rate_b, q_CI, p_IC, shift[0]);
@@ -117,7 +117,7 @@ TEST(CostFunctions, groundHomographyResidualVanishesForThePlanesOwnHomography) {
   EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-10);
 }
 
-TEST(CostFunctions, groundHomographyRefusesACameraBelowTheGround) {
+TEST(CostFunctions, GroundHomographyRefusesACameraBelowTheGround) {
   const double below[] = {0, 0, -1};
   Vector8d residual;
   EXPECT_FALSE(groundCost()(q_a, below, v_a, q_b, p_b, v_b, q_CI, p_IC, shift, tilt, residual.data()));

@@ -8,17 +8,20 @@
 #include "redbee/calibration/initial_trajectory.hpp"
 #include "redbee/calibration/rotation_alignment.hpp"
 #include "redbee/calibration/target_pose.hpp"
-#include "tests/calibration/simulated_recording.hpp"
+#include "tests/support/calibration_recording.hpp"
 
 namespace redbee::calibration {
 namespace {
 
 using simulation::Trajectory;
+using test::RecordingOptions;
+using test::SimulatedRecording;
+using test::simulateRecording;
 
-SimulationChoices briefly(double duration_s) {
-  SimulationChoices choices;
-  choices.duration_s = duration_s;
-  return choices;
+RecordingOptions briefly(double duration_s) {
+  RecordingOptions options;
+  options.duration_s = duration_s;
+  return options;
 }
 
 std::vector<ImuSample> perfectImu(const Trajectory& trajectory, double end_s) {
@@ -27,7 +30,7 @@ std::vector<ImuSample> perfectImu(const Trajectory& trajectory, double end_s) {
   return simulation::simulateImu(trajectory, 0, end_s, 0, parameters);
 }
 
-TEST(ImuHistory, rotationBetweenAnyTimesIsTheTrajectorys) {
+TEST(ImuHistory, RotationBetweenAnyTimesIsTheTrajectorys) {
   const Trajectory trajectory = Trajectory::calibration(3, 6);
   const ImuHistory imu(perfectImu(trajectory, 3), 0);
   const double a = 0.50123, b = 2.00071;
@@ -35,7 +38,7 @@ TEST(ImuHistory, rotationBetweenAnyTimesIsTheTrajectorys) {
   EXPECT_LT(logSO3(imu.rotation(a, b) * expected.transpose()).norm(), 2e-5);
 }
 
-TEST(ImuHistory, sortsLateSamplesAndTellsHoles) {
+TEST(ImuHistory, SortsLateSamplesAndReportsGaps) {
   std::vector<ImuSample> samples = perfectImu(Trajectory::calibration(1, 6), 2);
   std::swap(samples[10], samples[20]);
   samples[30].gyro.x() = std::nan("");
@@ -47,7 +50,7 @@ TEST(ImuHistory, sortsLateSamplesAndTellsHoles) {
   EXPECT_FALSE(whole.covers(0.1, 2.5, 0.1));
 }
 
-TEST(Preintegration, carriesTheStateFromOneTimeToTheOther) {
+TEST(Preintegration, CarriesTheStateFromOneTimeToTheOther) {
   const Trajectory trajectory = Trajectory::calibration(2, 6);
   const ImuHistory imu(perfectImu(trajectory, 2), 0);
   const auto a = trajectory.at(0.7011), b = trajectory.at(1.2043);
@@ -59,7 +62,7 @@ TEST(Preintegration, carriesTheStateFromOneTimeToTheOther) {
             5e-4);
 }
 
-TEST(Preintegration, firstOrderBiasCorrectionReplacesSummingUpAnew) {
+TEST(Preintegration, FirstOrderBiasCorrectionReplacesIntegratingAgain) {
   const ImuHistory imu(perfectImu(Trajectory::calibration(2, 6), 2), 0);
   const Bias bias{{0.003, -0.002, 0.004}, {0.03, -0.02, 0.05}};
   const Preintegration without = preintegrate(imu, 0.5, 0.75, {}, {});
@@ -71,7 +74,7 @@ TEST(Preintegration, firstOrderBiasCorrectionReplacesSummingUpAnew) {
             1e-6);
 }
 
-TEST(HomographyRotation, oneCandidateIsTheTrueRotation) {
+TEST(HomographyRotation, OneCandidateIsTheTrueRotation) {
   const SimulatedRecording r = simulateRecording(Trajectory::calibration(1, 6), 1, briefly(1));
   const Eigen::Matrix3d K = Camera(r.input.camera).K();
   const PlaneMotion motion = simulation::exactMotion(Trajectory::calibration(1, 6), r.truth, 0.4, 0.6);
@@ -82,7 +85,7 @@ TEST(HomographyRotation, oneCandidateIsTheTrueRotation) {
   EXPECT_LT(best, 1e-6);
 }
 
-TEST(HandEye, findsRotationAndBiasAmongOutliers) {
+TEST(HandEye, FindsRotationAndBiasAmongOutliers) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const Eigen::Matrix3d R_CI = expSO3({1.1, -0.7, 0.4});
@@ -99,7 +102,7 @@ TEST(HandEye, findsRotationAndBiasAmongOutliers) {
   EXPECT_LT((solution.gyro_bias - bias).norm(), 1e-3);
 }
 
-TEST(HandEye, turningAboutOneAxisLeavesTheSecondSingularValueAtZero) {
+TEST(HandEye, TurningAboutOneAxisLeavesTheSecondSingularValueAtZero) {
   std::vector<RatePair> pairs;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d rate = std::sin(0.3 * i) * Eigen::Vector3d(0.1, 0.9, -0.2);
@@ -110,7 +113,7 @@ TEST(HandEye, turningAboutOneAxisLeavesTheSecondSingularValueAtZero) {
   EXPECT_LT(solution.excitation(1), 1e-6);
 }
 
-TEST(RotationAlignment, findsTimeShiftAndRotationWithoutAStartingValue) {
+TEST(RotationAlignment, FindsTimeShiftAndRotationWithoutAStartingValue) {
   SimulatedRecording r = simulateRecording(Trajectory::calibration(7, 6), 7, briefly(8));
   const ImuHistory imu(r.input.imu, r.input.frames.front());
   std::vector<RotationObservation> observations;
@@ -133,7 +136,7 @@ TEST(RotationAlignment, findsTimeShiftAndRotationWithoutAStartingValue) {
   EXPECT_NEAR(alignment.timeshift_s, r.truth.timeshift_s, 1e-3);
 }
 
-TEST(TranslationOverHeight, inverseOfThePlaneHomography) {
+TEST(TranslationOverHeight, InvertsThePlaneHomography) {
   const SimulatedRecording r = simulateRecording(Trajectory::calibration(1, 6), 1, briefly(1));
   const Eigen::Matrix3d K = Camera(r.input.camera).K();
   const PlaneMotion motion = simulation::exactMotion(Trajectory::calibration(1, 6), r.truth, 0.4, 0.6);
@@ -153,7 +156,7 @@ TargetView viewOfGrid(const Camera& camera, const Eigen::Matrix3d& R_CT, const E
   return view;
 }
 
-TEST(TargetPose, isFoundThroughDistortionAndRefusedWhenCornersAreWrong) {
+TEST(TargetPose, IsFoundThroughDistortionAndRefusedWhenCornersAreWrong) {
   const Camera camera({752, 480, 458.6, 457.3, 367.2, 248.4, {-0.283, 0.074, 0.0002, 0.00002, 0}});
   const Eigen::Matrix3d R_CT = expSO3({0.3, -0.2, 0.8});
   const Eigen::Vector3d p_CT(-0.2, -0.1, 1.2);

@@ -1,15 +1,17 @@
-// No member of a parameter struct may be missing from the configuration.
+// Every member of a parameter struct has a key, and every key fills a member of its own.
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <optional>
+#include <sstream>
 
 #include "redbee/configuration/configuration.hpp"
 #include "tests/configuration/field_count.hpp"
+#include "tests/support/camera.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using testing::fieldCount;
 
 /// Keys directly in a section, not those of its sections.
 size_t keysIn(const std::string& section) {
@@ -19,7 +21,7 @@ size_t keysIn(const std::string& section) {
   }));
 }
 
-TEST(ConfigurationCoverage, everyParameterHasAKey) {
+TEST(ConfigurationCoverage, EveryParameterHasAKey) {
   EXPECT_EQ(keysIn("segmentation"), fieldCount<SegmentationParameters>());
   EXPECT_EQ(keysIn("visual.tracker"), fieldCount<TrackerParameters>());
   EXPECT_EQ(keysIn("visual.ransac"), fieldCount<RansacParameters>());
@@ -28,7 +30,7 @@ TEST(ConfigurationCoverage, everyParameterHasAKey) {
   EXPECT_EQ(keysIn("waits"), fieldCount<WaitParameters>());
 }
 
-TEST(ConfigurationCoverage, everyParameterBesideANestedStructHasAKey) {
+TEST(ConfigurationCoverage, EveryParameterBesideANestedStructHasAKey) {
   const size_t nested_visual = 2;  // tracker, ransac
   EXPECT_EQ(keysIn("visual"), fieldCount<VisualParameters>() - nested_visual);
   // The biases stand with the IMU's noise; the extrinsics with camera and plane.
@@ -39,5 +41,79 @@ TEST(ConfigurationCoverage, everyParameterBesideANestedStructHasAKey) {
   EXPECT_EQ(keysIn("imu"), presence + biases + fieldCount<ImuNoise>() + fieldCount<ImuSampleLimits>());
 }
 
+Configuration validConfiguration() {
+  Configuration configuration;
+  configuration.camera = intrinsics();
+  return configuration;
+}
+
+std::vector<std::string> emittedLines(const Configuration& configuration) {
+  std::istringstream text(emitYaml(configuration));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+YAML::Node valueOf(const Configuration& configuration, const std::string& key) {
+  YAML::Node node = YAML::Load(emitYaml(configuration));
+  std::istringstream names(key);
+  for (std::string name; std::getline(names, name, '.');) node.reset(node[name]);
+  return node;
+}
+
+bool sameValue(const YAML::Node& a, const YAML::Node& b) {
+  if (a.IsSequence()) {
+    return b.IsSequence() && a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), sameValue);
+  }
+  double x = 0;
+  double y = 0;
+  if (YAML::convert<double>::decode(a, x) && YAML::convert<double>::decode(b, y)) return x == y;
+  return a.Scalar() == b.Scalar();
+}
+
+/// A value of every form that a key may have; each key refuses those that are not of its own.
+const std::vector<std::string>& values() {
+  // clang-format off
+  static const std::vector<std::string> all = {
+      "true", "false", "33", "3", "2", "4", "0.375", "0.625", "ANOTHER",
+      "paper", "propagated", "two_planes", "parallax",
+      "[0.125, 0.25, 0.375]", "[0.125, 0.25, 0.375, 0.5, 0.625]",
+      "[0, -1, 0, 1, 0, 0, 0, 0, 1]", "[1, 2, 3, 4, 5, 6, 7, 8]"};
+  // clang-format on
+  return all;
+}
+
+/// The configuration with a new value for this key, and the value.
+std::optional<std::pair<Configuration, std::string>> withNewValue(const std::string& key) {
+  for (const std::string& value : values()) {
+    Configuration changed = validConfiguration();
+    if (sameValue(valueOf(changed, key), YAML::Load(value))) continue;
+    try {
+      applySetting(changed, key, value);
+      return std::make_pair(changed, value);
+    } catch (const ConfigurationError&) {
+      continue;
+    }
+  }
+  return std::nullopt;
+}
+
+TEST(ConfigurationCoverage, ANewValueChangesExactlyOneLine) {
+  const std::vector<std::string> before = emittedLines(validConfiguration());
+  for (const std::string& key : configurationKeys()) {
+    const auto changed = withNewValue(key);
+    ASSERT_TRUE(changed) << key << ": no value of this list is a new one";
+    const std::vector<std::string> after = emittedLines(changed->first);
+    ASSERT_EQ(after.size(), before.size()) << key;
+    std::vector<std::string> lines;
+    for (size_t i = 0; i < after.size(); ++i) {
+      if (after[i] != before[i]) lines.push_back(after[i]);
+    }
+    EXPECT_EQ(lines.size(), 1U) << key << ": " << testing::PrintToString(lines);
+    EXPECT_TRUE(sameValue(valueOf(changed->first, key), YAML::Load(changed->second)))
+        << key << ": " << changed->second << " is read back as " << valueOf(changed->first, key);
+  }
+}
+
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

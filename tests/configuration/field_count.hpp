@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace redbee::testing {
+namespace redbee::test {
 
 /// Turns into whatever a member is initialised with.
 struct Anything {
@@ -31,4 +31,4 @@ constexpr size_t fieldCount() {
   }
 }
 
-}  // namespace redbee::testing
+}  // namespace redbee::test

@@ -6,12 +6,11 @@
 
 #include "redbee/files/progress.hpp"
 #include "redbee/ins_t.hpp"
-#include "tests/support/scratch.hpp"
+#include "tests/support/log_events.hpp"
+#include "tests/support/scratch_folder.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using namespace testing;  // NOLINT: the test's own helpers
 
 std::vector<uint8_t> payload(int size, int seed) {
   std::vector<uint8_t> data(static_cast<size_t>(size));
@@ -122,7 +121,7 @@ TEST(LogTest, AnOlderLogSurvivesAnAbandonedOne) {
   EXPECT_EQ(readEvents(folder / "f.lcm").size(), 10u);
 }
 
-TEST(LogTest, AFullDiskIsSaid) {
+TEST(LogTest, AFullDiskIsReported) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
   const ScratchFolder folder;
   fs::create_symlink("/dev/full", folder / "f.lcm.partial");
@@ -202,13 +201,13 @@ TEST(LogTest, WhatIsNoLogIsRefused) {
 }
 
 TEST(ProgressTest, ShortWorkPrintsNothing) {
-  ::testing::internal::CaptureStderr();
+  testing::internal::CaptureStderr();
   {
     Progress progress("short", "frames");
     for (int k = 0; k < 100; ++k) progress.update(k, 100);
   }
-  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

@@ -6,7 +6,7 @@
 
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
-#include "tests/support/scratch.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace redbee {
 namespace {
@@ -28,7 +28,7 @@ std::vector<int64_t> timesIn(const std::filesystem::path& file) {
 }
 
 TEST(SplitLog, EveryMessageIsInOneFileInOrder) {
-  const testing::ScratchFolder folder;
+  const test::ScratchFolder folder;
   SplitLog log(folder.path() / "f.lcm", 2500);
   for (int k = 0; k < 10; ++k) log.write(messageOf(k, 1000));
   log.sync();
@@ -45,7 +45,7 @@ TEST(SplitLog, EveryMessageIsInOneFileInOrder) {
 }
 
 TEST(SplitLog, NeverTouchesAFileThatIsThere) {
-  const testing::ScratchFolder folder;
+  const test::ScratchFolder folder;
   std::ofstream(folder.path() / "f.lcm.00") << "earlier";
   SplitLog log(folder.path() / "f.lcm", 1000000);
   log.write(messageOf(1, 10));

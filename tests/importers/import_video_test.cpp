@@ -1,17 +1,18 @@
 #include "redbee/importers/import_video.hpp"
 
+#include <opencv2/imgcodecs.hpp>
+
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/importers/video_reader.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/results/video_writer.hpp"
-#include "tests/support/scratch.hpp"
+#include "tests/support/log_events.hpp"
+#include "tests/support/scratch_folder.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using namespace testing;  // NOLINT: the test's own helpers
 
 constexpr int kFrames = 30;
 
@@ -21,7 +22,7 @@ void makeVideo(const fs::path& path) {
   writer.close();
 }
 
-class ImportVideoTest : public ::testing::Test {
+class ImportVideoTest : public testing::Test {
  protected:
   ImportVideoTest() {
     options_.video = folder_ / "v.mp4";
@@ -42,7 +43,7 @@ class ImportVideoTest : public ::testing::Test {
   VideoImportOptions options_;
 };
 
-TEST_F(ImportVideoTest, FramesKeepTheirTimesAndLooks) {
+TEST_F(ImportVideoTest, FramesKeepTheirTimesAndAppearance) {
   const ImportSummary summary = import();
   EXPECT_EQ(summary.frames, kFrames);
   EXPECT_EQ(summary.vehicle.width, 96);
@@ -99,7 +100,7 @@ TEST_F(ImportVideoTest, ImuColumnsComeInAnyOrder) {
   EXPECT_EQ(imu[1].accel[2], 9.7);
 }
 
-TEST_F(ImportVideoTest, BadImuFilesAreToldWithTheirLine) {
+TEST_F(ImportVideoTest, BadImuFilesAreReportedWithTheirLine) {
   options_.imu = folder_ / "imu.csv";
   const auto complaintFor = [&](const std::string& text) {
     writeText(*options_.imu, text);
@@ -181,4 +182,4 @@ TEST(VideoWriterTest, RefusesWhatItCannotEncode) {
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

@@ -7,7 +7,7 @@
 namespace redbee {
 namespace {
 
-TEST(CalibrationMonitor, whenInnovationsStaySmallThenTheCalibrationFits) {
+TEST(CalibrationMonitor, TheCalibrationFitsWhileInnovationsStaySmall) {
   CalibrationMonitor monitor;
   for (int i = 0; i < 47; ++i) monitor.note(0.3, 0.2);
   EXPECT_EQ(monitor.verdict(), "unknown");
@@ -15,7 +15,7 @@ TEST(CalibrationMonitor, whenInnovationsStaySmallThenTheCalibrationFits) {
   EXPECT_EQ(monitor.verdict(), "fits");
 }
 
-TEST(CalibrationMonitor, whenPredictionsAreOffForSecondsThenItSaysByHowMuch) {
+TEST(CalibrationMonitor, ReportsByHowMuchPredictionsAreOffForSeconds) {
   CalibrationMonitor monitor;
   for (int i = 0; i < 100; ++i) monitor.note(0.3, 0.2);
   for (int i = 0; i < 300; ++i) monitor.note(4.0, 3.1);
@@ -24,7 +24,7 @@ TEST(CalibrationMonitor, whenPredictionsAreOffForSecondsThenItSaysByHowMuch) {
   EXPECT_EQ(monitor.verdict(), "fits");
 }
 
-TEST(CalibrationMonitor, aFewBadFramesOrNumbersDoNotCount) {
+TEST(CalibrationMonitor, AFewBadFramesOrNumbersDoNotCount) {
   CalibrationMonitor monitor;
   for (int i = 0; i < 100; ++i) monitor.note(0.3, 0.2);
   for (int i = 0; i < 3; ++i) monitor.note(1e6, 50);

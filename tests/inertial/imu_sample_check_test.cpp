@@ -38,7 +38,7 @@ std::vector<ImuSample> accepted(ImuSampleCheck& check, const std::vector<ImuSamp
 
 int refused(const ImuSampleCheck& check) { return check.refusedOn(0, 10'000'000'000); }
 
-TEST(ImuSampleCheck, BelievesAFlightAndItsVibration) {
+TEST(ImuSampleCheck, AcceptsAFlightAndItsVibration) {
   ImuSampleCheck check({});
   std::vector<ImuSample> flight = gentleFlight(2000);
   for (size_t i = 1000; i < flight.size(); ++i) {  // motors on: 8 m/s^2 at half the sampling rate
@@ -61,7 +61,7 @@ TEST(ImuSampleCheck, RefusesASpikeAndKeepsItsNeighbours) {
   EXPECT_EQ(check.refusedOn(flight[49].utime, flight[50].utime), 1);
 }
 
-TEST(ImuSampleCheck, BelievesAManoeuvre) {
+TEST(ImuSampleCheck, AcceptsAManoeuvre) {
   ImuSampleCheck check({});
   std::vector<ImuSample> flight = gentleFlight(100);
   for (size_t i = 50; i < 100; ++i) {
@@ -108,7 +108,7 @@ TEST(ImuSampleCheck, LateAndRepeatedSamplesPassButNoRefusedOne) {
   for (const ImuSample& sample : good) EXPECT_LT(sample.gyro.norm(), 2);
 }
 
-TEST(ImuSampleCheck, StartsAnewWhereTimeIsSetBack) {
+TEST(ImuSampleCheck, RestartsWhereTimeIsSetBack) {
   ImuSampleCheck check({});
   std::vector<ImuSample> flight = gentleFlight(50);
   accepted(check, flight);

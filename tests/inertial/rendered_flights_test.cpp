@@ -2,7 +2,6 @@
 // with pixel noise come back to it, and its own are held against the exact ones.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -10,18 +9,12 @@
 #include <string>
 
 #include "redbee/inertial/inertial_filter.hpp"
-#include "tests/inertial/simulated_flight.hpp"
+#include "tests/support/consumer_imu.hpp"
+#include "tests/support/noisy_homography.hpp"
+#include "tests/support/shared_flight.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using namespace testing;
-namespace fs = std::filesystem;
-
-fs::path sharedFolder() {
-  const char* named = std::getenv("REDBEE_SHARED");
-  return named ? fs::path(named) : fs::path(REDBEE_SOURCE_DIR).parent_path() / "shared";
-}
 
 /// Rows of numbers; the first column is a time in ns and comes back in us.
 struct Row {
@@ -71,16 +64,17 @@ InertialParameters trueParameters(const fs::path& clip) {
   return parameters;
 }
 
-class RenderedFlight : public ::testing::TestWithParam<const char*> {};
+class SharedFlight : public testing::TestWithParam<const char*> {};
 
-TEST_P(RenderedFlight, HomographyFedBackStaysBelowThreeTenthsOfAPixel) {
-  const fs::path clip = sharedFolder() / "flights" / "rendered" / GetParam();
-  if (!fs::exists(clip / "groundtruth.yaml")) GTEST_SKIP() << clip << " is not there";
+TEST_P(SharedFlight, HomographyFedBackStaysBelowThreeTenthsOfAPixel) {
+  const auto folder = sharedFlight(std::string("rendered/") + GetParam());
+  if (!folder) GTEST_SKIP() << "the flight rendered/" << GetParam() << " is not there";
+  const fs::path& clip = *folder;
 
   InertialParameters parameters = trueParameters(clip);
   const std::vector<Row> heights = readTable(clip / "mav0/altimeter0/data.csv");
   parameters.extrinsics.start_height_m = heights.front().values[0];
-  InertialFilter filter(testCamera(), parameters);
+  InertialFilter filter(camera(), parameters);
   for (const Row& row : readTable(clip / "mav0/imu0/data.csv")) {
     const std::vector<double>& x = row.values;
     filter.addImu({row.utime, {x[0], x[1], x[2]}, {x[3], x[4], x[5]}});
@@ -117,9 +111,9 @@ TEST_P(RenderedFlight, HomographyFedBackStaysBelowThreeTenthsOfAPixel) {
   EXPECT_LT(sum / count, 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Clips, RenderedFlight,
-                         ::testing::Values("park1", "park2", "campus1", "grove1", "grove2"),
+INSTANTIATE_TEST_SUITE_P(Clips, SharedFlight,
+                         testing::Values("park1", "park2", "campus1", "grove1", "grove2"),
                          [](const auto& clip) { return std::string(clip.param); });
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

@@ -22,14 +22,14 @@ TEST(FrameOrder, LeavesOutWhatComesLateOrTwice) {
   EXPECT_EQ(order.last(), 4 * kPeriod);
 }
 
-TEST(FrameOrder, BelievesAClockThatWasSetFarBackAtOnce) {
+TEST(FrameOrder, FollowsAClockThatWasSetFarBackAtOnce) {
   FrameOrder order;
   order.classify(3'600'000'000);
   EXPECT_EQ(order.classify(5), Verdict::kRestart);
   EXPECT_EQ(order.classify(5 + kPeriod), Verdict::kNext);
 }
 
-TEST(FrameOrder, BelievesAClockThatWasSetBackALittleAfterSomeFrames) {
+TEST(FrameOrder, FollowsAClockThatWasSetBackALittleAfterSomeFrames) {
   FrameOrder order;
   order.classify(1'000'000);
   int64_t utime = 500'000;

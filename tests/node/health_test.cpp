@@ -15,39 +15,39 @@ int64_t lostAfter(std::initializer_list<int32_t> sequences) {
   return counter.lost();
 }
 
-TEST(SequenceCounter, holesAreLosses) {
+TEST(SequenceCounter, GapsAreLosses) {
   EXPECT_EQ(lostAfter({0, 1, 2, 3}), 0);
   EXPECT_EQ(lostAfter({0, 1, 3}), 1);
   EXPECT_EQ(lostAfter({0, 5, 6, 10}), 7);
   EXPECT_EQ(lostAfter({0, 1000000}), 999999);
 }
 
-TEST(SequenceCounter, joiningLateIsNoLoss) { EXPECT_EQ(lostAfter({500, 501}), 0); }
+TEST(SequenceCounter, JoiningLateIsNoLoss) { EXPECT_EQ(lostAfter({500, 501}), 0); }
 
-TEST(SequenceCounter, restartIsNoLoss) {
+TEST(SequenceCounter, RestartIsNoLoss) {
   EXPECT_EQ(lostAfter({7, 8, 9, 0, 1, 2}), 0);
   EXPECT_EQ(lostAfter({500, 501, 3, 4}), 0) << "a restart whose first messages were not heard";
   EXPECT_EQ(lostAfter({0, 2, 0, 1, 2, 4}), 2);
 }
 
-TEST(SequenceCounter, lateMessageTakesItsHoleBack) {
+TEST(SequenceCounter, ALateMessageClosesItsGap) {
   EXPECT_EQ(lostAfter({0, 1, 3, 2, 4}), 0);
   EXPECT_EQ(lostAfter({0, 4, 2, 5}), 2);
 }
 
-TEST(SequenceCounter, repeatedMessageCountsForNothing) {
+TEST(SequenceCounter, ARepeatedMessageDoesNotCount) {
   EXPECT_EQ(lostAfter({0, 1, 1, 2, 3, 2, 4}), 0);
   EXPECT_EQ(lostAfter({5, 7, 7, 8}), 1);
 }
 
-TEST(MessageRate, countsIntervalsInMessageTime) {
+TEST(MessageRate, CountsIntervalsInMessageTime) {
   MessageRate rate;
   EXPECT_EQ(rate.hertz(), 0);
   for (int i = 0; i < 25; ++i) rate.note(1000000 + i * 40000);
   EXPECT_NEAR(rate.hertz(), 25.0, 1e-9);
 }
 
-TEST(MessageRate, startsAnewWhenTimeRunsBackwards) {
+TEST(MessageRate, RestartsWhenTimeRunsBackwards) {
   MessageRate rate;
   rate.note(10000000);
   rate.note(1000000);
@@ -56,7 +56,7 @@ TEST(MessageRate, startsAnewWhenTimeRunsBackwards) {
   EXPECT_NEAR(rate.hertz(), 10.0, 1e-9);
 }
 
-TEST(LatencyWindow, percentilesOfTheNewestValues) {
+TEST(LatencyWindow, GivesPercentilesOfTheNewestValues) {
   LatencyWindow window;
   EXPECT_EQ(window.percentile(0.5), 0);
   for (int i = 100; i >= 1; --i) window.note(i);
@@ -66,7 +66,7 @@ TEST(LatencyWindow, percentilesOfTheNewestValues) {
   EXPECT_EQ(window.percentile(0.99), 7) << "old values leave the window";
 }
 
-TEST(HealthMonitor, tellsAllThatItWasTold) {
+TEST(HealthMonitor, ReportsAllThatWasNoted) {
   HealthMonitor health("redbee-test", "cafe");
   health.noteInput(1000000);
   health.noteInput(1050000);
@@ -107,7 +107,7 @@ TEST(HealthMonitor, tellsAllThatItWasTold) {
   EXPECT_EQ(health.nextMessage().sequence, message.sequence + 1);
 }
 
-TEST(HealthMonitor, changeIsToldOnce) {
+TEST(HealthMonitor, AChangeIsReportedOnce) {
   HealthMonitor health("redbee-test", "");
   EXPECT_TRUE(health.takeChange()) << "the start is news";
   EXPECT_FALSE(health.takeChange());
@@ -121,7 +121,7 @@ TEST(HealthMonitor, changeIsToldOnce) {
   EXPECT_TRUE(health.takeChange());
 }
 
-TEST(HealthMonitor, anInputThatStaysAwayIsSaidAndHasNoRate) {
+TEST(HealthMonitor, AMissingInputIsReportedAndHasNoRate) {
   HealthMonitor health("redbee-test", "");
   health.setState(HealthState::kGood);
   for (int i = 0; i < 10; ++i) health.noteInput(1000000 + i * 40000);
@@ -140,7 +140,7 @@ TEST(HealthMonitor, anInputThatStaysAwayIsSaidAndHasNoRate) {
   EXPECT_EQ(health.nextMessage().state, 1);
 }
 
-TEST(HealthMonitor, stoppingIsNotOverwrittenByQuiet) {
+TEST(HealthMonitor, StoppingIsNotOverwrittenByQuiet) {
   HealthMonitor health("redbee-test", "");
   health.setQuiet(9);
   health.setState(HealthState::kStopping);
@@ -148,7 +148,7 @@ TEST(HealthMonitor, stoppingIsNotOverwrittenByQuiet) {
   EXPECT_EQ(health.nextMessage().message, "");
 }
 
-TEST(HealthState, namesAreReadBack) {
+TEST(HealthState, NamesAreReadBack) {
   for (int8_t number = 0; number <= 4; ++number) {
     const auto state = static_cast<HealthState>(number);
     EXPECT_EQ(healthStateOf(toString(state)), state);

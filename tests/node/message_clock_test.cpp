@@ -32,7 +32,7 @@ TEST(MessageClock, IsNotPutOutByATimeThatIsFarOff) {
   EXPECT_EQ(clock.now(), kFrame + 1);
 }
 
-TEST(MessageClock, StartsAnewWhereTimeIsSetBack) {
+TEST(MessageClock, RestartsWhereTimeIsSetBack) {
   MessageClock clock;
   clock.noteFrame(kFrame);
   clock.restart();

@@ -12,7 +12,7 @@ using Buffer = MessageSynchronizer<std::string>;
 using Status = Buffer::Status;
 constexpr int64_t kPatience = 250'000;
 
-TEST(MessageSynchronizer, WaitsForALivePublisherUntilItSpeaks) {
+TEST(MessageSynchronizer, WaitsForALivePublisherUntilItsMessage) {
   Buffer buffer(kPatience, true);
   EXPECT_EQ(buffer.status(100, 100), Status::kPending);
   buffer.put(100, "here");

@@ -61,17 +61,17 @@ std::vector<int> statesOf(const RecordingBus& bus) {
   return states;
 }
 
-TEST(RunNode, publishesHealthAtTheStartAtChangesAndAtTheEnd) {
+TEST(RunNode, PublishesHealthAtTheStartAtChangesAndAtTheEnd) {
   RecordingBus bus;
   ScriptedNode node({[](HealthMonitor&) {}, [](HealthMonitor& h) { h.setState(HealthState::kGood); },
                      [](HealthMonitor&) {},
                      [](HealthMonitor& h) { h.setState(HealthState::kDegraded, "no IMU"); }});
   runNode(bus, node, "HEALTH", node.stop);
-  EXPECT_THAT(statesOf(bus), ::testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(statesOf(bus), testing::ElementsAre(0, 1, 2, 3));
   EXPECT_EQ(bus.health[2].message, "no IMU");
 }
 
-TEST(RunNode, goesOnAfterAFrameThatThrew) {
+TEST(RunNode, ContinuesAfterAFrameThatThrew) {
   RecordingBus bus;
   bool reached = false;
   ScriptedNode node({[](HealthMonitor&) { throw std::runtime_error("singular matrix"); },
@@ -79,10 +79,10 @@ TEST(RunNode, goesOnAfterAFrameThatThrew) {
   runNode(bus, node, "HEALTH", node.stop);
   EXPECT_TRUE(reached);
   EXPECT_EQ(bus.health.front().state, 2);
-  EXPECT_THAT(bus.health.front().message, ::testing::HasSubstr("singular matrix"));
+  EXPECT_THAT(bus.health.front().message, testing::HasSubstr("singular matrix"));
 }
 
-TEST(RunNode, endsWhenMemoryIsGoneSoThatTheProcessIsStartedAgain) {
+TEST(RunNode, EndsWhenMemoryIsExhaustedSoThatTheProcessIsRestarted) {
   RecordingBus bus;
   ScriptedNode node({[](HealthMonitor&) { throw std::bad_alloc(); }, [](HealthMonitor&) {}});
   EXPECT_THROW(runNode(bus, node, "HEALTH", node.stop), std::bad_alloc);
@@ -91,7 +91,7 @@ TEST(RunNode, endsWhenMemoryIsGoneSoThatTheProcessIsStartedAgain) {
   EXPECT_THROW(runNode(bus, other, "HEALTH", other.stop), std::bad_alloc);
 }
 
-TEST(RunNode, aMessageThatItsHandlerThrewOutCountsAsDamaged) {
+TEST(RunNode, AMessageWhoseHandlerThrewCountsAsDamaged) {
   RecordingBus bus;
   bus.failures = 3;
   ScriptedNode node({[](HealthMonitor&) {}, [](HealthMonitor&) {}});
@@ -99,22 +99,22 @@ TEST(RunNode, aMessageThatItsHandlerThrewOutCountsAsDamaged) {
   EXPECT_EQ(bus.health.back().damaged, 3);
 }
 
-TEST(RunNode, doesNothingWhenStoppedBefore) {
+TEST(RunNode, DoesNothingWhenStoppedBefore) {
   RecordingBus bus;
   ScriptedNode node({[](HealthMonitor&) { FAIL() << "processed after the stop"; }});
   node.stop = true;
   runNode(bus, node, "HEALTH", node.stop);
-  EXPECT_THAT(statesOf(bus), ::testing::ElementsAre(3));
+  EXPECT_THAT(statesOf(bus), testing::ElementsAre(3));
 }
 
-TEST(RunNode, whatWasHeardBeforeTheStopIsWorkedOff) {
+TEST(RunNode, WhatWasReceivedBeforeTheStopIsProcessed) {
   RecordingBus bus;
   ScriptedNode node({[](HealthMonitor&) {}});
   runNode(bus, node, "HEALTH", node.stop);
   EXPECT_TRUE(node.finished);
 }
 
-TEST(StopOnSignals, terminationSetsTheFlag) {
+TEST(StopOnSignals, TerminationSetsTheFlag) {
   const auto& stop = stopOnSignals();
   EXPECT_FALSE(stop);
   std::raise(SIGTERM);

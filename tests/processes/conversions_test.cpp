@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "redbee/files/csv.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {
@@ -21,15 +20,6 @@ TEST(Conversions, PointsThatLieNowhereAreLeftOut) {
   ASSERT_EQ(tracks.current.size(), 1U);
   ASSERT_EQ(tracks.previous.size(), 1U);
   EXPECT_EQ(tracks.current[0].x, 1);
-}
-
-TEST(Conversions, NanosecondsRoundToTheNearestEvenAtTheEdges) {
-  EXPECT_EQ(microseconds(int64_t{1499}), 1);
-  EXPECT_EQ(microseconds(int64_t{1500}), 2);
-  EXPECT_EQ(microseconds(int64_t{-1499}), -1);
-  EXPECT_EQ(microseconds(int64_t{-1500}), -2);
-  EXPECT_EQ(microseconds(std::numeric_limits<int64_t>::max()), 9223372036854776);
-  EXPECT_EQ(microseconds(std::numeric_limits<int64_t>::min()), -9223372036854776);
 }
 
 }  // namespace

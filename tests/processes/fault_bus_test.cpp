@@ -36,7 +36,7 @@ void expectAllKindsSurvived(double share, int within_frames) {
   }
 }
 
-TEST(BusFault, CalmFlightSaysTheSameTwice) {
+TEST(BusFault, UndisturbedRunsAgree) {
   const Damage damage = assess(run(calmFlight()), calmFlight());
   EXPECT_EQ(damage.frames_to_recovery, 0);
   EXPECT_EQ(damage.without_mask, 0);
@@ -191,7 +191,7 @@ Arrival laterBy(const Arrival& arrival, int64_t us) {
 }
 
 /// Thousands of messages, each a microsecond newer than the last, before any node gets to work on one.
-TEST(BusFault, AFloodIsSkippedNotKept) {
+TEST(BusFault, AFloodIsSkippedNotQueued) {
   const Flight& flight = calmFlight();
   for (const std::string& channel : {std::string("CAMERA"), std::string("IMU"), std::string("ALTIMETER")}) {
     const auto bus = makeLcmBus("memq://");

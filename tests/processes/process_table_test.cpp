@@ -15,7 +15,7 @@
 namespace redbee {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 TEST(ProcessTable, HasEveryProgramAndNoOther) {
   std::set<std::string> folders;
@@ -46,7 +46,7 @@ TEST(ProcessTable, EveryStageHasANodeOfItsName) {
 TEST(ProcessTable, NamesOnlyKeysOfTheConfiguration) {
   const auto keys = configurationKeys();
   const auto expectKey = [&](const std::string& section, std::string_view key) {
-    EXPECT_THAT(keys, ::testing::Contains(section + "." + std::string(key)));
+    EXPECT_THAT(keys, testing::Contains(section + "." + std::string(key)));
   };
   for (const ProcessDescription* stage : kStages) {
     expectKey("waits", stage->patience);

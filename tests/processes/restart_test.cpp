@@ -11,7 +11,7 @@
 #include "processes/motion_segmentation/node.hpp"
 #include "tests/processes/mortal_stack.hpp"
 #include "tests/processes/stack_fixture.hpp"
-#include "tests/support/scratch.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace redbee::test {
 namespace {
@@ -121,9 +121,9 @@ struct Case {
   int untrusted;  ///< frames at most that never get a mask
 };
 
-class ProcessKilled : public ::testing::TestWithParam<Case> {};
+class ProcessKilled : public testing::TestWithParam<Case> {};
 
-TEST_P(ProcessKilled, TheOthersGoOnAndNothingWrongIsSaid) {
+TEST_P(ProcessKilled, TheOthersContinueAndNoWrongMaskIsPublished) {
   const Case& c = GetParam();
   const Seen seen = flyWith(walk(), {{kKilledAt, c.killed}});
   expectNoWrongMask(seen.said);
@@ -141,10 +141,10 @@ TEST_P(ProcessKilled, TheOthersGoOnAndNothingWrongIsSaid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, ProcessKilled,
-                         ::testing::Values(Case{"imu", &kImuIntegration, 12, 0},
-                                           Case{"visual", &kVisualHomography, 12, 0},
-                                           Case{"fusion", &kHomographyFusion, 12, 0},
-                                           Case{"segmentation", &kMotionSegmentation, 24, 16}),
+                         testing::Values(Case{"imu", &kImuIntegration, 12, 0},
+                                         Case{"visual", &kVisualHomography, 12, 0},
+                                         Case{"fusion", &kHomographyFusion, 12, 0},
+                                         Case{"segmentation", &kMotionSegmentation, 24, 16}),
                          [](const auto& each) { return each.param.name; });
 
 /// An overloaded machine does this: the IMU's homographies come in time, vision's do not, and nobody has told
@@ -157,7 +157,7 @@ TEST(ProcessesStart, WithoutVisionNoWrongMaskIsCalledGood) {
 }
 
 TEST(RestartedTracker, GivesNoIdentityTwice) {
-  const testing::ScratchFolder folder;
+  const ScratchFolder folder;
   TrackIdStore first(folder.path() / "identities");
   EXPECT_EQ(first.globalId(1), 1);
   EXPECT_EQ(first.globalId(7), 7);
@@ -169,7 +169,7 @@ TEST(RestartedTracker, GivesNoIdentityTwice) {
 }
 
 TEST(RestartedTracker, WhatCannotBeReadOrWrittenEndsNoFlight) {
-  const testing::ScratchFolder folder;
+  const ScratchFolder folder;
   std::ofstream(folder.path() / "identities") << "seven";
   EXPECT_EQ(TrackIdStore(folder.path() / "identities").globalId(1), 1);
   TrackIdStore nowhere(folder.path() / "no such folder" / "identities");

@@ -172,7 +172,7 @@ TEST(Stack, RunsWithoutAnImu) {
   EXPECT_EQ(said.foreground.size(), static_cast<size_t>(kFrames));
 }
 
-TEST(Stack, AClockThatIsSetBackStartsAnew) {
+TEST(Stack, AClockThatIsSetBackRestarts) {
   Flight flight = undisturbed();
   const size_t at = positionOf(flight, 30);
   const int64_t jump = -3'600'000'000;
@@ -215,7 +215,7 @@ TEST(Stack, ImagesOfAnotherSizeAreRefusedAndRecoveredFrom) {
   expectRecovered(said, flight, 50);
 }
 
-TEST(Stack, ACalibrationThatDoesNotFitIsSaid) {
+TEST(Stack, ACalibrationThatDoesNotFitIsReported) {
   const Said& right = undisturbedAnswer();
   Flight flight = undisturbed();
   flight.configuration.inertial.extrinsics.R_CI =

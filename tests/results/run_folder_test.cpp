@@ -1,15 +1,15 @@
 #include "redbee/results/run_folder.hpp"
 
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "redbee/files/json_file.hpp"
 #include "redbee/results/png_file.hpp"
-#include "tests/support/scratch.hpp"
+#include "tests/support/log_events.hpp"
+#include "tests/support/scratch_folder.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using namespace testing;  // NOLINT: the test's own helpers
 
 std::string pngOf(const cv::Mat& image) {
   std::vector<uint8_t> bytes;
@@ -122,4 +122,4 @@ TEST(RunFolder, TheSummaryReadsBack) {
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

@@ -82,7 +82,7 @@ TEST(FlightSimulator, WithoutNoiseTheHomographyIsExactToATenthOfAPixel) {
   }
 }
 
-TEST(FlightSimulator, DistortionMovesTheImageAsTheCameraModelSays) {
+TEST(FlightSimulator, DistortionMovesTheImageAsTheCameraModelDoes) {
   Scenario scenario = noiseless(groundOnly(5));
   const RenderedImage ideal = FlightSimulator(scenario).frame(10).image;
   scenario.intrinsics.distortion = {-0.15, 0.04, 1e-3, -5e-4, 0};

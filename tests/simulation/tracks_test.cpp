@@ -17,7 +17,7 @@ long countOf(const SimulatedTracks& tracks, TrackOrigin origin) {
   return std::count(tracks.origin.begin(), tracks.origin.end(), origin);
 }
 
-TEST(Tracks, EachFollowsThePlaneItIsSaidToBelongTo) {
+TEST(Tracks, EachFollowsThePlaneItBelongsTo) {
   const SimulatedTracks tracks = simulateTracks(kGround, kOther, 0.25, 0, 0.4, {}, 5);
   ASSERT_EQ(tracks.before.size(), 1200U);
   EXPECT_EQ(countOf(tracks, TrackOrigin::kOutlier), 480);

@@ -7,27 +7,23 @@
 #include <cmath>
 #include <iostream>
 
-#include "tests/visual/synthetic.hpp"
+#include "tests/support/textured_images.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
 
 using simulation::SimulatedTracks;
 using simulation::simulateTracks;
 using simulation::TrackOrigin;
-using testing::groundHomography;
-using testing::kHeight;
-using testing::kWidth;
-using testing::toTracks;
 
 Eigen::Matrix3d ground() { return groundHomography({5, 8, -4}, {0.5, 0.2, 3}); }
 
 /// An upright wall 12 m ahead under the same motion.
 Eigen::Matrix3d wall() {
-  PlaneMotion motion = testing::groundMotion({5, 8, -4}, {0.5, 0.2, 3});
+  PlaneMotion motion = groundMotion({5, 8, -4}, {0.5, 0.2, 3});
   motion.m_a = {0, -std::sin(40 * M_PI / 180), std::cos(40 * M_PI / 180)};
   motion.h_a = 12;
-  return planeHomography(testing::cameraMatrix(), motion);
+  return planeHomography(camera().K(), motion);
 }
 
 SimulatedTracks oneplane(double noise_px, double outliers, unsigned seed) {
@@ -90,8 +86,8 @@ TEST(HomographyEstimation, PredictionPicksTheGroundWhereAWallHasMostPoints) {
   const PointTracks tracks = toTracks(simulateTracks(ground(), wall(), 0.7, 0.25, 0.1, {}, 3));
   const ImageScaling scaling(kWidth, kHeight);
   // 0.03 degrees about each axis and 5 % of the translation.
-  PlaneMotion motion = testing::groundMotion({5, 8, -4}, {0.5, 0.2, 3});
-  const auto jacobians = planeHomographyJacobians(testing::cameraMatrix(), motion);
+  PlaneMotion motion = groundMotion({5, 8, -4}, {0.5, 0.2, 3});
+  const auto jacobians = planeHomographyJacobians(camera().K(), motion);
   const double rotation = 0.03 * M_PI / 180;
   Eigen::Matrix<double, 8, 4> directions;
   directions << rotation * jacobians.by_rotation, 0.05 * jacobians.by_translation * motion.t_ba;
@@ -163,4 +159,4 @@ TEST(HomographyEstimation, NoPlaneInNoiseOrInTooFewOrCollinearPoints) {
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

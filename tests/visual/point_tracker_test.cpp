@@ -7,15 +7,10 @@
 #include <iostream>
 
 #include "redbee/visual/patch_alignment.hpp"
-#include "tests/visual/synthetic.hpp"
+#include "tests/support/textured_images.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using testing::Canvas;
-using testing::groundHomography;
-using testing::kHeight;
-using testing::kWidth;
 
 struct Accuracy {
   double median_px = 0;
@@ -160,4 +155,4 @@ TEST(PatchShape, RefusesWindowsItCannotHold) {
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

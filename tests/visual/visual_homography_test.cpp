@@ -5,15 +5,10 @@
 #include <iostream>
 
 #include "redbee/simulation/scenarios.hpp"
-#include "tests/visual/synthetic.hpp"
+#include "tests/support/textured_images.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using testing::Canvas;
-using testing::groundHomography;
-using testing::kHeight;
-using testing::kWidth;
 
 constexpr int64_t kFrame = 41667;  // us
 
@@ -104,7 +99,7 @@ TEST(VisualHomography, AModeratelyBlurredFrameStillServes) {
   EXPECT_EQ(estimator.step(2 * kFrame, streaked, {}).status, VisualStatus::kGood);
 }
 
-TEST(VisualHomography, TimesThatDoNotMoveOnAndGapsAndSizesStartAnew) {
+TEST(VisualHomography, RestartsAfterTimesThatDoNotIncreaseGapsAndOtherSizes) {
   VisualHomographyEstimator estimator({});
   EXPECT_EQ(estimator.step(10 * kFrame, still(1), {}).status, VisualStatus::kFirstFrame);
   EXPECT_EQ(estimator.step(10 * kFrame, still(2), {}).status, VisualStatus::kFirstFrame) << "repeated";
@@ -129,4 +124,4 @@ TEST(VisualHomography, TheSameFramesGiveTheSameHomography) {
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

@@ -53,7 +53,7 @@ SceneMotion pan(double px) {
 
 double mean(const cv::Mat& map, const cv::Rect& where) { return cv::mean(map(where))[0]; }
 
-class Background : public ::testing::Test {
+class Background : public testing::Test {
  protected:
   CarriedBackground background_{SegmentationParameters{}};
 };
@@ -74,7 +74,7 @@ TEST_F(Background, FollowsAPanAndKnowsWhatItHasNotSeen) {
   EXPECT_EQ(cv::countNonZero(evidence.colRange(0, 3)), 0) << "what enters is unknown, not foreground";
 }
 
-TEST_F(Background, TellsColoursOfOneGreyValueApart) {
+TEST_F(Background, DistinguishesColoursOfOneGreyValue) {
   const cv::Mat grey = plain({100, 100, 100});
   for (int k = 0; k < kImages; ++k) background_.learn(grey, nothingMoves(), allAt(0), kFrame_s);
   cv::Mat now = grey.clone();

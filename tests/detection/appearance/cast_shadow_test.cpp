@@ -58,7 +58,7 @@ TEST(ShadowTest, ShadeOfAnotherTextureIsNoShadow) {
   EXPECT_LT(extremes(moved).first, 0.5F);
 }
 
-TEST(ShadowTest, AImageOfOneColumnIsJudged) {
+TEST(ShadowTest, AnImageOfOneColumnIsClassified) {
   const cv::Mat column = 0.7 * floor().colRange(0, 1);
   const cv::Mat background = floor().colRange(0, 1).clone();
   ShadowTest test(column, background, kNoise);

@@ -53,7 +53,7 @@ TEST(ObjectTracker, IdentityEndsAfterTheStatedPatience) {
   EXPECT_TRUE(tracker.update({}, kImage).empty());
 }
 
-TEST(ObjectTracker, WhileNothingCouldBeJudgedNothingWasMissed) {
+TEST(ObjectTracker, WhileNothingCouldBeClassifiedNothingWasMissed) {
   const SegmentationParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   const int id = tracker.update({component(100, 200)}, kImage).at(0).id;
@@ -68,7 +68,7 @@ TEST(ObjectTracker, WhileNothingCouldBeJudgedNothingWasMissed) {
   EXPECT_EQ(told[0].id, id);
 }
 
-TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItForgets) {
+TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItDeletesItsTracks) {
   const SegmentationParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   tracker.update({component(100, 200)}, kImage);
@@ -76,7 +76,7 @@ TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItForgets) {
   EXPECT_TRUE(tracker.skip(kImage).empty());
 }
 
-TEST(ObjectTracker, AFlickerIsNotWaitedForWhileNothingCanBeJudged) {
+TEST(ObjectTracker, AFlickerIsNotWaitedForWhileNothingCanBeClassified) {
   SegmentationParameters parameters;
   parameters.confirm_frames = 2;
   ObjectTracker tracker(parameters);
@@ -116,7 +116,7 @@ TEST(ObjectTracker, TwoObjectsThatPassKeepTheirIdentities) {
   for (const Detection& detection : told) EXPECT_EQ(detection.id, detection.box.y == 200 ? left : right);
 }
 
-TEST(ObjectTracker, FlickerIsNotTold) {
+TEST(ObjectTracker, FlickerIsNotConfirmed) {
   SegmentationParameters parameters;
   parameters.confirm_frames = 3;
   ObjectTracker tracker(parameters);

@@ -51,7 +51,7 @@ TEST(FlowEntropy, FlowBelowTheNoiseHasNoDirection) {
   EXPECT_FLOAT_EQ(order, static_cast<float>(parameters.entropy_floor / std::log2(parameters.entropy_bins)));
 }
 
-TEST(FlowEntropy, CellWithoutTracksSaysNothing) {
+TEST(FlowEntropy, ACellWithoutTracksHasNoEntropy) {
   EXPECT_FLOAT_EQ(flowOrder(cellOf(2, false), kStill, {128, 64}, {}).at<float>(30, 100), 1);
 }
 
@@ -85,7 +85,7 @@ TEST(ForegroundProbability, MapsTravelWithTheGround) {
 
 constexpr float kNoiseVariance = 0.25F;
 
-class Parallax : public ::testing::Test {
+class Parallax : public testing::Test {
  protected:
   Parallax() {
     K_ << 500, 0, 320, 0, 500, 240, 0, 0, 1;
@@ -211,7 +211,7 @@ TEST(GuidedFilter, KeepsToTheEdgesOfTheImage) {
   EXPECT_GT(filtered.at<float>(20, 21), 0.5) << "filled up to the edge";
 }
 
-class Travelling : public ::testing::Test {
+class Travelling : public testing::Test {
  protected:
   static constexpr int kSize = 48;
 

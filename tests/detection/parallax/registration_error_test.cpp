@@ -78,7 +78,7 @@ TEST(RegistrationError, WhatMovesOnAFifthOfTheImageDoesNotBendIt) {
   EXPECT_LT(worst(found, drift(), 1), 0.05F);
 }
 
-TEST(RegistrationError, FlightToTheSideTellsWhatIsAcrossWhateverTheDepths) {
+TEST(RegistrationError, FlightToTheSideShowsWhatIsAcrossWhateverTheDepths) {
   // Level flight to the right: parallax is horizontal, and of any size here.
   const PlaneMotion sideways{Eigen::Matrix3d::Identity(), {-0.1, 0, 0}, {0, 1, 0}, 8.0};
   const ParallaxSegment segment(sideways, kCamera, SegmentationParameters{});

@@ -73,7 +73,7 @@ TEST(Ssc, SolutionMeetsItsConstraints) {
   EXPECT_LT(across, 0.2 * size.sum());
 }
 
-TEST(Ssc, StopsWhereItIsToldTo) {
+TEST(Ssc, StopsAfterTheGivenNumberOfSteps) {
   const SparseRepresentation answer = sparseRepresentation(unit(twoMotions(false)), 3);
   EXPECT_EQ(answer.iterations, 3);
   EXPECT_FALSE(answer.converged);
@@ -126,7 +126,7 @@ TEST(SpectralClusters, TooFewPointsAreOneCluster) {
   EXPECT_EQ(spectralClusters(Eigen::MatrixXd::Ones(3, 3), 2), std::vector<int>(3, 0));
 }
 
-TEST(Background, IsWhatHasItsFractionOfTheTracks) {
+TEST(TrajectoryBackground, IsWhatHasItsFractionOfTheTracks) {
   const std::vector<int> labels{0, 0, 0, 0, 0, 0, 1, 1, 1, 3};
   EXPECT_EQ(backgroundLabels(labels, 4, 0.5), std::vector<int>{0});
   EXPECT_EQ(backgroundLabels(labels, 4, 0.3), (std::vector<int>{0, 1}));
@@ -135,7 +135,7 @@ TEST(Background, IsWhatHasItsFractionOfTheTracks) {
 }
 
 /// A ground that comes apart: each half explains its own tracks alone.
-TEST(Background, MayMoveInSeveralWays) {
+TEST(TrajectoryBackground, MayMoveInSeveralWays) {
   const Eigen::MatrixXd X = twoMotions(false);
   std::vector<int> labels(2 * kEach, 0);
   std::fill(labels.begin() + kEach, labels.end(), 1);
@@ -156,7 +156,7 @@ TEST(AffineMotion, ExplainsItsOwnTrajectoriesAlone) {
   EXPECT_GT(distance.tail(kEach).minCoeff(), 0.5);
 }
 
-TEST(AffineMotion, JudgesTracksThatItWasNotFittedTo) {
+TEST(AffineMotion, ScoresTracksThatItWasNotFittedTo) {
   const Eigen::MatrixXd X = twoMotions(false);
   std::vector<bool> first(kEach, true);
   const Eigen::VectorXd distance =

@@ -55,7 +55,7 @@ TEST(McdModel, ACandidateAsOldReplacesTheBackground) {
   EXPECT_FLOAT_EQ(background.variance, 60);
 }
 
-TEST(McdModel, PixelsAreJudgedByTheMeanWithThemAndTheVarianceWithoutThem) {
+TEST(McdModel, PixelsAreScoredByTheMeanWithThemAndTheVarianceWithoutThem) {
   DualModel model{GreyGaussian{100, 100, 3}, GreyGaussian{0, 400, 0}};
   const BlockBackground background = updateDualModel(model, 104, 100, 108);
   EXPECT_FLOAT_EQ(background.mean, 101);
@@ -63,14 +63,14 @@ TEST(McdModel, PixelsAreJudgedByTheMeanWithThemAndTheVarianceWithoutThem) {
   EXPECT_TRUE(background.judges);
 }
 
-TEST(McdModel, AYoungBackgroundDoesNotJudge) {
+TEST(McdModel, AYoungBackgroundDoesNotScore) {
   for (const float age : {0.5F, 1.0F, 1.5F}) {
     DualModel model{GreyGaussian{100, 100, age}, GreyGaussian{0, 400, 0}};
     EXPECT_EQ(updateDualModel(model, 104, 100, 108).judges, age > 1) << age;
   }
 }
 
-TEST(McdModel, VarianceStartsAnewOnlyWhereNothingIsKnown) {
+TEST(McdModel, VarianceRestartsOnlyWhereNothingIsKnown) {
   DualModel model{GreyGaussian{100, 900, 0.5F}, GreyGaussian{0, 400, 0}};
   updateDualModel(model, 103, 103, 103);
   EXPECT_FLOAT_EQ(model[0].mean, 103) << "less than one frame old";
@@ -150,7 +150,7 @@ TEST(RecursiveDensity, EqualsTheDensityOfAllValues) {
   }
 }
 
-TEST(RecursiveDensity, WhatComesIntoViewIsNotJudged) {
+TEST(RecursiveDensity, WhatComesIntoViewIsNotScored) {
   RecursiveDensity density({40, 30}, {});
   cv::Mat image(30, 40, CV_8UC3, cv::Scalar(100, 100, 100));
   for (int k = 0; k < 10; ++k) density.update(image);

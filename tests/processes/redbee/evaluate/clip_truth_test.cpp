@@ -7,12 +7,11 @@
 
 #include "processes/redbee/evaluate/evaluate.hpp"
 #include "redbee/files/input_error.hpp"
-#include "tests/support/scratch.hpp"
+#include "tests/support/log_events.hpp"
+#include "tests/support/scratch_folder.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-using namespace testing;  // NOLINT: the test's own helpers
 
 const cv::Size kSize(32, 24);
 const std::vector<int64_t> kUtimes = {0, 40'000, 80'000, 120'000};
@@ -28,7 +27,7 @@ void write(const fs::path& file, const cv::Mat& image) {
   cv::imwrite(file.string(), image);
 }
 
-class ClipTruthTest : public ::testing::Test {
+class ClipTruthTest : public testing::Test {
  protected:
   /// A run whose every map and mask is `map`.
   void writeRun(const cv::Mat& map) {
@@ -73,7 +72,7 @@ TEST_F(ClipTruthTest, MasksNamedAfterImagesMeetTheFramesOfTheseImages) {
   EXPECT_THROW(ClipTruth{truth()}, InputError);
 }
 
-TEST_F(ClipTruthTest, IdentitiesTellTheObjectsAndTheirStates) {
+TEST_F(ClipTruthTest, IdentitiesGiveTheObjectsAndTheirStates) {
   write(truth() / "mask" / "40000000.png", maskWith({0, 0, 16, 4}));
   cv::Mat ids = maskWith({0, 0, 8, 4}, 1);
   ids(cv::Rect(8, 0, 8, 4)).setTo(2);
@@ -153,4 +152,4 @@ TEST_F(ClipTruthTest, WhatIsNoTruthIsRefusedWithItsName) {
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

@@ -8,7 +8,7 @@
 namespace redbee {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
 
@@ -72,7 +72,7 @@ TEST(HealthBoard, AStoppedOrDeadProcessIsNotSilent) {
   auto script = healthOf("redbee-record", HealthState::kGood);
   script.configuration.clear();
   board.onHealth(script, kNow);
-  EXPECT_THAT(textOf(board, kNow + seconds(60)), ::testing::Not(HasSubstr("silent")));
+  EXPECT_THAT(textOf(board, kNow + seconds(60)), testing::Not(HasSubstr("silent")));
   EXPECT_EQ(board.table(kNow)[6].tone, Tone::kBad);
 }
 

@@ -66,7 +66,7 @@ TEST(ProcessWatch, ADeathIsReportedOnceUnderTheProcessName) {
   EXPECT_EQ(deaths[0].pid, child.pid());
   EXPECT_EQ(deaths[0].state, static_cast<int8_t>(HealthState::kDead));
   EXPECT_EQ(deaths[0].rate_in, 0);
-  EXPECT_THAT(deaths[0].message, ::testing::HasSubstr("died"));
+  EXPECT_THAT(deaths[0].message, testing::HasSubstr("died"));
   EXPECT_TRUE(watch.drainDeaths().empty());
 }
 
@@ -78,7 +78,7 @@ TEST(ProcessWatch, AStoppingProcessHasNotDied) {
   child.awaitDeath();
   const auto deaths = watch.drainDeaths();
   ASSERT_EQ(deaths.size(), 1u);
-  EXPECT_THAT(deaths[0].message, ::testing::HasSubstr("stopped"));
+  EXPECT_THAT(deaths[0].message, testing::HasSubstr("stopped"));
 }
 
 TEST(ProcessWatch, ARestartedProcessIsWatchedAgain) {
@@ -103,7 +103,7 @@ TEST(ProcessWatch, AHangingProcessIsKilledWhileOthersPublish) {
   watch.onHealth(healthOf("redbee-hanging", hanging.pid()), start);
   watch.onHealth(healthOf("redbee-publishing", publishing.pid()), start + ProcessWatch::kHangs - seconds(1));
   EXPECT_TRUE(watch.killHanging(start + ProcessWatch::kHangs - seconds(1)).empty());
-  EXPECT_THAT(watch.killHanging(start + ProcessWatch::kHangs), ::testing::ElementsAre("redbee-hanging"));
+  EXPECT_THAT(watch.killHanging(start + ProcessWatch::kHangs), testing::ElementsAre("redbee-hanging"));
   hanging.awaitDeath();
   EXPECT_FALSE(publishing.isZombie());
 }

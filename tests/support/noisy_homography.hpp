@@ -1,47 +1,14 @@
-// A simulated flight for the inertial filter: what it is fed, and the truth beside it.
+// What vision would measure of an exact homography, with a covariance that is true.
 #pragma once
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <cmath>
 #include <random>
-#include <vector>
 
-#include "redbee/geometry/so3.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
-#include "redbee/simulation/imu_simulator.hpp"
-#include "redbee/simulation/trajectory.hpp"
+#include "tests/support/camera.hpp"
 
-namespace redbee::testing {
-
-constexpr int kWidth = 640;
-constexpr int kHeight = 480;
-constexpr double kFrameRate = 24;
-constexpr int64_t kStart = 1'000'000'000;  // us
-
-inline Camera testCamera() { return Camera({kWidth, kHeight, 500, 500, 319.5, 239.5, {}}); }
-
-/// Consumer grade: 0.005 deg/s/sqrt(Hz), 200 ug/sqrt(Hz).
-inline ImuNoise consumerNoise() { return {8.7e-5, 1.96e-3, 2e-5, 4e-4}; }
-
-/// Camera looks along IMU x, `pitch_deg` below the horizon; 5 cm from the IMU.
-inline InertialExtrinsics testExtrinsics(double height_m, double pitch_deg = 40) {
-  Eigen::Matrix3d level;
-  level << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-  InertialExtrinsics extrinsics;
-  extrinsics.R_CI = expSO3({pitch_deg * M_PI / 180, 0, 0}) * level;
-  extrinsics.p_IC = {0.04, -0.02, 0.02};
-  extrinsics.timeshift_s = 0.006;
-  extrinsics.start_height_m = height_m;
-  return extrinsics;
-}
-
-inline int64_t frameTime(int k) { return kStart + static_cast<int64_t>(std::llround(k * 1e6 / kFrameRate)); }
-
-/// What the camera's clock shows, as seconds of the trajectory (the IMU's clock).
-inline double trajectoryTime(int64_t frame_utime, const InertialExtrinsics& extrinsics) {
-  return static_cast<double>(frame_utime - kStart) * 1e-6 + extrinsics.timeshift_s;
-}
+namespace redbee::test {
 
 inline Eigen::Vector3d randomVector(std::mt19937& random, double sigma) {
   std::normal_distribution<double> normal(0, sigma);
@@ -81,4 +48,4 @@ inline double normalisedErrorSquared(const Eigen::Matrix3d& H, const Matrix8d& c
   return error.dot(covariance.ldlt().solve(error));
 }
 
-}  // namespace redbee::testing
+}  // namespace redbee::test

@@ -1,89 +1,25 @@
+#include "redbee/geometry/homography.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
-#include "redbee/geometry/camera.hpp"
-#include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/so3.hpp"
+#include "tests/support/camera.hpp"
+#include "tests/support/numeric_jacobian.hpp"
 
-namespace redbee {
+namespace redbee::test {
 namespace {
-
-constexpr int kWidth = 640;
-constexpr int kHeight = 480;
-
-Eigen::Matrix3d cameraMatrix() {
-  Eigen::Matrix3d K;
-  K << 500, 0, 319.5, 0, 500, 239.5, 0, 0, 1;
-  return K;
-}
 
 PlaneMotion someMotion() {
   return {expSO3({0.02, -0.03, 0.05}), {0.3, -0.1, 0.2}, Eigen::Vector3d(0.1, 0.7, 0.7).normalized(), 8.0};
 }
 
-/// Central differences of a function of n variables around zero.
-template <int kRows, int kCols, typename Function>
-Eigen::Matrix<double, kRows, kCols> numericJacobian(const Function& f, double step = 1e-6) {
-  Eigen::Matrix<double, kRows, kCols> J;
-  for (int i = 0; i < kCols; ++i) {
-    Eigen::Matrix<double, kCols, 1> d = Eigen::Matrix<double, kCols, 1>::Zero();
-    d(i) = step;
-    J.col(i) = (f(d) - f(-d)) / (2 * step);
-  }
-  return J;
-}
-
-TEST(Rotation, ExpAndLogAreInversesForSmallAndLargeAngles) {
-  for (const double angle : {0.0, 1e-9, 1e-5, 0.1, 1.5, 3.1}) {
-    const Eigen::Vector3d phi = angle * Eigen::Vector3d(1, -2, 0.5).normalized();
-    EXPECT_LT((logSO3(expSO3(phi)) - phi).norm(), 1e-9) << angle;
-    EXPECT_TRUE(isRotation(expSO3(phi), 1e-12));
-  }
-}
-
-TEST(Rotation, ExpAgreesWithEigen) {
-  const Eigen::Vector3d phi(0.3, -0.2, 0.9);
-  const Eigen::Matrix3d expected = Eigen::AngleAxisd(phi.norm(), phi.normalized()).toRotationMatrix();
-  EXPECT_LT((expSO3(phi) - expected).norm(), 1e-14);
-}
-
-TEST(Rotation, RightJacobianMatchesDifferences) {
-  const Eigen::Vector3d phi(0.3, -0.2, 0.9);
-  const auto numeric = numericJacobian<3, 3>(
-      [&](const Eigen::Vector3d& d) { return logSO3(expSO3(phi).transpose() * expSO3(phi + d)); });
-  EXPECT_LT((rightJacobianSO3(phi) - numeric).norm(), 1e-8);
-}
-
-TEST(Rotation, NearestRotationUndoesANonRigidDisturbance) {
-  const Eigen::Matrix3d R = expSO3({0.3, -0.2, 0.9});
-  EXPECT_LT((nearestRotation(1.7 * R) - R).norm(), 1e-12);
-  EXPECT_FALSE(isRotation(1.001 * R));
-  EXPECT_FALSE(isRotation(-R));
-}
-
-TEST(Camera, UndistortInvertsDistortOverTheImage) {
-  // EuRoC's camera, whose distortion moves the corners by more than 100 px.
-  const Camera camera({752,
-                       480,
-                       458.654,
-                       457.296,
-                       367.215,
-                       248.375,
-                       {-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0}});
-  for (int v = 0; v < 480; v += 60) {
-    for (int u = 0; u < 752; u += 60) {
-      const Eigen::Vector2d raw(u, v);
-      EXPECT_LT((camera.distort(camera.undistort(raw)) - raw).norm(), 1e-9) << u << ' ' << v;
-    }
-  }
-}
-
 TEST(Homography, MapsPointsOfThePlaneAsTheRigidMotionDoes) {
   const PlaneMotion motion = someMotion();
-  const Eigen::Matrix3d K = cameraMatrix();
+  const Eigen::Matrix3d K = camera().K();
   const Eigen::Matrix3d H = planeHomography(K, motion);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> pixel(0, 480);
@@ -96,17 +32,17 @@ TEST(Homography, MapsPointsOfThePlaneAsTheRigidMotionDoes) {
   }
 }
 
-TEST(Homography, TellsTheTranslationOnceRotationAndPlaneAreKnown) {
+TEST(Homography, GivesTheTranslationOnceRotationAndPlaneAreKnown) {
   const PlaneMotion truth = someMotion();
   PlaneMotion wrong = truth;
   wrong.t_ba.setZero();
-  const Eigen::Matrix3d H = 3.7 * planeHomography(cameraMatrix(), truth);
-  EXPECT_LT((translationFromHomography(cameraMatrix(), H, wrong) - truth.t_ba).norm(), 1e-12);
+  const Eigen::Matrix3d H = 3.7 * planeHomography(camera().K(), truth);
+  EXPECT_LT((translationFromHomography(camera().K(), H, wrong) - truth.t_ba).norm(), 1e-12);
 }
 
 TEST(Homography, EveryJacobianMatchesDifferences) {
   const ImageScaling scaling(kWidth, kHeight);
-  const Eigen::Matrix3d A = scaling.scale(planeHomography(cameraMatrix(), someMotion()));
+  const Eigen::Matrix3d A = scaling.scale(planeHomography(camera().K(), someMotion()));
   const Eigen::Matrix3d B = A.transpose() / A(2, 2);
   const Eigen::Vector2d x(0.3, -0.6);
 
@@ -129,7 +65,7 @@ TEST(Homography, EveryJacobianMatchesDifferences) {
 
 TEST(Homography, PlaneMotionJacobiansMatchDifferences) {
   const ImageScaling scaling(kWidth, kHeight);
-  const Eigen::Matrix3d K = scaling.T * cameraMatrix();
+  const Eigen::Matrix3d K = scaling.T * camera().K();
   const PlaneMotion motion = someMotion();
   const auto moved = [&](auto change) {
     PlaneMotion other = motion;
@@ -153,7 +89,7 @@ TEST(Homography, PlaneMotionJacobiansMatchDifferences) {
 
 TEST(Homography, ScalingIsUndoneByUnscaling) {
   const ImageScaling scaling(kWidth, kHeight);
-  const Eigen::Matrix3d H = planeHomography(cameraMatrix(), someMotion());
+  const Eigen::Matrix3d H = planeHomography(camera().K(), someMotion());
   EXPECT_LT((scaling.unscale(scaling.scale(H)) - H).norm(), 1e-9);
   EXPECT_LT(transfer(scaling.T, {319.5, 239.5}).norm(), 1e-12);
 }
@@ -167,4 +103,4 @@ TEST(Homography, TransferErrorOfAShiftIsTheShift) {
 }
 
 }  // namespace
-}  // namespace redbee
+}  // namespace redbee::test

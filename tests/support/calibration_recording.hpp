@@ -9,20 +9,21 @@
 #include "redbee/calibration/calibration.hpp"
 #include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/so3.hpp"
-#include "redbee/simulation/imu_simulator.hpp"
 #include "redbee/simulation/scenarios.hpp"
 #include "redbee/simulation/trajectory.hpp"
+#include "tests/support/consumer_imu.hpp"
+#include "tests/support/simulated_flight.hpp"
 
-namespace redbee::calibration {
+namespace redbee::test {
 
 struct SimulatedRecording {
-  CalibrationInput input;
+  calibration::CalibrationInput input;
   InertialExtrinsics truth;
   Eigen::Vector3d gyro_bias;
   Eigen::Vector3d accel_bias;
 };
 
-struct SimulationChoices {
+struct RecordingOptions {
   double duration_s = 12;
   double fps = 24;
   double noise_px = 0.15;  ///< per axis, white
@@ -41,15 +42,15 @@ inline Eigen::Vector3d randomDirection(std::mt19937& random) {
 
 class PointNoise {
  public:
-  PointNoise(const SimulationChoices& choices, unsigned seed) : choices_(choices), random_(seed) {}
+  PointNoise(const RecordingOptions& options, unsigned seed) : options_(options), random_(seed) {}
 
   void beginPair() {
-    for (auto& shift : common_) shift = vector(choices_.common_noise_px);
+    for (auto& shift : common_) shift = vector(options_.common_noise_px);
   }
   cv::Point2f disturbed(const Eigen::Vector2d& x, const CameraIntrinsics& camera) {
     const size_t quarter = (x.x() > camera.cx ? 1U : 0U) + (x.y() > camera.cy ? 2U : 0U);
-    Eigen::Vector2d y = x + common_[quarter] + vector(choices_.noise_px);
-    if (uniform_(random_) < choices_.outlier_ratio)
+    Eigen::Vector2d y = x + common_[quarter] + vector(options_.noise_px);
+    if (uniform_(random_) < options_.outlier_ratio)
       y += 40.0 * Eigen::Vector2d(uniform_(random_) - 0.5, uniform_(random_) - 0.5);
     return {static_cast<float>(y.x()), static_cast<float>(y.y())};
   }
@@ -57,7 +58,7 @@ class PointNoise {
  private:
   Eigen::Vector2d vector(double sigma) { return {sigma * normal_(random_), sigma * normal_(random_)}; }
 
-  SimulationChoices choices_;
+  RecordingOptions options_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_;
   std::uniform_real_distribution<double> uniform_;
@@ -85,19 +86,16 @@ inline PointTracks simulatedPoints(const Eigen::Matrix3d& H, const CameraIntrins
 /// Camera looking 60 degrees down; mounted 1.5 to 3.5 degrees off and 5 cm away from nominal, time shift up
 /// to 8 ms: all by the seed.
 inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajectory, unsigned seed,
-                                            const SimulationChoices& choices = {}) {
+                                            const RecordingOptions& options = {}) {
   std::mt19937 random(1000 + seed);
   std::uniform_real_distribution<double> uniform(0, 1);
   SimulatedRecording recording;
-  CalibrationInput& input = recording.input;
-  input.camera.width = 640;
-  input.camera.height = 480;
-  input.camera.fx = input.camera.fy = 500;
-  input.camera.cx = 319.5;
-  input.camera.cy = 239.5;
+  calibration::CalibrationInput& input = recording.input;
+  input.camera = intrinsics();
   input.nominal.R_CI = simulation::pitchedMounting(60 * kDegree);
   input.nominal.start_height_m = 2;
-  input.noise = {8.7e-5, 2.0e-3, 2.0e-5, 4.0e-4};
+  input.noise = consumerNoise();
+  input.noise.accel_noise_density = 2.0e-3;
 
   recording.truth = input.nominal;
   const double off = (1.5 + 2 * uniform(random)) * kDegree;
@@ -107,35 +105,26 @@ inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajec
   recording.gyro_bias = 0.006 * randomDirection(random);
   recording.accel_bias = 0.1 * randomDirection(random);
 
-  constexpr int64_t kStart = 1600000000000000;
-  simulation::ImuSimulatorParameters imu;
+  constexpr int64_t kRecordingStart = 1600000000000000;
+  const SimulatedFlight flight(trajectory, recording.truth, kRecordingStart);
+  ConsumerImu imu(seed);
   imu.noise = input.noise;
   imu.gyro_bias = recording.gyro_bias;
   imu.accel_bias = recording.accel_bias;
-  imu.seed = seed;
-  input.imu = simulation::simulateImu(trajectory, -0.5, choices.duration_s + 0.5, kStart, imu);
-  if (choices.altimeter) {
-    input.altimeter = simulation::simulateAltimeter(trajectory, recording.truth, -0.5,
-                                                    choices.duration_s + 0.5, kStart, 50, 0.05, seed);
-  }
-  const Eigen::Matrix3d K = Camera(input.camera).K();
-  PointNoise noise(choices, seed);
-  const auto frames = static_cast<int>(choices.duration_s * choices.fps);
+  input.imu = flight.imu(imu, options.duration_s + 0.5);
+  if (options.altimeter) input.altimeter = flight.altimeter(-0.5, options.duration_s + 0.5, seed);
+  PointNoise noise(options, seed);
+  const auto frames = static_cast<int>(options.duration_s * options.fps);
   for (int k = 0; k < frames; ++k) {
-    input.frames.push_back(kStart + std::llround(k * 1e6 / choices.fps));
+    input.frames.push_back(frameTime(k, kRecordingStart, options.fps));
     if (k == 0) continue;
-    const auto exposure = [&](int frame) {
-      return static_cast<double>(input.frames[static_cast<size_t>(frame)] - kStart) * 1e-6 +
-             recording.truth.timeshift_s;
-    };
-    const PlaneMotion motion =
-        simulation::exactMotion(trajectory, recording.truth, exposure(k - 1), exposure(k));
-    if (k == 1) recording.truth.start_height_m = motion.h_a;
+    const int64_t previous = input.frames[static_cast<size_t>(k - 1)];
+    const Eigen::Matrix3d H = flight.homography(previous, input.frames.back());
     input.ground.push_back(
-        {input.frames[static_cast<size_t>(k - 1)], input.frames[static_cast<size_t>(k)],
-         simulatedPoints(planeHomography(K, motion), input.camera, choices.grid_px, noise)});
+        {previous, input.frames.back(), simulatedPoints(H, input.camera, options.grid_px, noise)});
   }
+  recording.truth.start_height_m = flight.heightAt(kRecordingStart);
   return recording;
 }
 
-}  // namespace redbee::calibration
+}  // namespace redbee::test

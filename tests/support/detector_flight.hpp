@@ -1,4 +1,5 @@
-// Feeds a simulated flight, with its exact homographies, to the segmentation and compares with the truth.
+// A rendered flight with its exact homographies as a detector's input, and the detector's output against the
+// truth.
 #pragma once
 
 #include <functional>
@@ -8,52 +9,35 @@
 #include <vector>
 
 #include "redbee/detection/motion_segmenter.hpp"
-#include "redbee/simulation/flight_simulator.hpp"
-#include "redbee/simulation/imu_simulator.hpp"
 #include "redbee/visual/point_tracker.hpp"
+#include "tests/support/rendered_flight.hpp"
 
-namespace redbee::testing {
+namespace redbee::test {
 
-/// The same flight seen by a camera of half the size: for tests of order and statuses, which need no detail.
-inline simulation::Scenario halfSize(simulation::Scenario scenario) {
-  CameraIntrinsics& camera = scenario.intrinsics;
-  camera = {camera.width / 2,
-            camera.height / 2,
-            camera.fx / 2,
-            camera.fy / 2,
-            (camera.cx - 0.5) / 2,
-            (camera.cy - 0.5) / 2,
-            {}};
-  return scenario;
-}
-
-/// A flight with what the segmentation is given of it and the truth, rendered once.
-struct RecordedFlight {
+struct DetectorFlight {
   std::vector<SegmentationInput> inputs;
   std::vector<simulation::RenderedImage> truths;
 
   /// `front_patch`: the surface whose homography is given as the front plane's; nothing gives none.
-  RecordedFlight(const simulation::Scenario& scenario, int frames, std::optional<size_t> front_patch = {}) {
-    const simulation::FlightSimulator simulator(scenario);
+  DetectorFlight(const simulation::Scenario& scenario, int frames, std::optional<size_t> front_patch = {}) {
+    const RenderedFlight flight(scenario, frames);
     TrackerParameters dense;
     dense.grid_px = paperSegmentation().sample_grid_px;
     PointTracker tracker{dense};
     for (int k = 0; k < frames; ++k) {
-      const simulation::SimulatedFrame frame = simulator.frame(k);
       SegmentationInput input;
-      input.utime = frame.utime;
-      input.grey = frame.image.grey;
-      input.K = simulator.camera().K();
+      input.utime = flight.utime(k);
+      input.grey = flight.image(k).grey;
+      input.K = flight.simulator().camera().K();
       if (k > 0) {
-        input.utime_previous = simulator.frameUtime(k - 1);
-        input.ground = simulator.homography(k);
-        if (front_patch) input.front = simulator.frontHomography(k, *front_patch);
-        input.motion = simulation::exactMotion(scenario.trajectory, scenario.extrinsics,
-                                               simulator.exposureTime(k - 1), simulator.exposureTime(k));
+        input.utime_previous = flight.utime(k - 1);
+        input.ground = flight.homography(k);
+        if (front_patch) input.front = flight.simulator().frontHomography(k, *front_patch);
+        input.motion = flight.motion(k);
       }
       input.tracks = tracker.advance(input.grey, input.ground);
       inputs.push_back(input);
-      truths.push_back(frame.image);
+      truths.push_back(flight.image(k));
     }
   }
 };
@@ -90,8 +74,8 @@ struct PixelCounts {
 
 /// `change` may alter an input before it is used (drop the motion). The first frames, while things settle, do
 /// not count.
-inline PixelCounts fly(const RecordedFlight& flight, const SegmentationParameters& parameters, size_t patch,
-                       const std::function<void(SegmentationInput&)>& change = {}) {
+inline PixelCounts detect(const DetectorFlight& flight, const SegmentationParameters& parameters,
+                          size_t patch, const std::function<void(SegmentationInput&)>& change = {}) {
   MotionSegmenter segmenter(parameters);
   PixelCounts counts;
   const size_t settled = 2 * static_cast<size_t>(parameters.learning_frames);
@@ -104,4 +88,4 @@ inline PixelCounts fly(const RecordedFlight& flight, const SegmentationParameter
   return counts;
 }
 
-}  // namespace redbee::testing
+}  // namespace redbee::test

@@ -1,4 +1,4 @@
-// Textured images moved by a known homography, and small helpers that the visual tests share.
+// Textured images moved by a known homography.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +10,16 @@
 #include "redbee/geometry/so3.hpp"
 #include "redbee/simulation/tracks.hpp"
 #include "redbee/visual/point_tracker.hpp"
+#include "tests/support/camera.hpp"
 
-namespace redbee::testing {
+namespace redbee::test {
 
-inline constexpr int kWidth = 640;
-inline constexpr int kHeight = 480;
-
-inline Eigen::Matrix3d cameraMatrix() {
-  Eigen::Matrix3d K;
-  K << 500, 0, 319.5, 0, 500, 239.5, 0, 0, 1;
-  return K;
+/// White noise of this mean and sigma; CV_8U.
+inline cv::Mat noiseImage(cv::Size size, int seed, double mean, double sigma) {
+  cv::Mat image(size, CV_8U);
+  cv::RNG rng(static_cast<uint64_t>(seed));
+  rng.fill(image, cv::RNG::NORMAL, mean, sigma);
+  return image;
 }
 
 /// The ground from 6 m, camera 40 degrees down, 1/24 s at this rate and velocity.
@@ -30,7 +30,7 @@ inline PlaneMotion groundMotion(const Eigen::Vector3d& rate_deg_s, const Eigen::
 }
 
 inline Eigen::Matrix3d groundHomography(const Eigen::Vector3d& rate_deg_s, const Eigen::Vector3d& velocity) {
-  return planeHomography(cameraMatrix(), groundMotion(rate_deg_s, velocity));
+  return planeHomography(camera().K(), groundMotion(rate_deg_s, velocity));
 }
 
 /// A band-limited random texture with a margin around the image, so that a moved view has no empty parts.
@@ -84,4 +84,4 @@ inline PointTracks toTracks(const simulation::SimulatedTracks& simulated) {
   return tracks;
 }
 
-}  // namespace redbee::testing
+}  // namespace redbee::test

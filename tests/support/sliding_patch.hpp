@@ -1,6 +1,7 @@
 // A textured plane under a camera whose motion is known exactly, and a patch that slides over it.
 #pragma once
 
+#include <Eigen/LU>
 #include <cmath>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
@@ -11,12 +12,12 @@
 
 namespace redbee::test {
 
-struct SceneFrame {
+struct PatchFrame {
   RivalInput input;
   cv::Mat truth;  ///< CV_8U, 255 on the patch
 };
 
-struct SceneOptions {
+struct SlidingPatch {
   cv::Size size{480, 360};
   int frames = 16;
   cv::Point2d patch_step{3, 1.5};  ///< px a frame of the first frame's grid
@@ -25,7 +26,7 @@ struct SceneOptions {
   bool has_motion = true;  ///< false: as without an IMU
 };
 
-inline cv::Mat texture(cv::Size size, uint64_t seed, const cv::Scalar& tint) {
+inline cv::Mat colourTexture(cv::Size size, uint64_t seed, const cv::Scalar& tint) {
   cv::RNG random(seed);
   cv::Mat coarse(size / 12, CV_32FC3), fine(size / 5, CV_32FC3), map;
   random.fill(coarse, cv::RNG::UNIFORM, -50, 50);
@@ -37,7 +38,7 @@ inline cv::Mat texture(cv::Size size, uint64_t seed, const cv::Scalar& tint) {
 }
 
 /// The plane is 5 m away and faces the first camera.
-inline PlaneMotion sceneStep(bool camera_moves) {
+inline PlaneMotion planeStep(bool camera_moves) {
   const double scale = camera_moves ? 1 : 0;
   PlaneMotion step;
   step.R_ba = expSO3(scale * Eigen::Vector3d(0.001, -0.002, 0.003));
@@ -47,22 +48,22 @@ inline PlaneMotion sceneStep(bool camera_moves) {
   return step;
 }
 
-inline std::vector<SceneFrame> makeScene(const SceneOptions& options) {
+inline std::vector<PatchFrame> slidingPatch(const SlidingPatch& options) {
   const cv::Size canvas = options.size * 2;
   const cv::Matx33d to_first(1, 0, -options.size.width / 2.0, 0, 1, -options.size.height / 2.0, 0, 0, 1);
-  const cv::Mat ground = texture(canvas, 1, cv::Scalar(70, 90, 80));
-  const cv::Mat coat = texture(canvas, 2, cv::Scalar(190, 160, 170));
+  const cv::Mat ground = colourTexture(canvas, 1, cv::Scalar(70, 90, 80));
+  const cv::Mat coat = colourTexture(canvas, 2, cv::Scalar(190, 160, 170));
   cv::Mat outline = cv::Mat::zeros(canvas, CV_8U);
   const cv::Rect patch(canvas.width / 2 - 90, canvas.height / 2 - 60, 100, 80);
   if (options.has_patch) outline(patch).setTo(255);
   Eigen::Matrix3d K;
   K << 400, 0, options.size.width / 2.0, 0, 400, options.size.height / 2.0, 0, 0, 1;
-  PlaneMotion step = sceneStep(options.camera_moves);
+  PlaneMotion step = planeStep(options.camera_moves);
   Eigen::Matrix3d since_first = Eigen::Matrix3d::Identity();
   cv::RNG random(3);
-  std::vector<SceneFrame> frames;
+  std::vector<PatchFrame> frames;
   for (int k = 0; k < options.frames; ++k) {
-    SceneFrame frame;
+    PatchFrame frame;
     frame.input.utime = 1'000'000 + 40'000 * k;
     frame.input.K = K;
     if (k > 0) {
@@ -89,8 +90,18 @@ inline std::vector<SceneFrame> makeScene(const SceneOptions& options) {
   return frames;
 }
 
-/// How well scores tell the patch from the rest: the chance that a pixel of the patch scores above one of the
-/// rest, ties one half.
+/// With the defaults, made once.
+inline const std::vector<PatchFrame>& slidingPatch() {
+  static const std::vector<PatchFrame> frames = slidingPatch(SlidingPatch());
+  return frames;
+}
+/// The plane's, from frame k-1 to frame k.
+inline Eigen::Matrix3d trueStep(size_t k) {
+  return planeHomography(slidingPatch()[k].input.K, *slidingPatch()[k].input.motion);
+}
+
+/// How well scores separate the patch from the rest: the chance that a pixel of the patch scores above one of
+/// the rest, ties one half.
 class RankStatistic {
  public:
   void add(const cv::Mat& score, const cv::Mat& truth) {
@@ -108,7 +119,7 @@ class RankStatistic {
     }
     return good / (below * patch);
   }
-  /// Share of the rest, or of the patch, that scores at least this.
+  /// Fraction of the rest, or of the patch, that scores at least this.
   double fractionAbove(bool patch, size_t score) const {
     double above = 0, all = 0;
     for (size_t s = 0; s < 256; ++s) {

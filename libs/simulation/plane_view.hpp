@@ -1,0 +1,33 @@
+// Planes and patches as one camera sees them; internal to the renderer.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "redbee/geometry/camera.hpp"
+#include "redbee/simulation/camera_pose.hpp"
+#include "redbee/simulation/scene.hpp"
+
+namespace redbee::simulation {
+
+/// A plane as one camera sees it. For a ray d: inverse depth q = Q d, surface coordinates u = (U d) / q, v =
+/// (V d) / q.
+struct PlaneView {
+  Eigen::Vector3f U, V, Q;
+};
+
+/// All zero, which no ray meets, for a plane that holds the camera's centre.
+PlaneView viewOf(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis_u, const Eigen::Vector3d& axis_v,
+                 const CameraPose& pose);
+
+/// Patch coordinates relative to its half width and half height, -1 to 1.
+bool insideShape(PatchShape shape, float x, float y);
+
+/// In G [m].
+Eigen::Vector3d centreAt(const Patch& patch, double t_s);
+
+/// Pixel range that a patch can cover: the box of its corners, or the whole image where a corner lies
+/// behind the camera.
+cv::Rect boxOf(const Patch& patch, const CameraPose& pose, double t_s, const Camera& camera);
+
+}  // namespace redbee::simulation

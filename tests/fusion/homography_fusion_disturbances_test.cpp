@@ -1,0 +1,122 @@
+// The fusion where a source is wrong, damaged, late or lost.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "redbee/fusion/homography_fusion.hpp"
+#include "tests/support/fusion_inputs.hpp"
+
+namespace redbee::test {
+namespace {
+
+TEST(HomographyFusion, AGrossVisualErrorIsRefusedAndLaterAccepted) {
+  FusionInputs inputs(2);
+  FusionParameters parameters = honestNoise();
+  HomographyFusion fusion = makeFusion(parameters);
+  FusedHomography out;
+  for (int k = 1; k <= parameters.max_gated_in_a_row; ++k) {
+    VisualInput wrong = inputs.visual(k - 1, k);
+    wrong.H = translation(60) * wrong.H;
+    out = fusion.step(frameTime(k), inputs.inertial(k - 1, k), wrong);
+    EXPECT_EQ(out.source, FusionSource::kInertial);
+    EXPECT_GT(out.test_ratio, 1);
+    EXPECT_FALSE(out.visual_accepted);
+    EXPECT_LT(inputs.error(out.H_step, k - 1, k), 5);
+  }
+  const int32_t epoch = out.epoch;
+  const int k = parameters.max_gated_in_a_row + 1;
+  VisualInput insistent = inputs.visual(k - 1, k);
+  insistent.H = translation(60) * insistent.H;
+  out = fusion.step(frameTime(k), inputs.inertial(k - 1, k), insistent);
+  EXPECT_EQ(out.source, FusionSource::kVisual);
+  EXPECT_EQ(out.epoch, epoch + 1);
+}
+
+TEST(HomographyFusion, EitherSourceMayBeLostForASecondAndComeBack) {
+  for (const bool vision_lost : {true, false}) {
+    FusionInputs inputs(4);
+    HomographyFusion fusion = makeFusion();
+    for (int k = 1; k <= 96; ++k) {
+      const bool lost = k > 36 && k <= 60;
+      std::optional<InertialInput> inertial = inputs.inertial(k - 1, k);
+      std::optional<VisualInput> visual = inputs.visual(k - 1, k);
+      if (lost && vision_lost) visual.reset();
+      if (lost && !vision_lost) inertial.reset();
+      const FusedHomography out = fusion.step(frameTime(k), inertial, visual);
+      const FusionSource alone = vision_lost ? FusionSource::kInertial : FusionSource::kVisual;
+      EXPECT_EQ(out.source, lost ? alone : FusionSource::kFused) << k;
+      EXPECT_LT(inputs.error(out.H_step, k - 1, k), 5) << k;  // no jump, on the way out or back
+    }
+  }
+}
+
+TEST(HomographyFusion, AnInertialStepThatKnowsNoVelocityIsNoHomographyByItself) {
+  FusionInputs inputs(4);
+  HomographyFusion fusion(kWidth, kHeight, {});
+  const double unknown_velocity = 3.0 / kFrameRate;  // m in a frame, at 3 m/s
+  fusion.step(frameTime(0), std::nullopt, std::nullopt);
+  const auto alone = fusion.step(frameTime(1), inputs.inertial(0, 1, 4e-4, unknown_velocity), std::nullopt);
+  EXPECT_EQ(alone.source, FusionSource::kNone) << "its covariance says that it may be off by many pixels";
+  const auto both =
+      fusion.step(frameTime(2), inputs.inertial(1, 2, 4e-4, unknown_velocity), inputs.visual(1, 2));
+  EXPECT_EQ(both.source, FusionSource::kFused) << "it still knows the rotation, and vision knows the rest";
+  const auto known = fusion.step(frameTime(3), inputs.inertial(2, 3), std::nullopt);
+  EXPECT_EQ(known.source, FusionSource::kInertial);
+}
+
+TEST(HomographyFusion, BothLostBreaksTheChainAndStartsANewEpoch) {
+  FusionInputs inputs(5);
+  HomographyFusion fusion = makeFusion();
+  fusion.step(frameTime(1), inputs.inertial(0, 1), inputs.visual(0, 1));
+  const FusedHomography broken = fusion.step(frameTime(2), std::nullopt, std::nullopt);
+  EXPECT_EQ(broken.source, FusionSource::kNone);
+  EXPECT_EQ(broken.epoch, 1);
+  EXPECT_EQ(broken.utime_anchor, frameTime(2));
+  const FusedHomography back = fusion.step(frameTime(3), inputs.inertial(2, 3), inputs.visual(2, 3));
+  EXPECT_EQ(back.source, FusionSource::kFused);
+  EXPECT_EQ(back.epoch, 1);
+}
+
+TEST(HomographyFusion, VisionThatSkippedFramesIsUsedWithItsOwnStart) {
+  FusionInputs inputs(6);
+  HomographyFusion fusion = makeFusion();
+  for (int k = 1; k <= 4; ++k) fusion.step(frameTime(k), inputs.inertial(k - 1, k), std::nullopt);
+  const FusedHomography out = fusion.step(frameTime(5), std::nullopt, inputs.visual(0, 5, 0.01));
+  EXPECT_EQ(out.source, FusionSource::kVisual);
+  EXPECT_EQ(out.utime_previous, frameTime(4));
+  EXPECT_LT(inputs.error(out.H_anchor, 0, 5), 0.1);
+  const FusedHomography lost = fusion.step(frameTime(6), std::nullopt, inputs.visual(-1, 6));
+  EXPECT_EQ(lost.source, FusionSource::kNone);  // starts at a frame that the fusion never had
+}
+
+TEST(HomographyFusion, TimeThatDoesNotMoveForwardIsRefusedNotThrown) {
+  FusionInputs inputs(7);
+  HomographyFusion fusion = makeFusion();
+  fusion.step(frameTime(1), inputs.inertial(0, 1), inputs.visual(0, 1));
+  for (const int64_t utime : {frameTime(1), frameTime(0), std::numeric_limits<int64_t>::min()}) {
+    FusedHomography out;
+    EXPECT_NO_THROW(out = fusion.step(utime, inputs.inertial(0, 1), inputs.visual(0, 1)));
+    EXPECT_EQ(out.source, FusionSource::kNone);
+    EXPECT_EQ(out.utime_anchor, utime);
+  }
+}
+
+TEST(HomographyFusion, DamagedInputsCountAsAbsent) {
+  FusionInputs inputs(8);
+  HomographyFusion fusion = makeFusion();
+  VisualInput nan = inputs.visual(0, 1);
+  nan.H(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(fusion.step(frameTime(1), inputs.inertial(0, 1), nan).source, FusionSource::kInertial);
+  VisualInput negative = inputs.visual(1, 2);
+  negative.covariance = -negative.covariance;
+  EXPECT_EQ(fusion.step(frameTime(2), inputs.inertial(1, 2), negative).source, FusionSource::kInertial);
+  VisualInput empty = inputs.visual(2, 3);
+  empty.inliers = 0;
+  EXPECT_EQ(fusion.step(frameTime(3), inputs.inertial(2, 3), empty).source, FusionSource::kInertial);
+  VisualInput flat = inputs.visual(3, 4);
+  flat.H.setZero();
+  EXPECT_EQ(fusion.step(frameTime(4), inputs.inertial(3, 4), flat).source, FusionSource::kInertial);
+}
+
+}  // namespace
+}  // namespace redbee::test

@@ -1,0 +1,66 @@
+// A snapshot that is stale, of another vehicle or damaged is refused, and reported.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/warm_start_run.hpp"
+
+namespace redbee::test {
+namespace {
+
+struct Corruption {
+  const char* name;
+  std::function<void(filter_snapshot_t&)> corrupt;
+  const char* complaint;
+};
+
+class CorruptSnapshot : public testing::TestWithParam<Corruption> {};
+
+TEST_P(CorruptSnapshot, ChangesNothingAndIsReported) {
+  static const WarmStartFlight flight(1);
+  static const RunResult without = [] {
+    FaultInjection dropped;
+    dropped.drop_warm_start = true;
+    return run(flight, dropped);
+  }();
+  FaultInjection faults;
+  faults.corrupt_snapshot = GetParam().corrupt;
+  const RunResult result = run(flight, faults);
+  EXPECT_NE(result.log.find(GetParam().complaint), std::string::npos) << result.log;
+  for (int k = kBackAt; k < kFrames; ++k) {
+    EXPECT_EQ(encodeMessage(result.homographies.at(k)), encodeMessage(without.homographies.at(k))) << k;
+  }
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, CorruptSnapshot,
+    testing::Values(
+        Corruption{"Stale", [](auto& m) { m.utime -= 5'000'000; }, "too old"},
+        Corruption{"FromTheFuture", [](auto& m) { m.utime += 5'000'000; }, "from the future"},
+        Corruption{"OfAnAbsurdTime", [](auto& m) { m.utime = std::numeric_limits<int64_t>::min(); },
+                   "implausible"},
+        Corruption{"OfAnotherConfiguration", [](auto& m) { m.configuration[0] ^= 1; },
+                   "another configuration"},
+        Corruption{"HeightNaN", [](auto& m) { m.height = kNaN; }, "implausible"},
+        Corruption{"HeightOfASatellite", [](auto& m) { m.height = 4e5; }, "implausible"},
+        Corruption{"BelowTheGround", [](auto& m) { m.height = -3; }, "implausible"},
+        Corruption{"HeightSigmaNaN", [](auto& m) { m.height_sigma = kNaN; }, "implausible"},
+        Corruption{"HeightSigmaZero", [](auto& m) { m.height_sigma = 0; }, "implausible"},
+        Corruption{"HeightUnknown", [](auto& m) { m.height_sigma = 2 * m.height; }, "implausible"},
+        Corruption{"UpIsNoDirection", [](auto& m) { m.up[0] = 0.5; }, "implausible"},
+        Corruption{"UpSigmaNaN", [](auto& m) { m.up_sigma[1] = kNaN; }, "implausible"},
+        Corruption{"VelocityInfinite", [](auto& m) { m.velocity[1] = kInfinity; }, "implausible"},
+        Corruption{"VelocitySigmaNegative", [](auto& m) { m.velocity_sigma[0] = -1; }, "implausible"},
+        Corruption{"GyroBiasAbsurd", [](auto& m) { m.gyro_bias[2] = 3; }, "implausible"},
+        Corruption{"AccelBiasNaN", [](auto& m) { m.accel_bias[2] = kNaN; }, "implausible"},
+        Corruption{"AccelBiasSigmaAbsurd", [](auto& m) { m.accel_bias_sigma[0] = 1e30; }, "implausible"},
+        Corruption{"MountingIsNoRotation", [](auto& m) { m.R_CI[4] += 0.5; }, "implausible"},
+        Corruption{"MountingOfAnotherCamera",
+                   [](auto& m) { fill(m.R_CI, Eigen::Matrix3d::Identity().eval()); }, "implausible"}),
+    [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace redbee::test
