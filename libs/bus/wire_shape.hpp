@@ -1,5 +1,5 @@
-// What the wire says about lengths, type by type: the lengths inside a message are compared with its byte
-// count before anything is allocated for them. (Decoders made by lcm-gen resize first and look afterwards.)
+// Encoded layout of each message type: the lengths inside a message are compared with its size before
+// anything is allocated for them. (Decoders made by lcm-gen resize first and check afterwards.)
 #pragma once
 
 #include <cstdint>

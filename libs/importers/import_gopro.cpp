@@ -20,7 +20,7 @@ std::vector<ImuSample> readImu(const std::filesystem::path& video) {
   }
 }
 
-/// C looks along I's x with its x to the right and its y down.
+/// The optical axis of C is I's x; x of C is to the right, y down.
 Eigen::Matrix3d nominalMounting() {
   Eigen::Matrix3d R_CI;
   R_CI << 0, -1, 0, 0, 0, -1, 1, 0, 0;

@@ -9,7 +9,7 @@
 
 namespace redbee::simulation {
 
-/// R_CI of a camera that looks along the IMU's x axis, pitched down by this angle.
+/// R_CI of a camera whose optical axis is the IMU's x axis, pitched down by this angle.
 Eigen::Matrix3d pitchedMounting(double pitch_down_rad);
 
 /// Grass and nothing else; camera 30 degrees down.
@@ -20,7 +20,7 @@ inline constexpr size_t kFacadePatch = 0;
 /// Grass, a pond whose surface waves (patch kPondPatch), and a car.
 Scenario wavingWater(unsigned seed);
 inline constexpr size_t kPondPatch = 0;
-/// Grass under a camera that looks 60 degrees down and turns strongly about all axes.
+/// Grass under a camera pitched 60 degrees down that turns strongly about all axes.
 Scenario calibrationFlight(unsigned seed);
 /// Grass and five people on foot; the first stops from 3 s to 5 s and goes on.
 Scenario walkers(unsigned seed);

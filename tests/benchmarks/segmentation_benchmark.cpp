@@ -27,7 +27,7 @@ const std::vector<SegmentationInput>& inputs() {
   return flight.inputs;
 }
 
-/// A segmenter starts anew at the end of the flight: one frame in thirty is cheaper than the others.
+/// A segmenter restarts at the end of the flight: one frame in thirty is cheaper than the others.
 void wholeStep(benchmark::State& state, const SegmentationParameters& parameters) {
   inputs();
   MotionSegmenter segmenter(parameters);

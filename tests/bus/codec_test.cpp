@@ -22,8 +22,8 @@ void note(size_t size) {
 
 }  // namespace
 
-// Every allocation of this program is seen, so that a test can tell what a lying length cost. Inlined, they
-// would make GCC take malloc and delete for a mismatch.
+// Counts every allocation of this program, so that a test can measure the cost of a wrong length. Inlined,
+// they would make GCC take malloc and delete for a mismatch.
 [[gnu::noinline]] void* operator new(size_t size) {
   note(size);
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
@@ -77,7 +77,7 @@ TYPED_TEST(CodecTest, WhatIsEncodedDecodesToTheSame) {
   TypeParam decoded;
   ASSERT_TRUE(decodeMessage(data.data(), static_cast<int>(data.size()), decoded));
   EXPECT_EQ(encodeMessage(decoded), data);
-  EXPECT_NE(encodeMessage(TypeParam{}), data) << "the sample says nothing";
+  EXPECT_NE(encodeMessage(TypeParam{}), data) << "the sample is empty";
 }
 
 TYPED_TEST(CodecTest, AnEmptyMessageDecodes) { EXPECT_TRUE(this->decodes(encodeMessage(TypeParam{}))); }

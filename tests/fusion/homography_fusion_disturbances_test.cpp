@@ -56,7 +56,7 @@ TEST(HomographyFusion, AnInertialStepThatKnowsNoVelocityIsNoHomographyByItself) 
   const double unknown_velocity = 3.0 / kFrameRate;  // m in a frame, at 3 m/s
   fusion.step(frameTime(0), std::nullopt, std::nullopt);
   const auto alone = fusion.step(frameTime(1), inputs.inertial(0, 1, 4e-4, unknown_velocity), std::nullopt);
-  EXPECT_EQ(alone.source, FusionSource::kNone) << "its covariance says that it may be off by many pixels";
+  EXPECT_EQ(alone.source, FusionSource::kNone) << "by its covariance it may be off by many pixels";
   const auto both =
       fusion.step(frameTime(2), inputs.inertial(1, 2, 4e-4, unknown_velocity), inputs.visual(1, 2));
   EXPECT_EQ(both.source, FusionSource::kFused) << "it still knows the rotation, and vision knows the rest";

@@ -71,15 +71,15 @@ std::vector<Event> inputs() {
   return events;
 }
 
-/// What the stack itself says of the flight.
+/// The stack's own messages of the flight.
 std::vector<Event> outputs(const std::vector<Event>& events) {
   const auto bus = makeLcmBus("memq://");
-  std::vector<Event> said;
+  std::vector<Event> output;
   const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY", "FOREGROUND",
                                "DETECTIONS",          "PROCESS_HEALTH",    "FILTER_SNAPSHOT"};
   for (size_t i = 0; i < std::size(names); ++i) {
-    bus->subscribe(names[i], 64, [&said, i, &names](const uint8_t* data, int size) {
-      said.push_back({0, static_cast<uint8_t>(3 + i), names[i], Bytes(data, data + size)});
+    bus->subscribe(names[i], 64, [&output, i, &names](const uint8_t* data, int size) {
+      output.push_back({0, static_cast<uint8_t>(3 + i), names[i], Bytes(data, data + size)});
     });
   }
   InProcessStack stack(*bus, smallVehicle());
@@ -89,10 +89,10 @@ std::vector<Event> outputs(const std::vector<Event>& events) {
   }
   stack.finish();
   stack.publishHealth();
-  return said;
+  return output;
 }
 
-/// What a neighbour says to an inertial process at the flight's first frame.
+/// Messages to an inertial process at the flight's first frame.
 Event keptState(const std::vector<Event>& flight) {
   constexpr uint8_t kWarmStart = 7;
   FilterSnapshot known;
@@ -114,12 +114,12 @@ void appendRecord(Bytes& seed, const Event& event) {
 }
 
 void writeMessageSeeds(const fs::path& folder, const std::vector<Event>& flight,
-                       const std::vector<Event>& said) {
+                       const std::vector<Event>& output) {
   Bytes whole;
   for (const Event& event : flight) appendRecord(whole, event);
   write(folder / "messages" / "flight", whole);
   Bytes strangers;
-  for (const Event& event : said) {
+  for (const Event& event : output) {
     if (event.channel <= 5 && event.data.size() < 8000) appendRecord(strangers, event);
     if (strangers.size() > 6000) break;
   }
@@ -132,7 +132,7 @@ void writeMessageSeeds(const fs::path& folder, const std::vector<Event>& flight,
   appendRecord(begun, keptState(flight));
   write(folder / "messages" / "warm_start", begun);
   std::map<uint8_t, Event> one_of_each;
-  for (const auto* events : {&flight, &said}) {
+  for (const auto* events : {&flight, &output}) {
     for (const Event& event : *events) one_of_each.insert_or_assign(event.channel, event);
   }
   const auto writeCodecSeed = [&](uint8_t type, const Event& event) {

@@ -1,4 +1,4 @@
-// The four nodes under messages that decode but say anything, in any order, in the midst of good ones.
+// The four nodes under messages that decode but have arbitrary content, in any order, among good ones.
 // Input: records of one byte that picks the channel, two bytes of length (big-endian), and so many bytes of
 // message behind its hash. A length beyond the end takes what is there.
 #include <spdlog/spdlog.h>

@@ -13,7 +13,7 @@ TEST_F(ImportAslFaults, BadInputIsReportedWithFileAndLine) {
     const char* what;
     std::function<void()> damage;
     std::string file_and_line;
-    const char* words;
+    const char* fault;
   };
   const auto copyOf = [](const fs::path& file) { return readText(file); };
   const std::string good_list = copyOf(list);
@@ -24,7 +24,7 @@ TEST_F(ImportAslFaults, BadInputIsReportedWithFileAndLine) {
       {"no list", [&] { fs::remove(list); }, "cam0/data.csv: ", "no such file"},
       {"no images listed", [&] { writeText(list, "#timestamp,filename\n"); },
        "cam0/data.csv: ", "lists no images"},
-      {"a image is missing", [&] { fs::remove(images_[3]); }, "cam0/data.csv:5: ", "is missing"},
+      {"an image is missing", [&] { fs::remove(images_[3]); }, "cam0/data.csv:5: ", "is missing"},
       {"truncated JPEG", [&] { fs::resize_file(images_[3], good_image.size() / 2); }, images_[3].string(),
        "cut short"},
       {"JPEG header only", [&] { fs::resize_file(images_[3], 20); }, images_[3].string(), "header"},
@@ -68,7 +68,7 @@ TEST_F(ImportAslFaults, BadInputIsReportedWithFileAndLine) {
     bad.damage();
     const std::string line = complaint();
     EXPECT_NE(line.find(bad.file_and_line), std::string::npos) << bad.what << ": " << line;
-    EXPECT_NE(line.find(bad.words), std::string::npos) << bad.what << ": " << line;
+    EXPECT_NE(line.find(bad.fault), std::string::npos) << bad.what << ": " << line;
     writeText(list, good_list);
     writeText(imu, good_imu);
     writeText(images_[3], good_image);

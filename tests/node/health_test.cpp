@@ -26,7 +26,7 @@ TEST(SequenceCounter, JoiningLateIsNoLoss) { EXPECT_EQ(lostAfter({500, 501}), 0)
 
 TEST(SequenceCounter, RestartIsNoLoss) {
   EXPECT_EQ(lostAfter({7, 8, 9, 0, 1, 2}), 0);
-  EXPECT_EQ(lostAfter({500, 501, 3, 4}), 0) << "a restart whose first messages were not heard";
+  EXPECT_EQ(lostAfter({500, 501, 3, 4}), 0) << "a restart whose first messages were lost";
   EXPECT_EQ(lostAfter({0, 2, 0, 1, 2, 4}), 2);
 }
 
@@ -97,7 +97,7 @@ TEST(HealthMonitor, ReportsAllThatWasNoted) {
   EXPECT_EQ(message.skipped, 3);
   EXPECT_EQ(message.lost, 3);
   EXPECT_EQ(health.lost("B"), 1);
-  EXPECT_EQ(health.lost("never heard"), 0);
+  EXPECT_EQ(health.lost("never received"), 0);
   EXPECT_EQ(message.damaged, 1);
   EXPECT_EQ(message.late, 2);
   EXPECT_GT(message.resident, 1 << 20);

@@ -55,7 +55,7 @@ class FusionInputs {
     const double ratio = 1.0 + static_cast<double>(outliers) / inliers;
     const Matrix8d inverse = information.inverse();
     const Matrix8d covariance = sigma * sigma * 0.5 * (inverse + inverse.transpose());
-    // The message's covariance is that of the inliers; outliers add to it as equation 7 says.
+    // The message's covariance is that of the inliers; outliers add to it by equation 7.
     return {frameTime(a), disturbed(exact(a, b), ratio * covariance), covariance, inliers, outliers};
   }
 

@@ -33,8 +33,8 @@ inline Bytes record(const std::string& key, char type, size_t sample_size, size_
 inline Bytes container(const std::string& key, const Bytes& inside) {
   return record(key, 0, 1, inside.size(), inside);
 }
-inline Bytes text(const std::string& key, const std::string& words) {
-  return record(key, 'c', words.size(), 1, Bytes(words.begin(), words.end()));
+inline Bytes text(const std::string& key, const std::string& content) {
+  return record(key, 'c', content.size(), 1, Bytes(content.begin(), content.end()));
 }
 inline Bytes shorts(const std::vector<int>& values) {
   Bytes out;

@@ -23,7 +23,7 @@ inline int64_t frameTime(int k, int64_t start = kStart, double frame_rate = kFra
   return start + static_cast<int64_t>(std::llround(k * 1e6 / frame_rate));
 }
 
-/// Camera looks along IMU x, `pitch_deg` below the horizon; 5 cm from the IMU.
+/// Optical axis along IMU x, `pitch_deg` below the horizon; 5 cm from the IMU.
 inline InertialExtrinsics mountedCamera(double start_height_m, double pitch_deg = 40) {
   Eigen::Matrix3d level;
   level << 0, -1, 0, 0, 0, -1, 1, 0, 0;

@@ -64,7 +64,7 @@ TEST(HomographyEstimation, InlierFlagsAreRight) {
 }
 
 TEST(HomographyEstimation, CovarianceIsNotOptimisticAndNotVague) {
-  // Independent errors: the estimate is known better than the covariance says, by the factor that it keeps
+  // Independent errors: the estimate is more accurate than its covariance, by the factor that it keeps
   // for the correlation of real tracking errors, and never worse.
   constexpr int kRuns = 200;
   const ImageScaling scaling(kWidth, kHeight);
@@ -102,7 +102,7 @@ TEST(HomographyEstimation, PredictionPicksTheGroundWhereAWallHasMostPoints) {
   const auto near = estimateHomographyNear(tracks, kWidth, kHeight, prediction, root * root.transpose(), {});
   ASSERT_TRUE(most);
   ASSERT_TRUE(near);
-  // The ground's points fill the left 30 % of the view; it is judged there.
+  // The ground's points fill the left 30 % of the view; it is evaluated there.
   const double error = meanTransferError(near->H, ground(), kWidth * 3 / 10, kHeight);
   std::cout << "ground error where it is seen: " << error << " px, most inliers' "
             << meanTransferError(most->H, ground(), kWidth * 3 / 10, kHeight) << " px\n";

@@ -88,7 +88,7 @@ TEST(PointTracker, SurvivesRaggedImages) {
     EXPECT_TRUE(tracker.advance(tiny, {}).previous.empty());
   }
   const cv::Mat view = Canvas(4).view(Eigen::Matrix3d::Identity(), 1, 1);
-  EXPECT_TRUE(tracker.advance(view, {}).previous.empty()) << "a change of size starts anew";
+  EXPECT_TRUE(tracker.advance(view, {}).previous.empty()) << "a change of size restarts";
   const PointTracks standing = tracker.advance(view, {});
   EXPECT_GT(standing.previous.size(), 0.75 * standing.sampled);
   // A guess that is not a number finds nothing and does no harm.

@@ -13,9 +13,9 @@ namespace redbee {
 namespace {
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
+using Fields = std::vector<std::string>;
 
-void forEachLine(const fs::path& file, size_t least_words, const std::function<void(const Words&)>& take) {
+void forEachLine(const fs::path& file, size_t least_fields, const std::function<void(const Fields&)>& take) {
   std::ifstream in(file);
   if (!in) throw InputError(file, "cannot be read");
   int number = 0;
@@ -23,15 +23,15 @@ void forEachLine(const fs::path& file, size_t least_words, const std::function<v
   for (std::string line; std::getline(in, line);) {
     ++number;
     std::istringstream stream(line.substr(0, line.find('#')));
-    Words words;
-    for (std::string word; stream >> word;) words.push_back(word);
-    if (words.empty()) continue;
-    if (words.size() < least_words) {
+    Fields fields;
+    for (std::string field; stream >> field;) fields.push_back(field);
+    if (fields.empty()) continue;
+    if (fields.size() < least_fields) {
       throw InputError(
           file, number,
-          "has " + std::to_string(words.size()) + " words, needs " + std::to_string(least_words));
+          "has " + std::to_string(fields.size()) + " fields, needs " + std::to_string(least_fields));
     }
-    take(words);
+    take(fields);
     any = true;
   }
   if (!any) throw InputError(file, "lists nothing");
@@ -84,15 +84,15 @@ std::optional<double> CellMeasures::value(const std::string& name) const {
 std::vector<ListedClip> readClipList(const fs::path& file) {
   constexpr size_t kColumns = 6;  // set, name, import, recording, truth, configuration
   std::vector<ListedClip> clips;
-  forEachLine(file, kColumns, [&](const Words& words) {
-    clips.push_back({words[0], words[1], words[5] == "extrinsics"});
+  forEachLine(file, kColumns, [&](const Fields& fields) {
+    clips.push_back({fields[0], fields[1], fields[5] == "extrinsics"});
   });
   return clips;
 }
 
 std::vector<std::string> readMethodList(const fs::path& file) {
   std::vector<std::string> methods;
-  forEachLine(file, 2, [&](const Words& words) { methods.push_back(words[0]); });
+  forEachLine(file, 2, [&](const Fields& fields) { methods.push_back(fields[0]); });
   return methods;
 }
 

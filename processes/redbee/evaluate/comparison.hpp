@@ -17,9 +17,9 @@ struct ListedClip {
   bool has_extrinsics_rows = false;
 };
 
-/// Lines of words; '#' starts a comment. Throw InputError with file and line.
+/// Lines of fields separated by blanks; '#' starts a comment. Throw InputError with file and line.
 std::vector<ListedClip> readClipList(const std::filesystem::path& file);
-/// The first word of each line.
+/// The first field of each line.
 std::vector<std::string> readMethodList(const std::filesystem::path& file);
 
 /// Measures of one run; empty: undefined with this truth, or not measured.

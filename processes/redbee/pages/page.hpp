@@ -34,7 +34,7 @@ class Page {
 
 /// A JPEG with its caption as a <figure> element.
 std::string jpegFigure(std::string_view jpeg, const std::string& caption);
-/// A word in a colour of its own, as the legends of our images have them: a <b> element.
+/// Text in a colour of its own, as the legends of our images have them: a <b> element.
 std::string legendEntry(const std::string& colour, const std::string& text);
 
 }  // namespace redbee

@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// How a line of the table is to look.
+/// Style of a line of the table.
 enum class Tone { kPlain, kHeading, kGood, kWarning, kBad };
 
 struct BoardLine {
