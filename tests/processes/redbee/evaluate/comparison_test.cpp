@@ -116,7 +116,7 @@ TEST_F(ComparisonTest, ThePageHoldsTablesCurvesAndImages) {
 
 TEST_F(ComparisonTest, ComplaintsAboutBadListsNameTheLine) {
   writeText(folder_ / "short.txt", "# comment\nflown a asl\n");
-  EXPECT_NE(complaintOf([&] { readClipList(folder_ / "short.txt"); }).find("short.txt:2: has 3 words"),
+  EXPECT_NE(complaintOf([&] { readClipList(folder_ / "short.txt"); }).find("short.txt:2: has 3 fields"),
             std::string::npos);
   writeText(folder_ / "empty.txt", "# nothing\n");
   EXPECT_NE(complaintOf([&] { readMethodList(folder_ / "empty.txt"); }).find("lists nothing"),
