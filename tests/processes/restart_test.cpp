@@ -9,9 +9,9 @@
 
 #include "processes/conversions.hpp"
 #include "processes/motion_segmentation/node.hpp"
-#include "tests/processes/mortal_stack.hpp"
-#include "tests/processes/stack_fixture.hpp"
+#include "tests/support/killable_stack.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/stack_run.hpp"
 
 namespace redbee::test {
 namespace {
@@ -20,85 +20,78 @@ constexpr int kFrames = 110;
 constexpr int kKilledAt = 50;
 constexpr int kDownFrames = 8;  ///< a third of a second: what supervisor needs
 
-struct Seen {
-  std::map<int64_t, int> told_at;  ///< frame by the newest frame that had been sent when it was told
-  Said said;
+struct RunResult {
+  /// By frame time: the newest frame that had been sent when its mask was published.
+  std::map<int64_t, int> published_at;
+  StackOutput output;
 };
 
 /// `kills`: who dies at which frame; each is back kDownFrames later.
-Seen flyWith(const Flight& flight, const std::map<int, const ProcessDescription*>& kills) {
+RunResult flyWith(const StackFlight& flight, const std::map<int, const ProcessDescription*>& kills) {
   const auto bus = makeLcmBus("memq://");
-  Seen seen;
+  RunResult result;
   int frame = -1;
+  result.output.subscribe(*bus);
   bus->subscribe<foreground_t>(
-      "FOREGROUND", 64,
-      [&](const foreground_t& m) {
-        seen.said.foreground[m.utime] = m;
-        seen.told_at[m.utime] = frame;
-      },
-      nullptr);
-  bus->subscribe<detections_t>(
-      "DETECTIONS", 64, [&](const detections_t& m) { seen.said.detections[m.utime] = m; }, nullptr);
-  bus->subscribe<fused_homography_t>(
-      "FUSED_HOMOGRAPHY", 64, [&](const fused_homography_t& m) { seen.said.fused[m.utime] = m; }, nullptr);
-  MortalStack stack(*bus, flight.configuration);
-  for (const Arrival& arrival : flight.arrivals) {
-    if (arrival.channel == "CAMERA") {
+      "FOREGROUND", 64, [&](const foreground_t& m) { result.published_at[m.utime] = frame; }, nullptr);
+  KillableStack stack(*bus, flight.configuration);
+  for (const SensorMessage& sent : flight.messages) {
+    if (sent.channel == "CAMERA") {
       ++frame;
       if (const auto kill = kills.find(frame); kill != kills.end()) stack.kill(*kill->second);
       if (const auto kill = kills.find(frame - kDownFrames); kill != kills.end()) stack.start(*kill->second);
     }
-    bus->publish(arrival.channel, arrival.data);
+    bus->publish(sent.channel, sent.data);
     stack.settle();
   }
-  return seen;
+  return result;
 }
 
-const Flight& walk() {
-  static const Flight flight = fly(simulation::twoPlanes(3), kFrames);
+const StackFlight& walk() {
+  static const StackFlight flight = stackFlight(simulation::twoPlanes(3), kFrames);
   return flight;
 }
 
 int64_t utimeOf(int k) { return walk().frame_utimes[static_cast<size_t>(k)]; }
 
-bool isGood(const Said& said, int k) {
-  const auto it = said.foreground.find(utimeOf(k));
-  return it != said.foreground.end() && it->second.status == 0;
+bool isGood(const StackOutput& output, int k) {
+  const auto it = output.foreground.find(utimeOf(k));
+  return it != output.foreground.end() && it->second.status == 0;
 }
 
-/// How long nothing that can be trusted was told, in frames that had been sent by then: what an autopilot
+/// How long nothing trusted was published, in frames that had been sent by then: what an autopilot
 /// sees.
-int framesInTheDark(const Seen& seen, int killed_at) {
+int framesWithoutMask(const RunResult& result, int killed_at) {
   int longest = 0;
   int last = killed_at;
   for (int k = killed_at; k < kFrames; ++k) {
-    if (!isGood(seen.said, k)) continue;
-    longest = std::max(longest, seen.told_at.at(utimeOf(k)) - last);
-    last = std::max(last, seen.told_at.at(utimeOf(k)));
+    if (!isGood(result.output, k)) continue;
+    longest = std::max(longest, result.published_at.at(utimeOf(k)) - last);
+    last = std::max(last, result.published_at.at(utimeOf(k)));
   }
   return longest;
 }
 
-int untrusted(const Said& said, int from, int to) {
+int untrusted(const StackOutput& output, int from, int to) {
   int count = 0;
-  for (int k = from; k < to; ++k) count += isGood(said, k) ? 0 : 1;
+  for (int k = from; k < to; ++k) count += isGood(output, k) ? 0 : 1;
   return count;
 }
 
 /// No mask that is called good is wilder than a few percent of the image.
-void expectNoWrongMask(const Said& said) {
+void expectNoWrongMask(const StackOutput& output) {
   for (int k = 0; k < kFrames; ++k) {
-    if (!isGood(said, k)) continue;
-    const cv::Mat mask = cv::imdecode(said.foreground.at(utimeOf(k)).mask, cv::IMREAD_GRAYSCALE);
+    if (!isGood(output, k)) continue;
+    const cv::Mat mask = cv::imdecode(output.foreground.at(utimeOf(k)).mask, cv::IMREAD_GRAYSCALE);
     EXPECT_LT(cv::countNonZero(mask & (walk().masks[static_cast<size_t>(k)] == 0)), 640 * 480 / 25)
         << "frame " << k;
   }
 }
 
-/// Identities of what is told at frame k, by the truth's mover: here there is one.
-std::optional<int> identityAt(const Said& said, int k) {
-  const auto it = said.detections.find(utimeOf(k));
-  if (it == said.detections.end()) return std::nullopt;
+/// Identities of what is detected at frame k, by the truth's mover: here there is one.
+std::optional<int> identityAt(const StackOutput& output, int k) {
+  const auto it = output.detections.find(utimeOf(k));
+  if (it == output.detections.end()) return std::nullopt;
   const cv::Rect truth = cv::boundingRect(walk().masks[static_cast<size_t>(k)] == 255);
   for (const detection_t& d : it->second.detections) {
     const cv::Rect box(d.x, d.y, d.width, d.height);
@@ -107,9 +100,9 @@ std::optional<int> identityAt(const Said& said, int k) {
   return std::nullopt;
 }
 
-std::optional<int> firstIdentity(const Said& said, int from, int to, int step = 1) {
+std::optional<int> firstIdentity(const StackOutput& output, int from, int to, int step = 1) {
   for (int k = from; k != to; k += step) {
-    if (const auto id = identityAt(said, k)) return id;
+    if (const auto id = identityAt(output, k)) return id;
   }
   return std::nullopt;
 }
@@ -117,23 +110,24 @@ std::optional<int> firstIdentity(const Said& said, int from, int to, int step = 
 struct Case {
   const char* name;
   const ProcessDescription* killed;
-  int dark;       ///< frames at most without a trusted answer, 24 a second
-  int untrusted;  ///< frames at most that never get a mask
+  int without_mask;  ///< frames in a row at most, 24 a second
+  int never;         ///< frames at most that never get a trusted mask
 };
 
 class ProcessKilled : public testing::TestWithParam<Case> {};
 
 TEST_P(ProcessKilled, TheOthersContinueAndNoWrongMaskIsPublished) {
   const Case& c = GetParam();
-  const Seen seen = flyWith(walk(), {{kKilledAt, c.killed}});
-  expectNoWrongMask(seen.said);
-  const int dark = framesInTheDark(seen, kKilledAt - 1);
-  const int lost = untrusted(seen.said, kKilledAt, kFrames - 10);
-  std::cout << c.name << ": " << dark << " frames in the dark, " << lost << " without a mask\n";
-  EXPECT_LE(dark, c.dark);
-  EXPECT_LE(lost, c.untrusted);
-  const auto before = firstIdentity(seen.said, kKilledAt - 1, kKilledAt - 15, -1);
-  const auto after = firstIdentity(seen.said, kKilledAt + 1, kFrames);
+  const RunResult result = flyWith(walk(), {{kKilledAt, c.killed}});
+  expectNoWrongMask(result.output);
+  const int without_mask = framesWithoutMask(result, kKilledAt - 1);
+  const int lost = untrusted(result.output, kKilledAt, kFrames - 10);
+  std::cout << c.name << ": " << without_mask << " frames without a trusted mask, " << lost
+            << " never got one\n";
+  EXPECT_LE(without_mask, c.without_mask);
+  EXPECT_LE(lost, c.never);
+  const auto before = firstIdentity(result.output, kKilledAt - 1, kKilledAt - 15, -1);
+  const auto after = firstIdentity(result.output, kKilledAt + 1, kFrames);
   ASSERT_TRUE(before && after);
   if (c.killed != &kMotionSegmentation) {
     EXPECT_EQ(*before, *after);
@@ -147,13 +141,13 @@ INSTANTIATE_TEST_SUITE_P(Each, ProcessKilled,
                                          Case{"segmentation", &kMotionSegmentation, 24, 16}),
                          [](const auto& each) { return each.param.name; });
 
-/// An overloaded machine does this: the IMU's homographies come in time, vision's do not, and nobody has told
-/// the filter how fast the drone is.
+/// An overloaded machine does this: the IMU's homographies come in time, vision's do not, and the filter
+/// does not know how fast the drone is.
 TEST(ProcessesStart, WithoutVisionNoWrongMaskIsCalledGood) {
-  const Seen seen = flyWith(walk(), {{0, &kVisualHomography}});
-  expectNoWrongMask(seen.said);
-  for (int k = 0; k < kDownFrames; ++k) EXPECT_FALSE(isGood(seen.said, k)) << "frame " << k;
-  EXPECT_EQ(untrusted(seen.said, kKilledAt, kFrames), 0);
+  const RunResult result = flyWith(walk(), {{0, &kVisualHomography}});
+  expectNoWrongMask(result.output);
+  for (int k = 0; k < kDownFrames; ++k) EXPECT_FALSE(isGood(result.output, k)) << "frame " << k;
+  EXPECT_EQ(untrusted(result.output, kKilledAt, kFrames), 0);
 }
 
 TEST(RestartedTracker, GivesNoIdentityTwice) {
@@ -183,7 +177,7 @@ TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
   bus->subscribe<foreground_t>(
       "FOREGROUND", 64, [&](const foreground_t& m) { status[m.utime] = m.status; }, nullptr);
   MotionSegmentationNode node(*bus, walk().configuration);
-  const auto tell = [&](int k, int64_t utime_previous, int64_t utime_anchor) {
+  const auto publish = [&](int k, int64_t utime_previous, int64_t utime_anchor) {
     fused_homography_t fused{};
     fused.utime = utimeOf(k);
     fused.utime_previous = utime_previous;
@@ -194,17 +188,16 @@ TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
     fill(fused.H, walk().homographies[static_cast<size_t>(k)]);
     fill(fused.H_anchor, walk().homographies[static_cast<size_t>(k)]);
     bus->publish("FUSED_HOMOGRAPHY", fused);
-    for (const Arrival& arrival : walk().arrivals) {
-      if (arrival.channel == "CAMERA" && arrival.utime == utimeOf(k))
-        bus->publish(arrival.channel, arrival.data);
+    for (const SensorMessage& sent : walk().messages) {
+      if (sent.channel == "CAMERA" && sent.utime == utimeOf(k)) bus->publish(sent.channel, sent.data);
     }
     bus->handle(std::chrono::milliseconds(0));
     node.process();
     bus->handle(std::chrono::milliseconds(0));
   };
-  for (int k = 1; k < 15; ++k) tell(k, utimeOf(k - 1), utimeOf(0));
+  for (int k = 1; k < 15; ++k) publish(k, utimeOf(k - 1), utimeOf(0));
   EXPECT_EQ(status.at(utimeOf(14)), 0);
-  tell(17, utimeOf(16), utimeOf(16));  // frames were lost, and the fusion counts its epochs anew
+  publish(17, utimeOf(16), utimeOf(16));  // frames were lost, and the fusion counts its epochs from the start
   EXPECT_NE(status.at(utimeOf(17)), 0) << "the homographies to two different anchors do not compose";
 }
 

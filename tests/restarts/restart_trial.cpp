@@ -9,8 +9,8 @@
 
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/atomic_file.hpp"
-#include "tests/restarts/live_player.hpp"
 #include "tests/restarts/trial_report.hpp"
+#include "tests/support/live_player.hpp"
 
 namespace redbee::test {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kLongestPause_s = 30;
 constexpr int kSettledFrames = 30;
 
 std::string vehicleYaml() {
-  const simulation::Scenario scenario = loopedScenario();
+  const simulation::Scenario scenario = endlessScenario();
   Configuration configuration;
   configuration.vehicle = "endless";
   configuration.camera = scenario.intrinsics;
@@ -92,7 +92,7 @@ class Trial {
   }
 
   std::vector<std::string> programs_ = allPrograms();
-  LoopedFlight flight_;
+  EndlessFlight flight_;
   std::unique_ptr<Bus> bus_;
   Observer observer_;
   LivePlayer player_;

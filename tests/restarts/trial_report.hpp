@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "redbee/configuration/process_table.hpp"
-#include "tests/restarts/observer.hpp"
+#include "tests/support/observer.hpp"
 
 namespace redbee::test {
 
@@ -34,7 +34,7 @@ inline bool fail(const std::string& what) {
 
 class TrialReport {
  public:
-  TrialReport(const LoopedFlight& flight, const Observer& observer, const std::vector<Kill>& kills)
+  TrialReport(const EndlessFlight& flight, const Observer& observer, const std::vector<Kill>& kills)
       : flight_(flight), observer_(observer), kills_(kills) {}
 
   /// Prints the figures. False where something that is promised did not hold.
@@ -168,7 +168,7 @@ class TrialReport {
 
   static constexpr double kWildFraction = 1.0 / 25;  ///< no trusted mask may be more wrong than this
 
-  const LoopedFlight& flight_;
+  const EndlessFlight& flight_;
   const Observer& observer_;
   const std::vector<Kill>& kills_;
 };

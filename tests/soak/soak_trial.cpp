@@ -1,6 +1,6 @@
-// soak_trial: flies the endless flight (tests/restarts) into a running stack for a given time, and checks the
-// health messages: does memory grow, do the frames take longer and longer, is anything lost. Exit 1 where it
-// does.
+// soak_trial: flies the endless flight (tests/support/endless_flight.hpp) into a running stack for a given
+// time, and checks the health messages: does memory grow, do the frames take longer and longer, is anything
+// lost. Exit 1 where it does.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -11,7 +11,7 @@
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/process_health_t.hpp"
-#include "tests/restarts/live_player.hpp"
+#include "tests/support/live_player.hpp"
 
 namespace redbee::test {
 namespace {
@@ -74,7 +74,7 @@ bool soak(const Options& options) {
   Point newest;
   bus->subscribe<process_health_t>(
       "PROCESS_HEALTH", 64, [&](const process_health_t& m) { newest[m.process] = m; }, nullptr);
-  const LoopedFlight flight;
+  const EndlessFlight flight;
   const double seconds = 60 * options.minutes;
   LivePlayer player(*bus, flight, (seconds + 5) * options.speed, options.speed);
   const auto start = Clock::now();

@@ -38,9 +38,9 @@ struct Process {
   std::unique_ptr<Node> node;
 };
 
-class MortalStack {
+class KillableStack {
  public:
-  MortalStack(Bus& bus, Configuration configuration) : bus_(bus), configuration_(std::move(configuration)) {
+  KillableStack(Bus& bus, Configuration configuration) : bus_(bus), configuration_(std::move(configuration)) {
     for (const ProcessDescription* stage : kStages) start(*stage);
   }
 

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "redbee/simulation/scenarios.hpp"
+#include "tests/support/rendered_flight.hpp"
 
 namespace redbee::test {
 
@@ -40,7 +40,7 @@ inline const std::vector<Lane>& lanes() {
   return all;
 }
 
-inline simulation::Scenario loopedScenario() {
+inline simulation::Scenario endlessScenario() {
   simulation::Scenario s = simulation::groundOnly(7);
   s.trajectory = swaying();
   s.extrinsics.start_height_m =
@@ -69,13 +69,9 @@ struct FrameTruth {
       cars;  ///< by car, boxes of those of which enough is in view; a car keeps its number
 };
 
-class LoopedFlight {
+class EndlessFlight {
  public:
-  LoopedFlight() : simulator_(loopedScenario()) {
-    for (int k = 0; k < kLoopFrames; ++k) images_.push_back(simulator_.frame(k).image);
-  }
-
-  const simulation::Scenario& scenario() const { return simulator_.scenario(); }
+  const simulation::Scenario& scenario() const { return loop_.scenario(); }
   const cv::Mat& image(int64_t k) const { return at(k).grey; }
   int64_t utime(int64_t k) const { return scenario().start_utime + k * 1000000 / kFps; }
   int64_t frameAt(int64_t utime) const {
@@ -99,11 +95,10 @@ class LoopedFlight {
 
  private:
   const simulation::RenderedImage& at(int64_t k) const {
-    return images_[static_cast<size_t>(k % kLoopFrames)];
+    return loop_.image(static_cast<int>(k % kLoopFrames));
   }
 
-  simulation::FlightSimulator simulator_;
-  std::vector<simulation::RenderedImage> images_;
+  RenderedFlight loop_{endlessScenario(), kLoopFrames};
 };
 
 }  // namespace redbee::test

@@ -1,7 +1,7 @@
-// A flight that is disturbed for a stretch in its middle, judged by the same flight undisturbed: how far off
-// the stack was meanwhile, and how many frames it took to say the same again.
+// A flight that is disturbed for a stretch in its middle, compared with the same flight undisturbed: how far
+// off the stack was meanwhile, and how many frames it took to agree again.
 //
-// "The same" for a frame: homography from both sources and within kSamePx of the undisturbed one, the mask
+// Agreement of a frame: homography from both sources and within kSamePx of the undisturbed one, the mask
 // trusted and, where there is something to compare, overlapping the undisturbed one by kSameIoU. Not to the
 // bit: filters remember.
 #pragma once
@@ -14,7 +14,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "tests/processes/stack_fixture.hpp"
+#include "tests/support/stack_run.hpp"
 
 namespace redbee::test {
 
@@ -25,28 +25,26 @@ constexpr int kFaultWidth = 320;
 constexpr int kFaultHeight = 240;
 constexpr double kSamePx = 0.15;
 constexpr double kSameIoU = 0.6;
-constexpr int kComparablePx = 60;  ///< masks smaller than this (union) say nothing by their overlap
+constexpr int kComparablePx = 60;  ///< masks smaller than this (union) are not compared by their overlap
 
 /// A car over grass beside a facade, seen by a camera of a quarter of the usual pixels: fast to simulate.
-inline Flight faultFlight() {
-  simulation::Scenario scenario = simulation::twoPlanes(3);
-  scenario.intrinsics = {kFaultWidth, kFaultHeight, 250, 250, 159.5, 119.5, {}};
-  Flight flight = fly(scenario, kFaultFrames);
+inline StackFlight faultFlight() {
+  StackFlight flight = stackFlight(halfSize(simulation::twoPlanes(3)), kFaultFrames);
   flight.configuration.visual.tracker.grid_px = 8;
   return flight;
 }
-inline const Flight& calmFlight() {
-  static const Flight flight = faultFlight();
+inline const StackFlight& calmFlight() {
+  static const StackFlight flight = faultFlight();
   return flight;
 }
-inline const Said& calmAnswer() {
-  static const Said said = run(calmFlight());
-  return said;
+inline const StackOutput& calmOutput() {
+  static const StackOutput output = StackRun(calmFlight()).run();
+  return output;
 }
 
-inline int64_t beginTime(const Flight& flight) { return flight.frame_utimes[kFaultBegin]; }
-inline int64_t endTime(const Flight& flight) { return flight.frame_utimes[kFaultEnd]; }
-inline bool isDisturbed(const Flight& flight, int64_t utime) {
+inline int64_t beginTime(const StackFlight& flight) { return flight.frame_utimes[kFaultBegin]; }
+inline int64_t endTime(const StackFlight& flight) { return flight.frame_utimes[kFaultEnd]; }
+inline bool isDisturbed(const StackFlight& flight, int64_t utime) {
   return utime >= beginTime(flight) && utime < endTime(flight);
 }
 
@@ -54,10 +52,10 @@ inline cv::Mat maskOf(const foreground_t& foreground) {
   return cv::imdecode(foreground.mask, cv::IMREAD_GRAYSCALE);
 }
 
-inline bool saysTheSame(const Said& said, const Said& expected, int64_t utime) {
-  const auto fused = said.fused.find(utime);
-  const auto foreground = said.foreground.find(utime);
-  if (fused == said.fused.end() || foreground == said.foreground.end()) return false;
+inline bool agrees(const StackOutput& output, const StackOutput& expected, int64_t utime) {
+  const auto fused = output.fused.find(utime);
+  const auto foreground = output.foreground.find(utime);
+  if (fused == output.fused.end() || foreground == output.foreground.end()) return false;
   const fused_homography_t& calm = expected.fused.at(utime);
   if (fused->second.source != calm.source || fused->second.utime_previous != calm.utime_previous)
     return false;
@@ -71,32 +69,31 @@ inline bool saysTheSame(const Said& said, const Said& expected, int64_t utime) {
 
 /// What a disturbance did.
 struct Damage {
-  int frames_to_recovery = 0;  ///< after the disturbance's last frame, until all that follow say the same
-  double worst_px = 0;         ///< homography against the truth, of disturbed frames that have one
-  int without_homography = 0;  ///< disturbed frames
-  int without_mask = 0;        ///< disturbed frames without a trusted mask
+  int frames_to_recovery = 0;       ///< after the disturbance's last frame, until all that follow agree
+  double worst_px = 0;              ///< homography against the truth, of disturbed frames that have one
+  int without_homography = 0;       ///< disturbed frames
+  int without_mask = 0;             ///< disturbed frames without a trusted mask
   double worst_false_fraction = 0;  ///< of the image, in masks that are called good
 };
 
-inline Damage assess(const Said& said, const Flight& flight) {
+inline Damage assess(const StackOutput& output, const StackFlight& flight) {
   Damage damage;
   for (int k = 1; k < kFaultFrames; ++k) {
     const int64_t utime = flight.frame_utimes[static_cast<size_t>(k)];
     const bool disturbed = k >= kFaultBegin && k < kFaultEnd;
-    const auto fused = said.fused.find(utime);
-    const auto foreground = said.foreground.find(utime);
-    const bool trusted = foreground != said.foreground.end() && foreground->second.status == 0;
+    const auto fused = output.fused.find(utime);
+    const auto foreground = output.foreground.find(utime);
+    const bool trusted = foreground != output.foreground.end() && foreground->second.status == 0;
     if (trusted) {
       const cv::Mat wrong = maskOf(foreground->second) & (flight.masks[static_cast<size_t>(k)] == 0);
       damage.worst_false_fraction =
           std::max(damage.worst_false_fraction,
                    cv::countNonZero(wrong) / static_cast<double>(kFaultWidth * kFaultHeight));
     }
-    if (k >= kFaultEnd && !saysTheSame(said, calmAnswer(), utime))
-      damage.frames_to_recovery = k - kFaultEnd + 1;
+    if (k >= kFaultEnd && !agrees(output, calmOutput(), utime)) damage.frames_to_recovery = k - kFaultEnd + 1;
     if (!disturbed) continue;
     damage.without_mask += trusted ? 0 : 1;
-    const bool has_homography = fused != said.fused.end() && fused->second.source != 0;
+    const bool has_homography = fused != output.fused.end() && fused->second.source != 0;
     damage.without_homography += has_homography ? 0 : 1;
     const bool is_step =
         has_homography && fused->second.utime_previous == flight.frame_utimes[static_cast<size_t>(k - 1)];
@@ -108,11 +105,11 @@ inline Damage assess(const Said& said, const Flight& flight) {
   return damage;
 }
 
-/// Tells the figures, and holds the stack to them: recovered within `within_frames`, and never a wild mask
+/// Prints the figures, and holds the stack to them: recovered within `within_frames`, and never a wild mask
 /// that is called good.
-inline Damage expectRecovery(const std::string& fault, const Said& said, const Flight& flight,
+inline Damage expectRecovery(const std::string& fault, const StackOutput& output, const StackFlight& flight,
                              int within_frames, double most_false_fraction = 0.04) {
-  const Damage damage = assess(said, flight);
+  const Damage damage = assess(output, flight);
   std::printf(
       "%-34s recovered after %2d frames; of %d disturbed: %2d without homography, worst %.2f px, %2d without "
       "mask; false at most %.2f %%\n",
@@ -123,17 +120,18 @@ inline Damage expectRecovery(const std::string& fault, const Said& said, const F
   return damage;
 }
 
-/// The flight with every arrival of `channel` in the disturbed stretch passed through `change`.
+/// The flight with every sent of `channel` in the disturbed stretch passed through `change`.
 template <typename Message>
-Flight withChanged(Flight flight, const std::string& channel, const std::function<void(Message&)>& change) {
-  for (Arrival& arrival : flight.arrivals) {
-    if (arrival.channel != channel || !isDisturbed(flight, arrival.utime)) continue;
+StackFlight withChanged(StackFlight flight, const std::string& channel,
+                        const std::function<void(Message&)>& change) {
+  for (SensorMessage& sent : flight.messages) {
+    if (sent.channel != channel || !isDisturbed(flight, sent.utime)) continue;
     Message message;
-    if (!decodeMessage(arrival.data.data(), static_cast<int>(arrival.data.size()), message)) {
+    if (!decodeMessage(sent.data.data(), static_cast<int>(sent.data.size()), message)) {
       throw std::logic_error("the simulated flight holds a message that does not decode");
     }
     change(message);
-    arrival = arrivalOf(message);
+    sent = encoded(message);
   }
   return flight;
 }

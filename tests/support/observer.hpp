@@ -14,7 +14,7 @@
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/process_health_t.hpp"
-#include "tests/restarts/looped_flight.hpp"
+#include "tests/support/endless_flight.hpp"
 
 namespace redbee::test {
 
@@ -34,7 +34,7 @@ class Observer {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Observer(Bus& bus, const LoopedFlight& flight) : flight_(flight) {
+  Observer(Bus& bus, const EndlessFlight& flight) : flight_(flight) {
     bus.subscribe<foreground_t>(
         "FOREGROUND", 64, [this](const foreground_t& m) { take(m); }, nullptr);
     bus.subscribe<detections_t>(
@@ -99,7 +99,7 @@ class Observer {
     if (m.state != kDead && (pids.empty() || pids.back() != m.pid)) pids.push_back(m.pid);
   }
 
-  const LoopedFlight& flight_;
+  const EndlessFlight& flight_;
   std::map<int64_t, FrameResult> frames_;
   std::map<std::string, std::vector<int>> pids_;
   std::map<std::string, process_health_t> health_;

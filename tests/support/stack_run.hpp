@@ -1,0 +1,110 @@
+// The whole stack on memq://, given a simulated flight that a test may disturb on its way in.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "processes/in_process_stack.hpp"
+#include "redbee/detections_t.hpp"
+#include "redbee/foreground_t.hpp"
+#include "redbee/fused_homography_t.hpp"
+#include "redbee/inertial_homography_t.hpp"
+#include "redbee/process_health_t.hpp"
+#include "redbee/visual_homography_t.hpp"
+#include "tests/support/rendered_flight.hpp"
+#include "tests/support/sensor_messages.hpp"
+
+namespace redbee::test {
+
+struct StackFlight {
+  Configuration configuration;
+  std::vector<SensorMessage> messages;  ///< in order of time
+  std::vector<int64_t> frame_utimes;
+  std::vector<Eigen::Matrix3d> homographies;
+  std::vector<cv::Mat> masks;
+};
+
+/// The first `frames` of a scenario, its configuration with the true extrinsics.
+inline StackFlight stackFlight(const simulation::Scenario& scenario, int frames) {
+  const RenderedFlight rendered(scenario, frames);
+  StackFlight flight;
+  flight.configuration.camera = scenario.intrinsics;
+  flight.configuration.inertial.extrinsics = scenario.extrinsics;
+  flight.configuration.inertial.noise = scenario.imu.noise;
+  flight.configuration.overlay_period_frames = 0;
+  for (const ImuSample& sample : rendered.simulator().imu())
+    flight.messages.push_back(encoded(message(sample)));
+  for (const AltitudeSample& sample : rendered.simulator().altimeter()) {
+    flight.messages.push_back(encoded(message(sample)));
+  }
+  for (int k = 0; k < frames; ++k) {
+    flight.messages.push_back(encoded(rawGreyMessage(rendered.utime(k), rendered.image(k).grey)));
+    flight.frame_utimes.push_back(rendered.utime(k));
+    flight.homographies.push_back(rendered.homography(k));
+    flight.masks.push_back(rendered.image(k).mask);
+  }
+  std::stable_sort(flight.messages.begin(), flight.messages.end(),
+                   [](const SensorMessage& a, const SensorMessage& b) { return a.utime < b.utime; });
+  return flight;
+}
+
+/// What the stack published, by frame time.
+struct StackOutput {
+  std::map<int64_t, inertial_homography_t> inertial;
+  std::map<int64_t, visual_homography_t> visual;
+  std::map<int64_t, fused_homography_t> fused;
+  std::map<int64_t, foreground_t> foreground;
+  std::map<int64_t, detections_t> detections;
+  std::map<std::string, process_health_t> health;
+
+  /// Everything that is published on this bus from now on. This must not move meanwhile.
+  void subscribe(Bus& bus) {
+    const auto keep = [](auto& into) { return [&into](const auto& m) { into[m.utime] = m; }; };
+    bus.subscribe<inertial_homography_t>("INERTIAL_HOMOGRAPHY", 64, keep(inertial), nullptr);
+    bus.subscribe<visual_homography_t>("VISUAL_HOMOGRAPHY", 64, keep(visual), nullptr);
+    bus.subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(fused), nullptr);
+    bus.subscribe<foreground_t>("FOREGROUND", 64, keep(foreground), nullptr);
+    bus.subscribe<detections_t>("DETECTIONS", 64, keep(detections), nullptr);
+    bus.subscribe<process_health_t>(
+        "PROCESS_HEALTH", 64, [this](const process_health_t& m) { health[m.process] = m; }, nullptr);
+  }
+};
+
+/// One flight through a stack of its own, in the order of its messages.
+class StackRun {
+ public:
+  explicit StackRun(const StackFlight& flight)
+      : flight_(flight), own_bus_(makeLcmBus("memq://")), bus_(*own_bus_) {}
+  StackRun(const StackFlight& flight, Bus& bus) : flight_(flight), bus_(bus) {}
+
+  /// `before` is called with each message on its way in.
+  StackOutput run(const std::function<void(const SensorMessage&)>& before = nullptr) {
+    StackOutput output;
+    output.subscribe(bus_);
+    InProcessStack stack(bus_, flight_.configuration);
+    for (const SensorMessage& sent : flight_.messages) {
+      if (before) before(sent);
+      bus_.publish(sent.channel, sent.data);
+      stack.settle();
+    }
+    stack.finish();
+    stack.publishHealth();
+    return output;
+  }
+
+ private:
+  const StackFlight& flight_;
+  std::unique_ptr<Bus> own_bus_;
+  Bus& bus_;
+};
+
+inline double groundError(const fused_homography_t& fused, const Eigen::Matrix3d& truth) {
+  return meanTransferError(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fused.H), truth,
+                           fused.width, fused.height);
+}
+
+}  // namespace redbee::test
