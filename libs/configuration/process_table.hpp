@@ -98,6 +98,15 @@ inline constexpr std::array kStages{&kImuIntegration, &kVisualHomography, &kHomo
 /// The processes beside them: subcommands of `redbee`.
 inline constexpr std::array kCompanions{&kWatch, &kRecord};
 
+constexpr bool everyWaitHasItsPatience() {
+  for (const ProcessDescription* stage : kStages) {
+    const bool waits = !stage->waits_for.empty() || !stage->waits_for_previous.empty();
+    if (waits == stage->patience.empty()) return false;
+  }
+  return true;
+}
+static_assert(everyWaitHasItsPatience());
+
 /// redbee-<name>: the program, and what PROCESS_HEALTH calls the process.
 inline std::string programName(const ProcessDescription& process) {
   return "redbee-" + std::string(process.name);

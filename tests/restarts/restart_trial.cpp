@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <random>
 
+#include "processes/common_options.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "tests/restarts/trial_report.hpp"
@@ -114,7 +115,7 @@ int main(int argc, char** argv) {
   int kills = 8;
   unsigned seed = 1;
   double speed = 1;
-  app.add_option("--lcm-url", url);
+  redbee::addLcmUrlOption(app, url);
   app.add_option("--kills", kills);
   app.add_option("--seed", seed);
   app.add_option("--speed", speed, "times the flight's own speed");

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "processes/common_options.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/process_health_t.hpp"
@@ -97,7 +98,7 @@ bool soak(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app("flies into a running stack for long and checks its health");
   redbee::test::Options options;
-  app.add_option("--lcm-url", options.url)->required();
+  redbee::addLcmUrlOption(app, options.url);
   app.add_option("--minutes", options.minutes)->check(CLI::PositiveNumber);
   app.add_option("--speed", options.speed, "times the flight's own 24 frames a second")
       ->check(CLI::PositiveNumber);
