@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/node/health.hpp"
 
 namespace redbee {
@@ -49,7 +50,7 @@ TEST(HealthBoard, HasOneLineAProcessInTheOrderOfTheWork) {
   EXPECT_THAT(lines[2].text, HasSubstr("visual-homography   no messages"));
   EXPECT_EQ(lines[2].tone, Tone::kBad);
   EXPECT_THAT(lines[4].text, HasSubstr("motion-segmentation"));
-  EXPECT_THAT(lines[5].text, HasSubstr("a-camera-driver"));
+  EXPECT_THAT(lines[kStages.size() + 1].text, HasSubstr("a-camera-driver"));
   for (const char* part : {"good", "24.0", "23.5", "11.2", "16.9", " 3 ", "12k", " 7 ", " 42"}) {
     EXPECT_THAT(lines[1].text, HasSubstr(part));
   }
@@ -73,7 +74,7 @@ TEST(HealthBoard, AStoppedOrDeadProcessIsNotSilent) {
   script.configuration.clear();
   board.onHealth(script, kNow);
   EXPECT_THAT(textOf(board, kNow + seconds(60)), testing::Not(HasSubstr("silent")));
-  EXPECT_EQ(board.table(kNow)[6].tone, Tone::kBad);
+  EXPECT_EQ(board.table(kNow)[kStages.size() + 2].tone, Tone::kBad);
 }
 
 TEST(HealthBoard, ANewProcessNumberIsARestart) {
