@@ -9,6 +9,8 @@ namespace redbee {
 namespace {
 
 constexpr int kOverlayQuality = 80;
+/// In the unknown mask.
+constexpr uchar kUnknown = 255;
 
 detections_t detectionsMessage(const SegmentationOutput& output) {
   detections_t message{};
@@ -30,7 +32,7 @@ detections_t detectionsMessage(const SegmentationOutput& output) {
   return message;
 }
 
-/// Box on the raw grid around a box on the ideal grid.
+/// Box on the raw grid around a box on the ideal grid; empty where the raw image does not show it.
 cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
   const cv::Rect image(0, 0, camera.intrinsics().width, camera.intrinsics().height);
   Eigen::Vector2d low(image.width, image.height);
@@ -38,12 +40,14 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
   for (int i = 0; i <= 4; ++i) {
     for (const Eigen::Vector2d& edge : {Eigen::Vector2d(i / 4.0, 0), Eigen::Vector2d(i / 4.0, 1),
                                         Eigen::Vector2d(0, i / 4.0), Eigen::Vector2d(1, i / 4.0)}) {
-      const Eigen::Vector2d raw =
+      const auto raw =
           camera.distort({box.x + edge.x() * (box.width - 1), box.y + edge.y() * (box.height - 1)});
-      low = low.cwiseMin(raw);
-      high = high.cwiseMax(raw);
+      if (!raw) continue;
+      low = low.cwiseMin(*raw);
+      high = high.cwiseMax(*raw);
     }
   }
+  if (low.x() > high.x()) return {};
   const cv::Point top_left(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
   const cv::Point bottom_right(static_cast<int>(std::ceil(high.x())) + 1,
                                static_cast<int>(std::ceil(high.y())) + 1);
@@ -55,7 +59,7 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
 void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, SegmentationOutput output) {
   output.probability = camera_.rectifier().toRaw(output.probability);
   output.mask = camera_.rectifier().toRaw(output.mask);
-  output.unknown = camera_.rectifier().toRaw(output.unknown);
+  output.unknown = camera_.rectifier().toRaw(output.unknown, kUnknown);
   if (camera_.camera().isDistorted()) {
     for (Detection& detection : output.detections) detection.box = rawBox(camera_.camera(), detection.box);
   }

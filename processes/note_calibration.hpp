@@ -8,12 +8,12 @@
 
 namespace redbee {
 
-/// One frame: the ground's homography as the IMU predicted it and as vision measured it [ideal px], and the
-/// test ratio of their difference.
+/// One frame: the ground's homography as the IMU predicted it and as vision measured it, between pixels of
+/// the camera `ideal`, and the test ratio of their difference.
 inline void noteCalibration(CalibrationMonitor& monitor, HealthMonitor& health, double test_ratio,
                             const Eigen::Matrix3d& predicted, const Eigen::Matrix3d& measured,
-                            const CameraIntrinsics& camera) {
-  monitor.note(test_ratio, meanTransferError(predicted, measured, camera.width, camera.height));
+                            const CameraIntrinsics& ideal) {
+  monitor.note(test_ratio, meanTransferError(predicted, measured, ideal.width, ideal.height));
   health.setCalibration(monitor.verdict());
 }
 

@@ -7,7 +7,7 @@
 namespace redbee {
 namespace {
 
-/// The camera that takes images so much smaller.
+/// The camera that takes images smaller by this factor.
 CameraIntrinsics shrunk(CameraIntrinsics camera, int downscale) {
   camera.width /= downscale;
   camera.height /= downscale;
@@ -24,7 +24,7 @@ RectifiedCamera::RectifiedCamera(const CameraIntrinsics& intrinsics, int downsca
     : camera_(intrinsics),
       rectifier_(camera_),
       downscale_(downscale),
-      image_rectifier_(Camera(shrunk(intrinsics, downscale))) {}
+      image_rectifier_(Camera(shrunk(intrinsics, downscale), shrunk(camera_.ideal(), downscale))) {}
 
 IdealImage RectifiedCamera::ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const {
   const cv::Mat image = (wants_colour ? decodeColour(message, downscale_) : decodeGrey(message, downscale_))

@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// Undistorted; both empty where there is no image. As much smaller than the camera's as was asked for.
+/// On the grid of the ideal camera divided by the downscale; both empty where there is no image.
 struct IdealImage {
   cv::Mat grey;    ///< CV_8U
   cv::Mat colour;  ///< CV_8UC3, BGR; empty unless asked for
@@ -18,13 +18,14 @@ struct IdealImage {
 
 class RectifiedCamera {
  public:
-  /// `downscale`: 1, 2 or 4, how much smaller ideal() makes images; it divides the camera's sides.
+  /// `downscale`: 1, 2 or 4, by what ideal() shrinks images; it divides the sides of the raw and of the ideal
+  /// camera.
   explicit RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale = 1);
 
   const Camera& camera() const { return camera_; }
   const Rectifier& rectifier() const { return rectifier_; }
   int downscale() const { return downscale_; }
-  /// Empty for a image that is damaged (`health` is told) or not of the camera's size.
+  /// Empty for an image that is damaged (counted in `health`) or not of the raw camera's size.
   IdealImage ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const;
 
  private:

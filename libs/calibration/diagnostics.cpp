@@ -21,7 +21,7 @@ JointState underNominal(const FlightSolution& solution, const InertialExtrinsics
 
 void addHomographyErrors(Diagnostics& diagnostics, const FlightSolution& solution, const JointState& nominal,
                          const Recording& recording) {
-  const CameraIntrinsics& size = recording.camera->intrinsics();
+  const CameraIntrinsics& size = recording.camera->ideal();
   for (const GroundHomography& ground : solution.input.ground) {
     const Eigen::Matrix3d before = predictedHomography(nominal, solution.input, ground.a, ground.b);
     const Eigen::Matrix3d after = predictedHomography(solution.state, solution.input, ground.a, ground.b);
@@ -68,7 +68,7 @@ double targetError(const JointState& state, const TargetPose& pose, double focal
 void addTargetErrors(Diagnostics& diagnostics, const FlightSolution& solution, const JointState& nominal,
                      const Recording& recording) {
   for (const TargetPose& pose : solution.input.target) {
-    const double focal = recording.camera->intrinsics().fx;
+    const double focal = recording.camera->ideal().fx;
     diagnostics.pair_t_s.push_back(recording.t_cam_s[pose.frame]);
     diagnostics.pair_error_before_px.push_back(targetError(nominal, pose, focal));
     diagnostics.pair_error_after_px.push_back(targetError(solution.state, pose, focal));

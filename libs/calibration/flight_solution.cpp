@@ -34,14 +34,13 @@ size_t framesSpanned(const std::vector<GroundHomography>& all) {
 }
 
 /// Homographies of the ground among the points, near the solution's prediction.
-std::vector<GroundHomography> groundNear(const FlightSolution& solution, const Recording& recording,
-                                         const CalibrationInput& input) {
+std::vector<GroundHomography> groundNear(const FlightSolution& solution, const Recording& recording) {
   std::vector<GroundHomography> ground;
   for (const IndexedMatch& match : recording.matches) {
     GroundPrediction prediction;
     prediction.motion = predictedMotion(solution.state, match.a, match.b);
     prediction.translation_sigma *= static_cast<double>(match.b - match.a);
-    auto found = fitGround(*match.points, input.camera, prediction);
+    auto found = fitGround(*match.points, recording.camera->ideal(), prediction);
     if (!found) continue;
     found->a = match.a;
     found->b = match.b;
@@ -71,15 +70,14 @@ void rescale(JointInput& input, const JointAnalysis& analysis) {
 }
 
 /// Alternates between solving over level ground and selecting the points near that solution.
-bool selectGround(FlightSolution& solution, const Recording& recording, const CalibrationInput& input,
-                  const Mounting& mounting) {
+bool selectGround(FlightSolution& solution, const Recording& recording, const Mounting& mounting) {
   const JointPriors wide = solution.input.priors;
   // A facade taken for ground must not turn the camera or the vertical to make itself level.
   solution.input.priors.tilt_sigma_rad = kLevelSigma_rad;
   solution.input.priors.rotation_sigma_rad = mounting.rotation_sigma_rad;
   for (int round = 0; round < kSelectionRounds; ++round) {
     if (!solveOnce(solution)) return false;
-    auto ground = groundNear(solution, recording, input);
+    auto ground = groundNear(solution, recording);
     // A solution so wrong that it finds no ground must not discard the homographies.
     if (3 * framesSpanned(ground) > recording.t_cam_s.size()) solution.input.ground = std::move(ground);
   }
@@ -116,7 +114,7 @@ FlightSolution solveFlight(const Recording& recording, const CalibrationInput& i
     own.height_m = start_height ? start_height->height_m : cameraHeight(solution.state, 0);
     own.height_sigma_m = start_height ? start_height->sigma_m : own.height_m;
   }
-  if (!recording.matches.empty() && !selectGround(solution, recording, input, mounting)) return solution;
+  if (!recording.matches.empty() && !selectGround(solution, recording, mounting)) return solution;
   if (!solveOnce(solution)) return solution;
 
   for (int round = 0; round <= kScaleRounds; ++round) {

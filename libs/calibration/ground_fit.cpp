@@ -23,9 +23,9 @@ constexpr size_t kMinCells = 12;
 /// Uncertainty of the prediction beside its three deviations, scaled units: keeps P regular.
 constexpr double kFloor = 1e-4;
 
-Matrix8d priorInformation(const CameraIntrinsics& camera, const GroundPrediction& prediction,
+Matrix8d priorInformation(const CameraIntrinsics& ideal, const GroundPrediction& prediction,
                           const ImageScaling& scaling) {
-  const Eigen::Matrix3d K_scaled = scaling.T * Camera(camera).K();
+  const Eigen::Matrix3d K_scaled = scaling.T * Camera(ideal).K();
   const PlaneHomographyJacobians J = planeHomographyJacobians(K_scaled, prediction.motion);
   const double translation_m = prediction.translation_sigma * prediction.motion.h_a;
   Matrix8d P = kFloor * kFloor * Matrix8d::Identity();
@@ -74,14 +74,14 @@ bool spreads(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen) {
 
 }  // namespace
 
-std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& camera,
+std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& ideal,
                                           const GroundPrediction& prediction) {
   constexpr double kTypicalSigma_px = 0.2;
-  const ImageScaling scaling(camera.width, camera.height);
+  const ImageScaling scaling(ideal.width, ideal.height);
   const ScaledPairs pairs(points, scaling);
-  const Eigen::Matrix3d predicted = scaling.scale(planeHomography(Camera(camera).K(), prediction.motion));
+  const Eigen::Matrix3d predicted = scaling.scale(planeHomography(Camera(ideal).K(), prediction.motion));
   if (!predicted.allFinite()) return std::nullopt;
-  const Matrix8d prior = priorInformation(camera, prediction, scaling);
+  const Matrix8d prior = priorInformation(ideal, prediction, scaling);
   Eigen::Matrix3d H = predicted;
   for (const double scale_px : kScales_px) {
     for (int i = 0; i < 3; ++i) {

@@ -27,7 +27,7 @@ struct GroundPrediction {
 
 /// Frame indices are not filled. Nothing where too few points lie on the predicted plane or they do not
 /// spread over the image.
-std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& camera,
+std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& ideal,
                                           const GroundPrediction& prediction);
 
 }  // namespace redbee::calibration

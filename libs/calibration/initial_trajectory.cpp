@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
@@ -55,8 +56,9 @@ std::vector<Eigen::Vector3d> relativeSteps(const JointState& state, const JointI
     if (ground.b != ground.a + 1) continue;
     const Eigen::Matrix3d R_CaG = (state.q_CI * state.frames[ground.a].q_GI.conjugate()).toRotationMatrix();
     const Eigen::Matrix3d R_CbG = (state.q_CI * state.frames[ground.b].q_GI.conjugate()).toRotationMatrix();
-    const Eigen::Vector3d t =
-        translationOverHeight(input.camera->K(), ground.H, R_CbG * R_CaG.transpose(), -R_CaG.col(2));
+    constexpr double kUnitHeight = 1;  // so that the translation is in heights
+    const PlaneMotion motion{R_CbG * R_CaG.transpose(), Eigen::Vector3d::Zero(), -R_CaG.col(2), kUnitHeight};
+    const Eigen::Vector3d t = translationFromHomography(input.camera->K(), ground.H, motion);
     constexpr double kLargestStep = 0.3;  // heights a frame: beyond it the homography is not the ground's
     if (!t.allFinite() || t.norm() > kLargestStep) continue;
     steps[ground.a] = -R_CbG.transpose() * t;
@@ -162,15 +164,6 @@ JointState emptyState(const std::vector<double>& t_cam_s, const Mounting& mounti
     state.biases.push_back({mounting.gyro_bias, Eigen::Vector3d::Zero()});
   }
   return state;
-}
-
-Eigen::Vector3d translationOverHeight(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_ba,
-                                      const Eigen::Matrix3d& R_ba, const Eigen::Vector3d& m_a) {
-  const Eigen::Matrix3d E = K.inverse() * H_ba * K;
-  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - m_a * m_a.transpose();
-  const Eigen::Matrix3d EP = E * P;
-  const double scale = (R_ba * P).cwiseProduct(EP).sum() / EP.squaredNorm();
-  return (scale * E - R_ba) * m_a;
 }
 
 double heightFromAcceleration(const JointState& state, const JointInput& input,

@@ -30,11 +30,6 @@ void initialiseOverGround(JointState& state, const JointInput& input);
 /// Before a target: poses from the target, upright by the mean direction of specific force.
 void initialiseBeforeTarget(JointState& state, const JointInput& input);
 
-/// Translation over height of a homography whose rotation and normal are known: t / h_a in frame b, by least
-/// squares over the homography's unknown scale.
-Eigen::Vector3d translationOverHeight(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_ba,
-                                      const Eigen::Matrix3d& R_ba, const Eigen::Vector3d& m_a);
-
 /// First height [m] for which a path in units of it fits the accelerometer; 0 where the flight has too little
 /// acceleration. `path`: one point per frame, in G.
 double heightFromAcceleration(const JointState& state, const JointInput& input,

@@ -100,7 +100,7 @@ void JointProblem::addImu() {
 }
 
 void JointProblem::addGround() {
-  const CameraIntrinsics& size = input_.camera->intrinsics();
+  const CameraIntrinsics& size = input_.camera->ideal();
   const ImageScaling scaling(size.width, size.height);
   const Eigen::Matrix3d K_scaled = scaling.T * input_.camera->K();
   for (const GroundHomography& measured : input_.ground) {

@@ -51,9 +51,9 @@ std::vector<HeightObservation> heightsOf(const std::vector<AltitudeSample>& alti
 }
 
 /// The plane with most points; the joint solution finds the ground again (ground_fit.hpp).
-std::optional<GroundHomography> firstHomography(const IndexedMatch& match, const CalibrationInput& input) {
-  const auto estimate =
-      estimateHomography(*match.points, input.camera.width, input.camera.height, input.ransac);
+std::optional<GroundHomography> firstHomography(const IndexedMatch& match, const CameraIntrinsics& ideal,
+                                                const RansacParameters& ransac) {
+  const auto estimate = estimateHomography(*match.points, ideal.width, ideal.height, ransac);
   if (!estimate) return std::nullopt;
   GroundHomography ground{match.a,           match.b,         estimate->H, estimate->covariance.inverse(),
                           estimate->inliers, estimate->rms_px};
@@ -68,7 +68,7 @@ void addGround(Recording& recording, const CalibrationInput& input, const std::m
     const auto b = index.find(match.utime_b);
     if (a == index.end() || b == index.end() || a->second >= b->second) continue;
     recording.matches.push_back({a->second, b->second, &match.points});
-    auto ground = firstHomography(recording.matches.back(), input);
+    auto ground = firstHomography(recording.matches.back(), recording.camera->ideal(), input.ransac);
     if (ground) recording.ground.push_back(*ground);
   }
 }

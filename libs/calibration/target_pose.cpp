@@ -71,10 +71,19 @@ bool roughPose(const Camera& camera, const std::vector<Eigen::Vector2d>& ideal, 
 
 }  // namespace
 
-std::optional<TargetPose> estimateTargetPose(const Camera& camera, const TargetView& view) {
-  if (view.pixels.size() < kMinCorners || view.pixels.size() != view.corners.size()) return std::nullopt;
+std::optional<TargetPose> estimateTargetPose(const Camera& camera, const TargetView& given) {
+  if (given.pixels.size() != given.corners.size()) return std::nullopt;
+  TargetView view;  // as given, without the corners that the camera model refuses
+  view.utime = given.utime;
   std::vector<Eigen::Vector2d> ideal;
-  for (const Eigen::Vector2d& pixel : view.pixels) ideal.push_back(camera.undistort(pixel));
+  for (size_t i = 0; i < given.pixels.size(); ++i) {
+    const auto pixel = camera.undistort(given.pixels[i]);
+    if (!pixel) continue;
+    ideal.push_back(*pixel);
+    view.pixels.push_back(given.pixels[i]);
+    view.corners.push_back(given.corners[i]);
+  }
+  if (ideal.size() < kMinCorners) return std::nullopt;
   Eigen::Matrix3d R;
   Eigen::Vector3d p;
   if (!roughPose(camera, ideal, view, R, p)) return std::nullopt;

@@ -105,6 +105,7 @@ void Loader::apply(const std::string& key, const YAML::Node& value, const Place&
 }
 
 void Loader::checkWhole(const std::filesystem::path& file) const {
+  checkCamera();
   for (const char* key :
        {"camera.width", "camera.height", "camera.fx", "camera.fy", "camera.cx", "camera.cy"}) {
     if (places_.count(key) == 0) fail({file.string(), 1}, key, "is missing");
@@ -137,6 +138,15 @@ void Loader::checkWaits() const {
          order.longer + " (" + valueText(longer) + " s) must be longer than " + order.shorter + " (" +
              valueText(shorter) + " s): " + order.reason);
   }
+}
+
+/// Model and coefficients may come from different files.
+void Loader::checkCamera() const {
+  const CameraIntrinsics& camera = configuration_.camera;
+  const std::string fault = coefficientFault(*findCameraModel(camera.model), camera.distortion.size());
+  if (fault.empty()) return;
+  const bool stated = places_.count("camera.distortion") > 0;
+  fail(places_.at(stated ? "camera.distortion" : "camera.model"), "camera.distortion", fault);
 }
 
 }  // namespace redbee::configuration

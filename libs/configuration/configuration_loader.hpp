@@ -17,8 +17,8 @@ class Loader {
  public:
   /// All functions throw ConfigurationError.
   void loadFile(const std::filesystem::path& file);
-  /// Checks of the whole: a camera that is not described, channels with the same name, waits in the wrong
-  /// order.
+  /// Checks of the whole: a camera that is not described, a lens with the wrong number of coefficients,
+  /// channels with the same name, waits in the wrong order.
   void checkWhole(const std::filesystem::path& file) const;
   const Configuration& configuration() const { return configuration_; }
 
@@ -28,6 +28,7 @@ class Loader {
     int line = 1;
   };
 
+  void checkCamera() const;
   [[noreturn]] static void fail(const Place& place, const std::string& key, const std::string& what);
   Place placeOf(const YAML::Node& node) const;
   void applyIncludes(const YAML::Node& root);

@@ -7,6 +7,7 @@
 
 #include "redbee/configuration/configuration_table.hpp"
 #include "redbee/configuration/configuration_value.hpp"
+#include "redbee/geometry/camera_model.hpp"
 #include "redbee/geometry/so3.hpp"
 
 namespace redbee::configuration {
@@ -19,6 +20,8 @@ struct Rule {
 };
 template <typename Predicate>
 Rule(Predicate, const char*) -> Rule<Predicate>;
+template <typename Predicate>
+Rule(Predicate, std::string) -> Rule<Predicate>;
 
 inline const Rule anything{[](const auto&) { return true; }, ""};
 inline const Rule positive{[](auto x) { return x > 0; }, "must be above 0"};
@@ -33,6 +36,11 @@ inline const Rule fourOrMore{[](int x) { return x >= 4; },
                              "must be at least 4: so many points fix a homography"};
 inline const Rule imageSide{[](int x) { return x >= 16 && x <= 16384; }, "must lie from 16 to 16384"};
 inline const Rule notEmpty{[](const std::string& x) { return !x.empty(); }, "must not be empty"};
+inline const Rule cameraModel{[](const std::string& x) {
+                                const CameraModelType* type = findCameraModel(x);
+                                return type != nullptr && type->name == x;
+                              },
+                              "must be " + cameraModelNames()};
 inline const Rule rotation{[](const Eigen::Matrix3d& R) { return isRotation(R, 1e-5); },
                            "is no rotation: its rows must be orthonormal to 1e-5, its determinant +1"};
 inline const Rule variances{[](const Vector8d& v) { return (v.array() > 0).all(); },

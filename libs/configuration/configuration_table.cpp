@@ -27,6 +27,7 @@ Settings vehicleSettings() {
       setting("camera.fy", MEMBER(camera.fy), positive),
       setting("camera.cx", MEMBER(camera.cx), anything),
       setting("camera.cy", MEMBER(camera.cy), anything),
+      setting("camera.model", MEMBER(camera.model), cameraModel),
       setting("camera.distortion", MEMBER(camera.distortion), anything),
       setting("camera.R_CI", MEMBER(inertial.extrinsics.R_CI), rotation),
       setting("camera.p_IC", MEMBER(inertial.extrinsics.p_IC), anything),

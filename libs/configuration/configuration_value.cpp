@@ -1,6 +1,7 @@
 #include "redbee/configuration/configuration_value.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -54,10 +55,10 @@ Integer readInteger(const YAML::Node& node) {
   return static_cast<Integer>(wide);
 }
 
-std::vector<double> readNumbers(const YAML::Node& node, size_t least, size_t most) {
-  const std::string wanted = "a list of " + std::to_string(most) + " numbers";
+std::vector<double> readNumbers(const YAML::Node& node, size_t count) {
+  const std::string wanted = "a list of " + std::to_string(count) + " numbers";
   if (!node.IsSequence()) refuse(wanted, node);
-  if (node.size() < least || node.size() > most) {
+  if (node.size() != count) {
     throw ValueError("must be " + wanted + ", has " + std::to_string(node.size()));
   }
   std::vector<double> numbers(node.size());
@@ -97,22 +98,21 @@ void readValue(const YAML::Node& node, SegmentationMethod& value) {
   readName(node, kSegmentationMethods, value);
 }
 
-void readValue(const YAML::Node& node, std::array<double, 5>& value) {
-  const auto numbers = readNumbers(node, 4, 5);
-  value.fill(0);
-  std::copy(numbers.begin(), numbers.end(), value.begin());
+void readValue(const YAML::Node& node, std::vector<double>& value) {
+  if (!node.IsSequence()) refuse("a list of numbers", node);
+  value = readNumbers(node, node.size());
 }
 
 void readValue(const YAML::Node& node, Eigen::Vector3d& value) {
-  value = Eigen::Map<const Eigen::Vector3d>(readNumbers(node, 3, 3).data());
+  value = Eigen::Map<const Eigen::Vector3d>(readNumbers(node, 3).data());
 }
 
 void readValue(const YAML::Node& node, Eigen::Matrix3d& value) {
-  value = Eigen::Map<const RowMajor3d>(readNumbers(node, 9, 9).data());
+  value = Eigen::Map<const RowMajor3d>(readNumbers(node, 9).data());
 }
 
 void readValue(const YAML::Node& node, Vector8d& value) {
-  value = Eigen::Map<const Vector8d>(readNumbers(node, 8, 8).data());
+  value = Eigen::Map<const Vector8d>(readNumbers(node, 8).data());
 }
 
 std::string valueText(double value) {
@@ -133,7 +133,9 @@ std::string valueText(const std::string& value) {
 
 std::string valueText(FusionNoise value) { return nameOf(kFusionNoises, value); }
 std::string valueText(SegmentationMethod value) { return nameOf(kSegmentationMethods, value); }
-std::string valueText(const std::array<double, 5>& value) { return listText(value.data(), 5); }
+std::string valueText(const std::vector<double>& value) {
+  return listText(value.data(), static_cast<Eigen::Index>(value.size()));
+}
 std::string valueText(const Eigen::Vector3d& value) { return listText(value.data(), 3); }
 std::string valueText(const Eigen::Matrix3d& value) { return listText(RowMajor3d(value).data(), 9); }
 std::string valueText(const Vector8d& value) { return listText(value.data(), 8); }

@@ -4,10 +4,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "redbee/detection/parameters.hpp"
 #include "redbee/fusion/homography_fusion.hpp"
@@ -28,8 +28,8 @@ void readValue(const YAML::Node& node, bool& value);
 void readValue(const YAML::Node& node, std::string& value);
 void readValue(const YAML::Node& node, FusionNoise& value);
 void readValue(const YAML::Node& node, SegmentationMethod& value);
-/// Four coefficients or five: k3 may be left out.
-void readValue(const YAML::Node& node, std::array<double, 5>& value);
+/// A list of any length.
+void readValue(const YAML::Node& node, std::vector<double>& value);
 void readValue(const YAML::Node& node, Eigen::Vector3d& value);
 /// Nine entries, row-major.
 void readValue(const YAML::Node& node, Eigen::Matrix3d& value);
@@ -43,7 +43,7 @@ std::string valueText(bool value);
 std::string valueText(const std::string& value);
 std::string valueText(FusionNoise value);
 std::string valueText(SegmentationMethod value);
-std::string valueText(const std::array<double, 5>& value);
+std::string valueText(const std::vector<double>& value);
 std::string valueText(const Eigen::Vector3d& value);
 std::string valueText(const Eigen::Matrix3d& value);
 std::string valueText(const Vector8d& value);

@@ -5,14 +5,19 @@
 namespace redbee {
 namespace {
 
+/// Source of a pixel that has none: outside every image, within the range of the fixed-point tables.
+constexpr float kNowhere = -16384;
+
+/// Source pixel of every pixel of an image of `size`.
 template <typename Mapping>
-void tabulate(const Camera& camera, const Mapping& mapping, cv::Mat& map_1, cv::Mat& map_2) {
-  const auto& size = camera.intrinsics();
+void tabulate(const CameraIntrinsics& size, const Mapping& mapping, cv::Mat& map_1, cv::Mat& map_2) {
   cv::Mat map(size.height, size.width, CV_32FC2);
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
-      const Eigen::Vector2d source = mapping(Eigen::Vector2d(u, v));
-      map.at<cv::Vec2f>(v, u) = {static_cast<float>(source.x()), static_cast<float>(source.y())};
+      const std::optional<Eigen::Vector2d> source = mapping(Eigen::Vector2d(u, v));
+      map.at<cv::Vec2f>(v, u) =
+          source ? cv::Vec2f(static_cast<float>(source->x()), static_cast<float>(source->y()))
+                 : cv::Vec2f(kNowhere, kNowhere);
     }
   }
   cv::convertMaps(map, cv::noArray(), map_1, map_2, CV_16SC2);
@@ -22,12 +27,13 @@ void tabulate(const Camera& camera, const Mapping& mapping, cv::Mat& map_1, cv::
 
 Rectifier::Rectifier(const Camera& camera) {
   if (!camera.isDistorted()) return;
-  tabulate(
-      camera, [&](const Eigen::Vector2d& ideal) { return camera.distort(ideal); }, to_ideal_1_, to_ideal_2_);
-  tabulate(
-      camera, [&](const Eigen::Vector2d& raw) { return camera.undistort(raw); }, to_raw_1_, to_raw_2_);
-  const cv::Mat white(camera.intrinsics().height, camera.intrinsics().width, CV_8U, cv::Scalar(255));
-  cv::remap(white, seen_, to_ideal_1_, to_ideal_2_, cv::INTER_NEAREST);
+  const auto distort = [&](const Eigen::Vector2d& ideal) { return camera.distort(ideal); };
+  const auto undistort = [&](const Eigen::Vector2d& raw) { return camera.undistort(raw); };
+  tabulate(camera.ideal(), distort, to_ideal_1_, to_ideal_2_);
+  tabulate(camera.intrinsics(), undistort, to_raw_1_, to_raw_2_);
+  const cv::Mat shown(camera.intrinsics().height, camera.intrinsics().width, CV_8U, cv::Scalar(0));
+  cv::remap(shown, unseen_, to_ideal_1_, to_ideal_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
+  if (cv::countNonZero(unseen_) == 0) unseen_.release();
 }
 
 cv::Mat Rectifier::toIdeal(const cv::Mat& raw) const {
@@ -37,10 +43,10 @@ cv::Mat Rectifier::toIdeal(const cv::Mat& raw) const {
   return ideal;
 }
 
-cv::Mat Rectifier::toRaw(const cv::Mat& ideal) const {
+cv::Mat Rectifier::toRaw(const cv::Mat& ideal, uchar outside) const {
   if (to_raw_1_.empty()) return ideal;
   cv::Mat raw;
-  cv::remap(ideal, raw, to_raw_1_, to_raw_2_, cv::INTER_NEAREST);
+  cv::remap(ideal, raw, to_raw_1_, to_raw_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, outside);
   return raw;
 }
 

@@ -7,24 +7,25 @@
 
 namespace redbee {
 
-/// Look-up tables for one camera. A camera without distortion costs nothing: images pass through uncopied.
+/// Look-up tables for one camera. Where raw and ideal pixels are the same it costs nothing: images pass
+/// through uncopied.
 class Rectifier {
  public:
   explicit Rectifier(const Camera& camera);
 
-  /// Raw image to ideal image of the same size and K, bilinear; black where the raw image does not
-  /// reach.
+  /// Raw image to ideal image, of the size and K of the camera's ideal(), bilinear; black where unseen().
   cv::Mat toIdeal(const cv::Mat& raw) const;
-  /// Map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; 0 where the ideal image
-  /// does not reach.
-  cv::Mat toRaw(const cv::Mat& ideal) const;
-  /// 255 where the ideal image has been seen by the raw one; empty for a camera without distortion.
-  const cv::Mat& seen() const { return seen_; }
+  /// 8-bit map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; `outside` where the
+  /// raw pixel was not rectified.
+  cv::Mat toRaw(const cv::Mat& ideal, uchar outside = 0) const;
+  /// 8-bit, ideal grid: 255 where the raw image shows nothing, or the camera model has no pixel; empty where
+  /// every pixel is seen.
+  const cv::Mat& unseen() const { return unseen_; }
 
  private:
   cv::Mat to_ideal_1_, to_ideal_2_;
   cv::Mat to_raw_1_, to_raw_2_;
-  cv::Mat seen_;
+  cv::Mat unseen_;
 };
 
 }  // namespace redbee

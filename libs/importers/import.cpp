@@ -26,6 +26,7 @@ void emitCamera(YAML::Emitter& out, const VehicleDescription& vehicle) {
     const CameraIntrinsics& camera = *vehicle.intrinsics;
     out << YAML::Key << "fx" << YAML::Value << camera.fx << YAML::Key << "fy" << YAML::Value << camera.fy;
     out << YAML::Key << "cx" << YAML::Value << camera.cx << YAML::Key << "cy" << YAML::Value << camera.cy;
+    out << YAML::Key << "model" << YAML::Value << camera.model;
     emitFlow(out, "distortion", camera.distortion);
   }
   if (vehicle.R_CI) {

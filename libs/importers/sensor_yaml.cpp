@@ -12,14 +12,19 @@
 #include <vector>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/geometry/camera_model.hpp"
 
 namespace redbee {
 namespace {
 
+/// More than any model has; how many it takes is for the model to decide.
+constexpr size_t kManyCoefficients = 64;
+
 /// One parsed file; every access throws with file and line.
 class SensorFile {
  public:
-  explicit SensorFile(const std::filesystem::path& file) : file_(file) {
+  /// `section`: the key that holds the keys; empty for those of the file itself.
+  explicit SensorFile(const std::filesystem::path& file, const std::string& section = "") : file_(file) {
     std::ifstream in(file);
     if (!in) throw InputError(file, "no such file");
     std::string text;
@@ -32,6 +37,7 @@ class SensorFile {
     } catch (const YAML::Exception& error) {
       throw InputError(file, error.mark.line + 1, error.msg);
     }
+    if (!section.empty()) root_ = sectionOf(root_, section);
     if (!root_.IsMap()) throw InputError(file, 1, "holds no keys");
   }
 
@@ -53,7 +59,7 @@ class SensorFile {
   std::optional<SensorPose> pose(const char* key = "T_BS") const {
     if (!has(key)) return std::nullopt;
     const YAML::Node node = root_[key];
-    const auto data = convert<std::vector<double>>(node.IsMap() ? node["data"] : node, key);
+    const auto data = convert<std::vector<double>>(node.IsMap() ? node["data"] : inOneList(node), key);
     if (data.size() != 16) fail(key, "must have 16 numbers, has " + std::to_string(data.size()));
     for (const double number : data) {
       if (!std::isfinite(number)) fail(key, "holds a number that is not finite");
@@ -73,6 +79,22 @@ class SensorFile {
   }
 
  private:
+  YAML::Node sectionOf(const YAML::Node& root, const std::string& section) const {
+    if (!root.IsMap() || !root[section].IsDefined())
+      throw InputError(file_, "holds no '" + section + "': is it a camchain?");
+    return root[section];
+  }
+
+  /// Kalibr writes a matrix as a list of rows.
+  static YAML::Node inOneList(const YAML::Node& node) {
+    if (!node.IsSequence() || node.size() == 0 || !node[0].IsSequence()) return node;
+    YAML::Node list;
+    for (const auto& row : node) {
+      for (const auto& number : row) list.push_back(number);
+    }
+    return list;
+  }
+
   template <typename Value>
   Value convert(const YAML::Node& node, const char* key) const {
     try {
@@ -97,35 +119,52 @@ std::vector<double> finiteNumbers(const SensorFile& file, const char* key, size_
   return numbers;
 }
 
-}  // namespace
-
-CameraSensor readCameraSensor(const std::filesystem::path& path) {
-  const SensorFile file(path);
+/// Intrinsics under ASL's or Kalibr's name of the coefficients' key.
+CameraIntrinsics cameraIntrinsics(const SensorFile& file, const char* coefficients_key) {
   const auto model =
       file.has("camera_model") ? file.get<std::string>("camera_model") : std::string("pinhole");
   if (model != "pinhole") file.fail("camera_model", "'" + model + "' is not supported, only pinhole");
 
-  CameraSensor camera;
+  CameraIntrinsics camera;
   const auto resolution = finiteNumbers(file, "resolution", 2, 2);
   const auto intrinsics = finiteNumbers(file, "intrinsics", 4, 4);
   if (resolution[0] < 1 || resolution[1] < 1) file.fail("resolution", "must be positive");
   if (intrinsics[0] <= 0 || intrinsics[1] <= 0) file.fail("intrinsics", "focal lengths must be positive");
-  camera.intrinsics.width = static_cast<int>(resolution[0]);
-  camera.intrinsics.height = static_cast<int>(resolution[1]);
-  camera.intrinsics.fx = intrinsics[0];
-  camera.intrinsics.fy = intrinsics[1];
-  camera.intrinsics.cx = intrinsics[2];
-  camera.intrinsics.cy = intrinsics[3];
-  if (file.has("distortion_coefficients")) {
-    const auto coefficients = finiteNumbers(file, "distortion_coefficients", 4, 5);
-    std::copy(coefficients.begin(), coefficients.end(), camera.intrinsics.distortion.begin());
-    const auto name =
-        file.has("distortion_model") ? file.get<std::string>("distortion_model") : std::string("radtan");
-    if (name != "radial-tangential" && name != "radtan" && name != "plumb_bob") {
-      file.fail("distortion_model", "'" + name + "' is not supported, only radial-tangential");
-    }
+  camera.width = static_cast<int>(resolution[0]);
+  camera.height = static_cast<int>(resolution[1]);
+  camera.fx = intrinsics[0];
+  camera.fy = intrinsics[1];
+  camera.cx = intrinsics[2];
+  camera.cy = intrinsics[3];
+  const auto name =
+      file.has("distortion_model") ? file.get<std::string>("distortion_model") : std::string("radtan");
+  if (name == "none" || !file.has(coefficients_key)) return camera;
+  const CameraModelType* type = findCameraModel(name);
+  if (type == nullptr)
+    file.fail("distortion_model", "'" + name + "' is not supported, only " + cameraModelNames());
+  camera.model = type->name;
+  camera.distortion = finiteNumbers(file, coefficients_key, 0, kManyCoefficients);
+  const std::string fault = coefficientFault(*type, camera.distortion.size());
+  if (!fault.empty()) file.fail(coefficients_key, fault);
+  return camera;
+}
+
+}  // namespace
+
+CameraSensor readCameraSensor(const std::filesystem::path& path) {
+  const SensorFile file(path);
+  return {cameraIntrinsics(file, "distortion_coefficients"), file.pose()};
+}
+
+CamchainCamera readCamchain(const std::filesystem::path& path, const std::string& name) {
+  const SensorFile file(path, name);
+  CamchainCamera camera;
+  camera.intrinsics = cameraIntrinsics(file, "distortion_coeffs");
+  if (const auto T_CI = file.pose("T_cam_imu")) {
+    camera.R_CI = T_CI->R_BS;
+    camera.p_IC = -T_CI->R_BS.transpose() * T_CI->p_BS;
   }
-  camera.pose = file.pose();
+  if (file.has("timeshift_cam_imu")) camera.timeshift_s = file.get<double>("timeshift_cam_imu");
   return camera;
 }
 

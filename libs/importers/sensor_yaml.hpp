@@ -1,9 +1,10 @@
-// sensor.yaml of the ASL layout.
+// sensor.yaml of the ASL layout, and Kalibr's camchain.yaml.
 #pragma once
 
 #include <Eigen/Core>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "redbee/geometry/camera.hpp"
 #include "redbee/inertial/imu.hpp"
@@ -20,6 +21,13 @@ struct CameraSensor {
   CameraIntrinsics intrinsics;
   std::optional<SensorPose> pose;
 };
+/// A camera of Kalibr's camchain.yaml or camchain-imucam.yaml; the latter has the rest as well.
+struct CamchainCamera {
+  CameraIntrinsics intrinsics;
+  std::optional<Eigen::Matrix3d> R_CI;  ///< of T_cam_imu
+  std::optional<Eigen::Vector3d> p_IC;  ///< m
+  std::optional<double> timeshift_s;    ///< timeshift_cam_imu: t_imu = t_cam + timeshift
+};
 struct ImuSensor {
   std::optional<ImuNoise> noise;
   std::optional<SensorPose> pose;
@@ -33,6 +41,7 @@ struct TrueExtrinsics {
 
 /// All throw InputError with file and line. OpenCV's "%YAML:1.0" line is skipped.
 CameraSensor readCameraSensor(const std::filesystem::path& file);
+CamchainCamera readCamchain(const std::filesystem::path& file, const std::string& camera = "cam0");
 ImuSensor readImuSensor(const std::filesystem::path& file);
 /// noise_sigma [m] of an altimeter.
 double readAltimeterSigma(const std::filesystem::path& file);

@@ -92,7 +92,7 @@ VisionCorrection::VisionCorrection(const InertialParameters& parameters)
 
 CorrectionReport VisionCorrection::correct(NavigationState& state, const HomographyObservation& observation,
                                            const Camera& camera, const Eigen::Vector3d& p_IC) {
-  const ImageScaling scaling(camera.intrinsics().width, camera.intrinsics().height);
+  const ImageScaling scaling(camera.ideal().width, camera.ideal().height);
   const Eigen::Matrix3d K_scaled = scaling.T * camera.K();
   const PlaneMotion motion = cameraMotion(state, p_IC);
   const HomographyMeasurement z =

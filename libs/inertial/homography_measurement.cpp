@@ -95,7 +95,7 @@ double cameraHeightSigma(const NavigationState& state, const Eigen::Vector3d& p_
 }
 
 Eigen::Matrix3d scaledMatrix(const Camera& camera) {
-  return ImageScaling(camera.intrinsics().width, camera.intrinsics().height).T * camera.K();
+  return ImageScaling(camera.ideal().width, camera.ideal().height).T * camera.K();
 }
 
 void describe(const NavigationState& state, const Camera& camera, const Eigen::Vector3d& p_IC,

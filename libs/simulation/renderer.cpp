@@ -47,12 +47,14 @@ class Renderer::Implementation {
  private:
   void precomputeRays() {
     const CameraIntrinsics& size = camera_.intrinsics();
+    const CameraIntrinsics& ideal = camera_.ideal();
     rays_.create(size.height, size.width);
     for (int y = 0; y < size.height; ++y) {
       for (int x = 0; x < size.width; ++x) {
-        const Eigen::Vector2d ideal = camera_.undistort({x, y});
-        rays_(y, x) = {static_cast<float>((ideal.x() - size.cx) / size.fx),
-                       static_cast<float>((ideal.y() - size.cy) / size.fy)};
+        const auto pixel = camera_.undistort({x, y});
+        if (!pixel) throw std::invalid_argument("the camera has pixels outside its model's domain");
+        rays_(y, x) = {static_cast<float>((pixel->x() - ideal.cx) / ideal.fx),
+                       static_cast<float>((pixel->y() - ideal.cy) / ideal.fy)};
       }
     }
   }

@@ -34,7 +34,8 @@ struct RenderedImage {
 
 class Renderer {
  public:
-  /// Throws std::invalid_argument for more than 254 patches.
+  /// Throws std::invalid_argument for more than 254 patches, and for a camera with pixels that have no ray
+  /// ahead.
   Renderer(const Camera& camera, const Scene& scene, const SensorParameters& sensor);
   ~Renderer();
   Renderer(Renderer&&) noexcept;

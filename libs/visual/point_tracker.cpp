@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -33,8 +34,12 @@ bool isFinite(const Eigen::Vector2d& p) { return p.allFinite(); }
 
 class PointTracker::Implementation {
  public:
-  explicit Implementation(const TrackerParameters& parameters)
+  Implementation(const TrackerParameters& parameters, const cv::Mat& unseen)
       : parameters_(parameters), shape_(parameters.window_px), forward_(shape_), backward_(shape_) {
+    if (!unseen.empty()) {
+      const int side = 2 * (shape_.half + 1) + 1;
+      cv::dilate(unseen, blocked_, cv::Mat::ones(side, side, CV_8U));
+    }
     if (parameters.grid_px < 1 || parameters.levels < 1 || parameters.iterations < 1) {
       throw std::invalid_argument("the tracker's grid, levels and iterations must be positive");
     }
@@ -80,13 +85,13 @@ class PointTracker::Implementation {
     return textured >= points;
   }
 
-  /// Grid points whose patch and gradients lie wholly in the image.
+  /// Grid points whose patch and gradients lie wholly in the image, and in the part of it that is seen.
   template <typename Visitor>
   void forEachGridPoint(const PyramidLevel& level, int step, const Visitor& visit) const {
     const int edge = shape_.half + 1;
     for (int y = step / 2; y < level.height - edge; y += step) {
       for (int x = step / 2; x < level.width - edge; x += step) {
-        if (x >= edge && y >= edge) visit(x, y);
+        if (x >= edge && y >= edge && !isBlocked(x, y)) visit(x, y);
       }
     }
   }
@@ -179,7 +184,12 @@ class PointTracker::Implementation {
   bool isInside(const Eigen::Vector2d& p) const {
     const double edge = shape_.half + 1;
     return p.x() >= edge && p.y() >= edge && p.x() <= current_[0].width - 1 - edge &&
-           p.y() <= current_[0].height - 1 - edge;
+           p.y() <= current_[0].height - 1 - edge &&
+           !isBlocked(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+  }
+
+  bool isBlocked(int x, int y) const {
+    return !blocked_.empty() && x < blocked_.cols && y < blocked_.rows && blocked_(y, x) != 0;
   }
 
   TrackerParameters parameters_;
@@ -187,10 +197,11 @@ class PointTracker::Implementation {
   Template forward_, backward_;
   Template coarse_{shape_};
   Pyramid previous_, current_;
+  cv::Mat1b blocked_;  ///< 255 at the centres of patches that touch what is not seen; may be empty
 };
 
-PointTracker::PointTracker(const TrackerParameters& parameters)
-    : implementation_(std::make_unique<Implementation>(parameters)) {}
+PointTracker::PointTracker(const TrackerParameters& parameters, const cv::Mat& unseen)
+    : implementation_(std::make_unique<Implementation>(parameters, unseen)) {}
 PointTracker::~PointTracker() = default;
 
 Pyramid PointTracker::pyramidOf(const cv::Mat& grey) const { return implementation_->pyramidOf(grey); }

@@ -34,7 +34,9 @@ struct PointTracks {
 /// Keeps the previous frame's pyramid. Assumes grey 8-bit images of one size; a change of size restarts it.
 class PointTracker {
  public:
-  explicit PointTracker(const TrackerParameters& parameters);
+  /// `unseen`: 255 where the images show nothing (rectifier.hpp), empty where they are whole; patches that
+  /// touch it are not tracked.
+  explicit PointTracker(const TrackerParameters& parameters, const cv::Mat& unseen = {});
   ~PointTracker();
 
   /// An image as advance() takes it. Throws std::invalid_argument for one that is empty or not 8-bit grey.

@@ -60,8 +60,9 @@ const char* toString(VisualStatus status) {
   return "unknown";
 }
 
-VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& parameters)
-    : parameters_(parameters), tracker_(parameters.tracker) {}
+VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& parameters,
+                                                     const cv::Mat& unseen)
+    : parameters_(parameters), tracker_(parameters.tracker, unseen) {}
 
 void VisualHomographyEstimator::resetReference() {
   tracker_.reset();

@@ -46,7 +46,8 @@ struct VisualHomography {
 
 class VisualHomographyEstimator {
  public:
-  explicit VisualHomographyEstimator(const VisualParameters& parameters);
+  /// `unseen` as the tracker takes it.
+  explicit VisualHomographyEstimator(const VisualParameters& parameters, const cv::Mat& unseen = {});
 
   /// Time of the frame that the next one is tracked from; nothing before the first.
   std::optional<int64_t> previousTime() const { return previous_utime_; }

@@ -28,7 +28,8 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
     : bus_(bus),
       configuration_(configuration),
       health_(programName(kHomographyFusion), configurationHash(configuration)),
-      fusion_(configuration.camera.width, configuration.camera.height, configuration.fusion),
+      camera_(idealCamera(configuration.camera)),
+      fusion_(camera_.width, camera_.height, configuration.fusion),
       inertial_(microseconds(configuration.waits.fusion_s), configuration.has_imu),
       visual_(microseconds(configuration.waits.fusion_s), true) {
   const auto damaged = [this] { health_.noteDamaged(); };
@@ -116,8 +117,7 @@ void HomographyFusionNode::process() {
       continue;
     }
     if (verdict == FrameDecision::kRestart) {
-      fusion_ =
-          HomographyFusion(configuration_.camera.width, configuration_.camera.height, configuration_.fusion);
+      fusion_ = HomographyFusion(camera_.width, camera_.height, configuration_.fusion);
     }
     fuse(utime, since_arrival);
   }
@@ -143,8 +143,7 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
   const FusedHomography fused = fusion_.step(utime, inertial_input, visual_input);
   if (fused.has_innovation && inertial_input && visual_input &&
       inertial_input->utime_previous == visual_input->utime_previous) {
-    noteCalibration(calibration_, health_, fused.test_ratio, inertial_input->H, visual_input->H,
-                    configuration_.camera);
+    noteCalibration(calibration_, health_, fused.test_ratio, inertial_input->H, visual_input->H, camera_);
   }
   fused_homography_t message = messageOf(fused);
   addSources(message, fused, inertial, visual);
@@ -167,8 +166,8 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
   message.source = static_cast<int8_t>(fused.source);
   message.epoch = fused.epoch;
   message.utime_anchor = fused.utime_anchor;
-  message.width = configuration_.camera.width;
-  message.height = configuration_.camera.height;
+  message.width = camera_.width;
+  message.height = camera_.height;
   fill(message.H, fused.H_step);
   fill(message.covariance, fused.covariance_step);
   fill(message.H_anchor, fused.H_anchor);

@@ -48,6 +48,7 @@ class HomographyFusionNode : public Node {
   Bus& bus_;
   Configuration configuration_;
   HealthMonitor health_;
+  CameraIntrinsics camera_;  ///< ideal
   HomographyFusion fusion_;
   CalibrationMonitor calibration_;
   FrameOrder order_;

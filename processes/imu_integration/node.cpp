@@ -130,7 +130,7 @@ void ImuIntegrationNode::applyFeedback() {
   feedback_report_ = filter_.correct(observation);
   if (!last_H_) return;
   noteCalibration(calibration_, health_, feedback_report_.test_ratio, *last_H_, observation.H,
-                  configuration_.camera);
+                  camera_.ideal());
 }
 
 void ImuIntegrationNode::publishSnapshot() {
@@ -168,8 +168,8 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
   message.sequence = sequence_++;
   message.status = static_cast<int8_t>(result.status);
   message.valid = result.valid ? 1 : 0;
-  message.width = configuration_.camera.width;
-  message.height = configuration_.camera.height;
+  message.width = camera_.ideal().width;
+  message.height = camera_.ideal().height;
   fill(message.H, result.H);
   fill(message.covariance, result.covariance);
   fill(message.R, result.motion.R_ba);

@@ -21,9 +21,10 @@ int imageDownscale(const Configuration& configuration) {
   if (segmentation.method != SegmentationMethod::kParallax) return 1;
   int downscale = segmentation.work_downscale;
   if (segmentation.use_appearance) downscale = std::min(downscale, segmentation.background_downscale);
-  const bool divides =
-      configuration.camera.width % downscale == 0 && configuration.camera.height % downscale == 0;
-  return divides ? downscale : 1;
+  const auto divides = [downscale](const CameraIntrinsics& camera) {
+    return camera.width % downscale == 0 && camera.height % downscale == 0;
+  };
+  return divides(configuration.camera) && divides(idealCamera(configuration.camera)) ? downscale : 1;
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
   if (fused.has_innovation == 0 || fused.has_motion == 0 || fused.has_observation == 0) return;
   const PlaneMotion motion{matrix3(fused.R), vector3(fused.t), vector3(fused.normal), fused.plane_distance};
   noteCalibration(calibration_, health_, fused.test_ratio, planeHomography(camera_.camera().K(), motion),
-                  matrix3(fused.H_observed), configuration_.camera);
+                  matrix3(fused.H_observed), camera_.camera().ideal());
 }
 
 void MotionSegmentationNode::restart() {
@@ -142,7 +143,7 @@ void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t&
   const bool wants_colour =
       configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
   const IdealImage image = camera_.ideal(message, wants_colour, health_);
-  input.size = {configuration_.camera.width, configuration_.camera.height};
+  input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
   input.grey = image.grey;
   input.colour = image.colour;
   if (!input.grey.empty()) return;

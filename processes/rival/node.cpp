@@ -95,7 +95,7 @@ RivalInput RivalNode::inputFor(const image_t& message) {
 }
 
 SegmentationOutput RivalNode::detect(const RivalInput& input) {
-  const cv::Size size(configuration_.camera.width, configuration_.camera.height);
+  const cv::Size size(camera_.camera().ideal().width, camera_.camera().ideal().height);
   const RivalOutput answer = rival_->step(input);
   SegmentationOutput output;
   output.utime = input.utime;

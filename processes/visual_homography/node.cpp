@@ -23,7 +23,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
       health_(programName(kVisualHomography), configurationHash(configuration)),
       camera_(configuration.camera),
       rectifier_(camera_),
-      estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual)),
+      estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual, rectifier_.unseen())),
       images_(configuration.waits.max_backlog),
       inertial_(microseconds(configuration.waits.visual_s), configuration.has_imu) {
   const auto damaged = [this] { health_.noteDamaged(); };
@@ -47,13 +47,13 @@ void VisualHomographyNode::takeInertial(const inertial_homography_t& message) {
 
 void VisualHomographyNode::restart() {
   inertial_.clear();
-  estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual);
+  estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unseen());
 }
 
 std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t utime) const {
   const auto from = estimator_->previousTime();
   if (!from) return std::nullopt;
-  const ImageScaling scaling(configuration_.camera.width, configuration_.camera.height);
+  const ImageScaling scaling(camera_.ideal().width, camera_.ideal().height);
   std::optional<HomographyPrediction> chain;
   for (int64_t at = utime; at > *from;) {
     const inertial_homography_t* link = inertial_.find(at);
@@ -92,8 +92,8 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
     refusal.utime_previous = estimator_->previousTime().value_or(message.utime);
     refusal.sequence = sequence_++;
     refusal.status = kImageDoesNotFit;
-    refusal.width = configuration_.camera.width;
-    refusal.height = configuration_.camera.height;
+    refusal.width = camera_.ideal().width;
+    refusal.height = camera_.ideal().height;
     bus_.publish(configuration_.channels.visual_homography, refusal);
     noteDone(health_, message.utime, frame.since, timers);
     health_.setState(HealthState::kDegraded,
@@ -115,14 +115,14 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
 
 void VisualHomographyNode::judgeCalibration(const HomographyPrediction& prediction,
                                             const VisualHomography& result) {
-  const ImageScaling scaling(configuration_.camera.width, configuration_.camera.height);
+  const ImageScaling scaling(camera_.ideal().width, camera_.ideal().height);
   const Vector8d difference =
       toVector(scaling.scale(result.ground->H)) - toVector(scaling.scale(prediction.H));
   const Matrix8d S =
       prediction.covariance + configuration_.fusion.visual_inflation * result.ground->covariance;
   const double gate = chiSquareQuantile(configuration_.fusion.gate_probability, 8);
   noteCalibration(calibration_, health_, difference.dot(S.ldlt().solve(difference)) / gate, prediction.H,
-                  result.ground->H, configuration_.camera);
+                  result.ground->H, camera_.ideal());
 }
 
 void VisualHomographyNode::publish(const VisualHomography& result) {
@@ -131,8 +131,8 @@ void VisualHomographyNode::publish(const VisualHomography& result) {
   message.utime_previous = result.utime_previous;
   message.sequence = sequence_++;
   message.status = static_cast<int8_t>(result.status);
-  message.width = configuration_.camera.width;
-  message.height = configuration_.camera.height;
+  message.width = camera_.ideal().width;
+  message.height = camera_.ideal().height;
   message.sampled = result.tracks.sampled;
   fillTracks(message, result.tracks);
   message.inlier.assign(result.tracks.current.size(), 0);

@@ -136,21 +136,13 @@ TEST(RotationAlignment, FindsTimeShiftAndRotationWithoutAStartingValue) {
   EXPECT_NEAR(alignment.timeshift_s, r.truth.timeshift_s, 1e-3);
 }
 
-TEST(TranslationOverHeight, InvertsThePlaneHomography) {
-  const SimulatedRecording r = simulateRecording(Trajectory::calibration(1, 6), 1, briefly(1));
-  const Eigen::Matrix3d K = Camera(r.input.camera).K();
-  const PlaneMotion motion = simulation::exactMotion(Trajectory::calibration(1, 6), r.truth, 0.4, 0.6);
-  const Eigen::Vector3d t = translationOverHeight(K, planeHomography(K, motion), motion.R_ba, motion.m_a);
-  EXPECT_LT((t - motion.t_ba / motion.h_a).norm(), 1e-9);
-}
-
 TargetView viewOfGrid(const Camera& camera, const Eigen::Matrix3d& R_CT, const Eigen::Vector3d& p_CT) {
   TargetView view;
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) {
       view.corners.emplace_back(0.1 * column, 0.1 * row, 0);
       const Eigen::Vector3d X = R_CT * view.corners.back() + p_CT;
-      view.pixels.push_back(camera.distort((camera.K() * X).hnormalized()));
+      view.pixels.push_back(*camera.distort((camera.K() * X).hnormalized()));
     }
   }
   return view;

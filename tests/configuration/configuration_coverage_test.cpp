@@ -76,7 +76,7 @@ const std::vector<std::string>& values() {
   // clang-format off
   static const std::vector<std::string> all = {
       "true", "false", "33", "3", "2", "4", "0.375", "0.625", "ANOTHER",
-      "paper", "propagated", "two_planes", "parallax",
+      "equidistant", "paper", "propagated", "two_planes", "parallax",
       "[0.125, 0.25, 0.375]", "[0.125, 0.25, 0.375, 0.5, 0.625]",
       "[0, -1, 0, 1, 0, 0, 0, 0, 1]", "[1, 2, 3, 4, 5, 6, 7, 8]"};
   // clang-format on

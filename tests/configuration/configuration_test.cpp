@@ -28,8 +28,19 @@ TEST_F(ConfigurationTest, MatricesAreRowMajor) {
 
 TEST_F(ConfigurationTest, DistortionMayLeaveOutK3) {
   const std::string camera = "camera: {width: 640, height: 480, fx: 1, fy: 1, cx: 0, cy: 0, distortion: ";
-  EXPECT_EQ(load(camera + "[1, 2, 3, 4]}").camera.distortion, (std::array<double, 5>{1, 2, 3, 4, 0}));
+  EXPECT_EQ(load(camera + "[1, 2, 3, 4]}").camera.distortion, (std::vector<double>{1, 2, 3, 4}));
   EXPECT_EQ(load(camera + "[1, 2, 3, 4, 5]}").camera.distortion[4], 5);
+}
+
+TEST_F(ConfigurationTest, AnEquidistantLensHasFourCoefficients) {
+  const std::string camera =
+      "camera: {width: 640, height: 480, fx: 1, fy: 1, cx: 0, cy: 0, model: equidistant, distortion: ";
+  const auto configuration = load(camera + "[1, 2, 3, 4]}");
+  EXPECT_EQ(configuration.camera.model, "equidistant");
+  EXPECT_EQ(configuration.camera.distortion, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_THROW(load(camera + "[1, 2, 3, 4, 5]}"), ConfigurationError);
+  EXPECT_THROW(load("camera: {width: 640, height: 480, fx: 1, fy: 1, cx: 0, cy: 0, model: omni}"),
+               ConfigurationError);
 }
 
 TEST_F(ConfigurationTest, ThePaperPresetHasThePapersValues) {

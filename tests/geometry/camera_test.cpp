@@ -17,7 +17,7 @@ TEST(Camera, UndistortInvertsDistortOverTheImage) {
   for (int v = 0; v < 480; v += 60) {
     for (int u = 0; u < 752; u += 60) {
       const Eigen::Vector2d raw(u, v);
-      EXPECT_LT((camera.distort(camera.undistort(raw)) - raw).norm(), 1e-9) << u << ' ' << v;
+      EXPECT_LT((*camera.distort(*camera.undistort(raw)) - raw).norm(), 1e-9) << u << ' ' << v;
     }
   }
 }

@@ -91,7 +91,7 @@ TEST(FlightSimulator, DistortionMovesTheImageAsTheCameraModelDoes) {
   cv::Mat_<cv::Vec2f> map(raw.grey.size());
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.cols; ++x) {
-      const Eigen::Vector2d pixel = flight.camera().undistort({x, y});
+      const Eigen::Vector2d pixel = *flight.camera().undistort({x, y});
       map(y, x) = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
     }
   }

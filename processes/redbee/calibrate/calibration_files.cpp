@@ -7,6 +7,7 @@
 #include "processes/redbee/pages/number.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/camera_model.hpp"
 
 namespace redbee {
 namespace {
@@ -106,17 +107,19 @@ void setBiasSigmas(const CalibrationInput& input, const CalibrationResult& resul
 std::string kalibrCamchain(const CalibrationInput& input, const CalibrationResult& result,
                            const CalibrationSubject& subject) {
   const CameraIntrinsics& camera = input.camera;
+  std::vector<double> kalibrs = camera.distortion;
+  kalibrs.resize(findCameraModel(camera.model)->fewest);
   const InertialExtrinsics& kept = result.values.kept;
   const Eigen::Matrix3d R_IC = kept.R_CI.transpose();
   std::ostringstream text;
   text << origin(subject) << verdictComment(result, "camera.R_CI") << verdictComment(result, "camera.p_IC")
        << verdictComment(result, "camera.timeshift_s") << "cam0:\n"
        << "  cam_overlaps: []\n  camera_model: pinhole\n"
-       << "  distortion_coeffs: "
-       << list(std::vector<double>(camera.distortion.begin(), camera.distortion.begin() + 4)) << "\n"
-       << "  distortion_model: radtan\n";
-  if (camera.distortion[4] != 0)
-    text << "  # Kalibr's model has no k3; this camera's is " << exact(camera.distortion[4]) << "\n";
+       << "  distortion_coeffs: " << list(kalibrs) << "\n"
+       << "  distortion_model: " << camera.model << "\n";
+  if (kalibrs.size() < camera.distortion.size() && camera.distortion.back() != 0)
+    text << "  # Kalibr's model ends here; this camera's next coefficient is "
+         << exact(camera.distortion.back()) << "\n";
   text << "  intrinsics: " << list(std::vector<double>{camera.fx, camera.fy, camera.cx, camera.cy}) << "\n"
        << "  resolution: [" << camera.width << ", " << camera.height << "]\n"
        << "  rostopic: /cam0/image_raw\n"

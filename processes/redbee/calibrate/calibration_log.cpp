@@ -31,12 +31,13 @@ bool decodes(const LogEvent& event, Message& message) {
 class LongBaseline {
  public:
   /// `delay`: frames to let pass before the first match begins.
-  LongBaseline(const Configuration& configuration, int delay)
-      : configuration_(configuration), tracker_(configuration.visual.tracker), delay_(delay) {}
+  LongBaseline(const TrackerParameters& tracker, const cv::Mat& unseen, int delay)
+      : tracker_(tracker, unseen), delay_(delay) {}
 
   /// `step`: from the previous frame to this one. The match that ends at this frame, where one does.
   std::optional<calibration::GroundMatch> advance(int64_t utime, const cv::Mat& ideal,
                                                   const std::optional<HomographyEstimate>& step) {
+    size_ = ideal.size();
     if (delay_-- > 0) return std::nullopt;
     ++frames_;
     if (!step || begin_utime_ == 0) {
@@ -66,7 +67,7 @@ class LongBaseline {
   }
   /// Mean over points half-way to the corners [px].
   double motion() const {
-    const double w = configuration_.camera.width, h = configuration_.camera.height;
+    const double w = size_.width, h = size_.height;
     double sum = 0;
     for (const Eigen::Vector2d& p :
          {Eigen::Vector2d(0.25 * w, 0.25 * h), Eigen::Vector2d(0.75 * w, 0.25 * h),
@@ -76,8 +77,8 @@ class LongBaseline {
     return sum;
   }
 
-  const Configuration& configuration_;
   PointTracker tracker_;
+  cv::Size size_;
   Eigen::Matrix3d chain_ = Eigen::Matrix3d::Identity();  ///< from the frame that the match begins at
   int64_t begin_utime_ = 0;
   int frames_ = 0;
@@ -92,8 +93,9 @@ class LogIntake {
         configuration_(configuration),
         input_(input),
         rectifier_(Camera(configuration.camera)),
-        tracker_(configuration.visual.tracker) {
-    for (const int delay : {0, 3, 6, 9}) long_baselines_.emplace_back(configuration, delay);
+        tracker_(configuration.visual.tracker, rectifier_.unseen()) {
+    for (const int delay : {0, 3, 6, 9})
+      long_baselines_.emplace_back(configuration.visual.tracker, rectifier_.unseen(), delay);
   }
 
   void take(const LogEvent& event) {
@@ -141,8 +143,7 @@ class LogIntake {
     if (!input_.frames.empty() && message.utime <= previous) return;
     const cv::Mat ideal = rectifier_.toIdeal(*grey);
     PointTracks points = tracker_.advance(ideal, std::nullopt);
-    const CameraIntrinsics& camera = configuration_.camera;
-    const auto step = estimateHomography(points, camera.width, camera.height, configuration_.visual.ransac);
+    const auto step = estimateHomography(points, ideal.cols, ideal.rows, configuration_.visual.ransac);
     for (LongBaseline& baseline : long_baselines_) {
       if (auto match = baseline.advance(message.utime, ideal, step))
         input_.ground.push_back(std::move(*match));
