@@ -66,7 +66,7 @@ int status(const StackOutput& output, const StackFlight& flight, int k) {
   return it == output.foreground.end() ? -1 : it->second.status;
 }
 
-/// Pixels of the published mask that the truth says are background.
+/// Pixels of the published mask that are background in the ground truth.
 int falsePixels(const StackOutput& output, const StackFlight& flight, int k) {
   const auto& foreground = output.foreground.at(flight.frame_utimes[static_cast<size_t>(k)]);
   const cv::Mat mask = cv::imdecode(foreground.mask, cv::IMREAD_GRAYSCALE);

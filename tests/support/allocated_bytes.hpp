@@ -1,4 +1,4 @@
-// What is allocated now. Resident memory would say the same of an ordinary build, but a sanitizer's shadow
+// What is allocated now. Resident memory would measure the same in an ordinary build, but a sanitizer's shadow
 // and quarantine count there as well.
 #pragma once
 
