@@ -1,5 +1,5 @@
-// What is allocated now. Resident memory would measure the same in an ordinary build, but a sanitizer's shadow
-// and quarantine count there as well.
+// What is allocated now. Resident memory would measure the same in an ordinary build, but a sanitizer's
+// shadow and quarantine count there as well.
 #pragma once
 
 #include <cstddef>
