@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "tests/support/sliding_patch.hpp"
@@ -46,6 +48,26 @@ TEST(TrajectoryWindow, ACellHoldsOneTrack) {
                   static_cast<int>(last.y()) / window.parameters().grid_px);
   }
   EXPECT_EQ(static_cast<Eigen::Index>(cells.size()), X.cols());
+}
+
+TEST(TrajectoryWindow, IsAsLongAsItCanBeWhileItFills) {
+  cv::Mat image(120, 160, CV_8U);
+  cv::RNG random(1);
+  random.fill(image, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(image, image, {5, 5}, 0);
+  TrajectoryWindowParameters parameters;
+  parameters.frames = 5;
+  parameters.least_frames = 3;
+  TrajectoryWindow window(parameters);
+  for (int round = 0; round < 2; ++round) {
+    for (int k = 1; k <= 7; ++k) {
+      EXPECT_TRUE(window.advance(image));
+      const Eigen::MatrixXd X = window.trajectories();
+      EXPECT_EQ(X.cols() > 0, k >= 3) << k;
+      EXPECT_EQ(X.rows(), 2 * std::min(k, 5)) << k;
+    }
+    window.reset();
+  }
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "redbee/detection/appearance/shadow_test.hpp"
+
+#include <gtest/gtest.h>
 
 namespace redbee {
 namespace {
