@@ -50,21 +50,13 @@ void emitImu(YAML::Emitter& out, const VehicleDescription& vehicle) {
   out << YAML::EndMap;
 }
 
-/// Without an IMU P_FG is lower: the direction of parallax is not known, and what runs out of the image is
-/// muted. Thresholds found on DAVIS and UAVDT; Gull2, where nothing moves, stays clean with them.
-void emitSegmentationWithoutImu(YAML::Emitter& out) {
-  out << YAML::Key << "segmentation" << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "threshold" << YAML::Value << 0.25;
-  out << YAML::Key << "extent_threshold" << YAML::Value << 0.12;
-  out << YAML::EndMap;
-}
-
 }  // namespace
 
 std::string vehicleYaml(const VehicleDescription& vehicle) {
   YAML::Emitter out;
   out.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
   out << YAML::BeginMap << YAML::Key << "vehicle" << YAML::Value << vehicle.name;
+  if (!vehicle.has_imu) out << YAML::Key << "preset" << YAML::Value << "vision_only";
   emitCamera(out, vehicle);
   if (vehicle.start_height) {
     out << YAML::Key << "plane" << YAML::Value << YAML::BeginMap;
@@ -73,7 +65,6 @@ std::string vehicleYaml(const VehicleDescription& vehicle) {
     out << YAML::EndMap;
   }
   emitImu(out, vehicle);
-  if (!vehicle.has_imu) emitSegmentationWithoutImu(out);
   out << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
 }

@@ -1,7 +1,7 @@
 #include "processes/motion_segmentation/node.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
+#include <opencv2/imgproc.hpp>
 
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
@@ -15,16 +15,12 @@ namespace {
 constexpr int kFrameQueue = 64;
 constexpr int8_t kVisualGood = 0;
 
-/// How much smaller a image may be decoded: the parallax segmentation shrinks it anyway.
-int imageDownscale(const Configuration& configuration) {
-  const SegmentationParameters& segmentation = configuration.segmentation;
-  if (segmentation.method != SegmentationMethod::kParallax) return 1;
-  int downscale = segmentation.work_downscale;
-  if (segmentation.use_appearance) downscale = std::min(downscale, segmentation.background_downscale);
-  const auto divides = [downscale](const CameraIntrinsics& camera) {
-    return camera.width % downscale == 0 && camera.height % downscale == 0;
+/// How much smaller an image may be decoded.
+int imageDownscale(const DetectorNeeds& needs, const CameraIntrinsics& camera) {
+  const auto divides = [&](const CameraIntrinsics& of) {
+    return of.width % needs.image_downscale == 0 && of.height % needs.image_downscale == 0;
   };
-  return divides(configuration.camera) && divides(idealCamera(configuration.camera)) ? downscale : 1;
+  return divides(camera) && divides(idealCamera(camera)) ? needs.image_downscale : 1;
 }
 
 }  // namespace
@@ -33,17 +29,24 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
     : bus_(bus),
       configuration_(configuration),
       health_(programName(kMotionSegmentation), configurationHash(configuration)),
-      camera_(configuration.camera, imageDownscale(configuration)),
+      detector_(makeDetector(configuration.detection)),
+      needs_(detector_->needs()),
+      camera_(configuration.camera, imageDownscale(needs_, configuration.camera)),
       publisher_(bus_, configuration_, camera_),
-      segmenter_(configuration.segmentation),
       images_(configuration.waits.max_backlog),
-      fused_(microseconds(configuration.waits.segmentation_s), true),
+      fused_(microseconds(configuration.waits.segmentation_s), needs_.camera_motion),
       visual_(0, false) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(
       channels.camera, kFrameQueue,
       [this](const image_t& m) { images_.take(m, health_, [this] { restart(); }); }, damaged);
+  if (needs_.camera_motion) subscribeToMotion();
+}
+
+void MotionSegmentationNode::subscribeToMotion() {
+  const auto damaged = [this] { health_.noteDamaged(); };
+  const auto& channels = configuration_.channels;
   bus_.subscribe<fused_homography_t>(
       channels.fused_homography, kFrameQueue,
       [this](const fused_homography_t& m) {
@@ -78,18 +81,20 @@ void MotionSegmentationNode::restart() {
 }
 
 void MotionSegmentationNode::process() {
-  images_.workOff(fused_, health_, [this](const Arrived<image_t>& frame) { segment(frame); });
+  images_.workOff(fused_, health_, [this](const Arrived<image_t>& frame) { detect(frame); });
 }
 
 void MotionSegmentationNode::finish() {
-  images_.workOffAll([this](const Arrived<image_t>& frame) { segment(frame); });
+  images_.workOffAll([this](const Arrived<image_t>& frame) { detect(frame); });
 }
 
-SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const {
-  SegmentationInput input;
+FrameInput MotionSegmentationNode::inputFor(const image_t& message) const {
+  FrameInput input;
   input.utime = message.utime;
   input.utime_previous = last_ ? last_->utime : message.utime;
   input.K = camera_.camera().K();
+  input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
+  input.sample_grid_px = configuration_.visual.tracker.grid_px;
   if (!last_) return input;
   const fused_homography_t* fused = fused_.find(message.utime);
   if (fused == nullptr || fused->source == 0) {
@@ -114,19 +119,19 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const
 
 /// While the fusion is away or knows nothing yet (its process was started again): vision's own homography
 /// keeps background and identities.
-void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
+void MotionSegmentationNode::addVisual(FrameInput& input) const {
   const visual_homography_t* visual = visual_.find(input.utime);
   if (visual == nullptr || visual->status != kVisualGood || visual->utime_previous != last_->utime) return;
   input.ground = matrix3(visual->H);
   input.tracks = tracksOf(*visual);
 }
 
-void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
+void MotionSegmentationNode::detect(const Arrived<image_t>& frame) {
   FrameTimers timers;
   const image_t& message = frame.content;
-  SegmentationInput input = inputFor(message);
+  FrameInput input = inputFor(message);
   decodeInto(input, message);
-  const SegmentationOutput output = segmenter_.step(input);
+  const DetectorOutput output = detector_->step(input);
   timers.cpu.answered();
   publish(message, input, output);
   if (const fused_homography_t* fused = fused_.find(message.utime)) {
@@ -139,24 +144,23 @@ void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
   noteDone(health_, message.utime, frame.since, timers);
 }
 
-void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
-  const bool wants_colour =
-      configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
-  const IdealImage image = camera_.ideal(message, wants_colour, health_);
-  input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
+void MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {
+  const bool is_colour = needs_.colour && message.pixelformat != kGray;
+  const IdealImage image = camera_.ideal(message, is_colour, health_);
   input.grey = image.grey;
   input.colour = image.colour;
-  if (!input.grey.empty()) return;
-  input.grey = cv::Mat::zeros(input.size, CV_8U);
+  if (needs_.colour && !is_colour && !input.grey.empty()) {
+    cv::cvtColor(input.grey, input.colour, cv::COLOR_GRAY2BGR);
+  }
 }
 
-void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input,
-                                     SegmentationOutput output) {
+void MotionSegmentationNode::publish(const image_t& message, const FrameInput& input,
+                                     DetectorOutput output) {
   for (Detection& detection : output.detections) detection.id = identities_.globalId(detection.id);
   publisher_.publish(message, input.utime_previous, output);
-  if (output.status != SegmentationStatus::kGood) {
+  if (output.status != DetectorStatus::kGood) {
     health_.setState(HealthState::kDegraded, toString(output.status));
-  } else if (fused_.find(output.utime) == nullptr) {
+  } else if (needs_.camera_motion && fused_.find(output.utime) == nullptr) {
     health_.setState(HealthState::kDegraded, "the fusion is away: homography from vision");
   } else {
     health_.setState(HealthState::kGood);

@@ -1,14 +1,15 @@
-// CAMERA and FUSED_HOMOGRAPHY in, VISUAL_HOMOGRAPHY for when the fusion is away; FOREGROUND, DETECTIONS and
-// OVERLAY out.
+// CAMERA in and, for detectors that need the camera's motion, FUSED_HOMOGRAPHY, or VISUAL_HOMOGRAPHY while the fusion
+// is away; FOREGROUND, DETECTIONS and OVERLAY out. Serves every detector.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "processes/foreground_publisher.hpp"
 #include "processes/motion_segmentation/track_id_store.hpp"
 #include "redbee/configuration/configuration.hpp"
-#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/detection/detector.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial/calibration_monitor.hpp"
@@ -31,7 +32,7 @@ class MotionSegmentationNode : public Node {
   }
 
  private:
-  /// The last frame that was segmented, and where it lay in its epoch.
+  /// The last frame that was processed, and where it lay in its epoch.
   struct Last {
     int64_t utime;
     int32_t epoch;
@@ -39,21 +40,23 @@ class MotionSegmentationNode : public Node {
     Eigen::Matrix3d H_anchor;
   };
 
-  void segment(const Arrived<image_t>& frame);
-  SegmentationInput inputFor(const image_t& message) const;
-  void addVisual(SegmentationInput& input) const;
-  /// Black where there is no image of the camera's size.
-  void decodeInto(SegmentationInput& input, const image_t& message);
-  void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
+  void detect(const Arrived<image_t>& frame);
+  FrameInput inputFor(const image_t& message) const;
+  void addVisual(FrameInput& input) const;
+  /// Images stay empty where there is none of the camera's size.
+  void decodeInto(FrameInput& input, const image_t& message);
+  void publish(const image_t& message, const FrameInput& input, DetectorOutput output);
   void judgeCalibration(const fused_homography_t& fused);
+  void subscribeToMotion();
   void restart();
 
   Bus& bus_;
   Configuration configuration_;
   HealthMonitor health_;
+  std::unique_ptr<Detector> detector_;
+  DetectorNeeds needs_;
   RectifiedCamera camera_;
   ForegroundPublisher publisher_;
-  MotionSegmenter segmenter_;
   ImageQueue images_;
   MessageSynchronizer<fused_homography_t> fused_;
   MessageSynchronizer<visual_homography_t> visual_;
