@@ -154,8 +154,7 @@ void MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& messag
   }
 }
 
-void MotionSegmentationNode::publish(const image_t& message, const FrameInput& input,
-                                     DetectorOutput output) {
+void MotionSegmentationNode::publish(const image_t& message, const FrameInput& input, DetectorOutput output) {
   for (Detection& detection : output.detections) detection.id = identities_.globalId(detection.id);
   publisher_.publish(message, input.utime_previous, output);
   if (output.status != DetectorStatus::kGood) {

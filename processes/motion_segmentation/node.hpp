@@ -1,5 +1,5 @@
-// CAMERA in and, for detectors that need the camera's motion, FUSED_HOMOGRAPHY, or VISUAL_HOMOGRAPHY while the fusion
-// is away; FOREGROUND, DETECTIONS and OVERLAY out. Serves every detector.
+// CAMERA in and, for detectors that need the camera's motion, FUSED_HOMOGRAPHY, or VISUAL_HOMOGRAPHY while
+// the fusion is away; FOREGROUND, DETECTIONS and OVERLAY out. Serves every detector.
 #pragma once
 
 #include <cstdint>
