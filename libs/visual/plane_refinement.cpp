@@ -15,6 +15,11 @@ constexpr double kSigmaFloorPx = 0.04;
 /// points, which cross the ground's motion somewhere, are spread evenly over the threshold, the ground's own
 /// are not.
 constexpr double kNearFraction = 0.6;
+/// Where the robust kernel bends: in standard deviations of the residuals, within these fractions of the
+/// inlier threshold.
+constexpr double kKneeSigmas = 1.5;
+constexpr double kSmallestKnee = 0.1;
+constexpr double kLargestKnee = 0.5;
 
 /// Square cells over the image, so many to its width. Scaled coordinates run from -1 to 1 over the width.
 class Cells {
@@ -115,7 +120,7 @@ std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const st
   HomographyEstimate estimate;
   std::optional<LeastSquares> fit;
   Eigen::Matrix3d H = start;
-  double knee = 0.5 * threshold;
+  double knee = kLargestKnee * threshold;
   for (int round = 0; round < kRounds; ++round) {
     if (round == 0 || selection == Selection::kFollowsFit) {
       flagWithin(pairs, H, selection == Selection::kFromStart ? kNearFraction * threshold : threshold,
@@ -125,7 +130,8 @@ std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const st
     fit = fitHomography(pairs, estimate.inlier, H, knee, 5);
     if (!fit) return std::nullopt;
     H = fit->H;
-    knee = std::clamp(1.5 * std::sqrt(fit->variance), 0.1 * threshold, 0.5 * threshold);
+    knee = std::clamp(kKneeSigmas * std::sqrt(fit->variance), kSmallestKnee * threshold,
+                      kLargestKnee * threshold);
   }
   const double floor = kSigmaFloorPx / scaling.unit_px;
   const double inflation = std::max(kCorrelationInflation, correlationOf(pairs, H, estimate.inlier, image));

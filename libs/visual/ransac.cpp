@@ -5,6 +5,18 @@
 #include <utility>
 
 namespace redbee {
+namespace {
+
+/// A candidate with fewer inliers than this fraction of the best one's is not refined: it would not become
+/// the best.
+constexpr double kWorthRefining = 0.8;
+/// Inlier threshold of the first refinement, in units of the final one: a plane through four noisy pairs is
+/// off.
+constexpr double kFirstThreshold = 2.0;
+/// Where the robust kernel bends, as a fraction of the inlier threshold.
+constexpr double kKnee = 0.5;
+
+}  // namespace
 
 PlanePrior::PlanePrior(const Eigen::Matrix3d& H_scaled, const Matrix8d& covariance_scaled)
     : H(H_scaled), covariance(covariance_scaled), factors(covariance) {}
@@ -42,8 +54,7 @@ std::optional<Eigen::Matrix3d> Ransac::run() {
     const auto H = homographyThroughFour(candidates_, draw());
     if (!H) continue;
     const Candidate candidate = score(*H);
-    // Only a candidate that may become the best after its refinement is refined.
-    if (candidate.inliers < 0.8 * best.inliers) continue;
+    if (candidate.inliers < kWorthRefining * best.inliers) continue;
     if (improve(*H, best)) needed = std::min(needed, neededIterations(best.inliers));
   }
   if (best.inliers < 5) return std::nullopt;
@@ -86,9 +97,9 @@ bool Ransac::improve(const Eigen::Matrix3d& start, Candidate& best) {
   constexpr int kRounds = 2;
   Eigen::Matrix3d H = start;
   for (int round = 0; round < kRounds; ++round) {
-    flagWithin(candidates_, H, round == 0 ? 2.0 * threshold_ : threshold_, chosen_);
+    flagWithin(candidates_, H, round == 0 ? kFirstThreshold * threshold_ : threshold_, chosen_);
     const auto fit =
-        fitHomography(candidates_, chosen_, H, 0.5 * threshold_, 2, fit_prior_ ? &*fit_prior_ : nullptr);
+        fitHomography(candidates_, chosen_, H, kKnee * threshold_, 2, fit_prior_ ? &*fit_prior_ : nullptr);
     if (!fit) break;
     H = fit->H;
   }
