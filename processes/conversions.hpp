@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "redbee/filter_snapshot_t.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
-#include "redbee/inertial/imu_buffer.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
@@ -44,7 +44,7 @@ inline void fill(double (&entries)[8], const Eigen::Matrix<double, 8, 1>& v) {
 
 inline filter_snapshot_t messageOf(const FilterSnapshot& known, const std::string& configuration) {
   filter_snapshot_t message{};
-  message.utime = known.utime;
+  message.utime = toUtime(known.time);
   message.configuration = configuration;
   message.height = known.height_m;
   message.height_sigma = known.height_sigma_m;
@@ -63,7 +63,7 @@ inline filter_snapshot_t messageOf(const FilterSnapshot& known, const std::strin
 
 inline FilterSnapshot snapshotOf(const filter_snapshot_t& message) {
   FilterSnapshot known;
-  known.utime = message.utime;
+  known.time = CameraTime(fromUtime(message.utime));
   known.height_m = message.height;
   known.height_sigma_m = message.height_sigma;
   known.up = vector3(message.up);
@@ -119,7 +119,8 @@ PointTracks tracksOf(const Message& message) {
 /// True where the message speaks of two frames at times that a clock can show.
 template <typename Message>
 bool plausibleTimes(const Message& message) {
-  return isPlausibleTime(message.utime) && isPlausibleTime(message.utime_previous);
+  return isPlausibleTime(CameraTime(fromUtime(message.utime))) &&
+         isPlausibleTime(CameraTime(fromUtime(message.utime_previous)));
 }
 
 /// True where every number that a homography message promises is finite.

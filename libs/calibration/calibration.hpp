@@ -6,7 +6,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 #include "redbee/calibration/rotation_alignment.hpp"
 #include "redbee/calibration/verdict.hpp"
 #include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/visual/homography_estimation.hpp"
 #include "redbee/visual/point_tracker.hpp"
@@ -28,16 +28,16 @@ class CalibrationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Points tracked from frame a to frame b; ideal pixels; times of the camera clock [us].
+/// Points tracked from frame a to frame b; ideal pixels.
 struct GroundMatch {
-  int64_t utime_a = 0;
-  int64_t utime_b = 0;
+  CameraTime time_a{};
+  CameraTime time_b{};
   PointTracks points;
 };
 
 /// Corners of a known rigid target in one image.
 struct TargetView {
-  int64_t utime = 0;                     ///< us, camera clock
+  CameraTime time{};
   std::vector<Eigen::Vector2d> pixels;   ///< raw
   std::vector<Eigen::Vector3d> corners;  ///< m, in the target's frame
 };
@@ -57,7 +57,7 @@ struct CalibrationInput {
   std::vector<ImuSample> imu;
   std::vector<AltitudeSample> altimeter;       ///< may be empty
   std::optional<MeasuredHeight> start_height;  ///< camera above ground at the first frame, measured by hand
-  std::vector<int64_t> frames;                 ///< times of all frames, us, camera clock
+  std::vector<CameraTime> frames;              ///< times of all frames
   std::vector<GroundMatch> ground;             ///< either this
   std::vector<TargetView> target;              ///< or this
   RansacParameters ransac;

@@ -13,11 +13,11 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& attitude, const Eigen::Vecto
 
 }  // namespace
 
-ImuHistory::ImuHistory(const std::vector<ImuSample>& samples, int64_t origin_utime) {
+ImuHistory::ImuHistory(const std::vector<ImuSample>& samples, ImuTime origin) {
   samples_.reserve(samples.size());
   for (const ImuSample& sample : samples) {
     if (!sample.gyro.allFinite() || !sample.accel.allFinite()) continue;
-    samples_.push_back({static_cast<double>(sample.utime - origin_utime) * 1e-6, sample.gyro, sample.accel});
+    samples_.push_back({seconds(sample.time - origin), sample.gyro, sample.accel});
   }
   std::stable_sort(samples_.begin(), samples_.end(),
                    [](const Sample& a, const Sample& b) { return a.t_s < b.t_s; });

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <vector>
 
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu.hpp"
 
 namespace redbee::calibration {
@@ -20,7 +20,7 @@ class ImuHistory {
   };
 
   /// Sorted by their own times; of samples at the same time the first is kept; non-finite ones are left out.
-  ImuHistory(const std::vector<ImuSample>& samples, int64_t origin_utime);
+  ImuHistory(const std::vector<ImuSample>& samples, ImuTime origin);
 
   bool empty() const { return samples_.empty(); }
   size_t size() const { return samples_.size(); }

@@ -17,7 +17,7 @@ constexpr double kMargin_s = 0.05;
 constexpr size_t kMinFrames = 48;
 constexpr size_t kMinMeasurements = 30;
 
-std::vector<int64_t> sortedUnique(std::vector<int64_t> times) {
+std::vector<CameraTime> sortedUnique(std::vector<CameraTime> times) {
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -41,11 +41,11 @@ std::pair<size_t, size_t> coveredRun(const std::vector<double>& t, const ImuHist
   return best;
 }
 
-std::vector<HeightObservation> heightsOf(const std::vector<AltitudeSample>& altimeter, int64_t origin) {
+std::vector<HeightObservation> heightsOf(const std::vector<AltitudeSample>& altimeter, ImuTime origin) {
   std::vector<HeightObservation> heights;
   for (const AltitudeSample& sample : altimeter) {
     if (!(sample.sigma_m > 0) || !(sample.height_m > 0)) continue;
-    heights.push_back({static_cast<double>(sample.utime - origin) * 1e-6, sample.height_m, sample.sigma_m});
+    heights.push_back({seconds(sample.time - origin), sample.height_m, sample.sigma_m});
   }
   return heights;
 }
@@ -62,10 +62,11 @@ std::optional<GroundHomography> firstHomography(const IndexedMatch& match, const
   return ground;
 }
 
-void addGround(Recording& recording, const CalibrationInput& input, const std::map<int64_t, size_t>& index) {
+void addGround(Recording& recording, const CalibrationInput& input,
+               const std::map<CameraTime, size_t>& index) {
   for (const GroundMatch& match : input.ground) {
-    const auto a = index.find(match.utime_a);
-    const auto b = index.find(match.utime_b);
+    const auto a = index.find(match.time_a);
+    const auto b = index.find(match.time_b);
     if (a == index.end() || b == index.end() || a->second >= b->second) continue;
     recording.matches.push_back({a->second, b->second, &match.points});
     auto ground = firstHomography(recording.matches.back(), recording.camera->ideal(), input.ransac);
@@ -73,9 +74,10 @@ void addGround(Recording& recording, const CalibrationInput& input, const std::m
   }
 }
 
-void addTarget(Recording& recording, const CalibrationInput& input, const std::map<int64_t, size_t>& index) {
+void addTarget(Recording& recording, const CalibrationInput& input,
+               const std::map<CameraTime, size_t>& index) {
   for (const TargetView& view : input.target) {
-    const auto frame = index.find(view.utime);
+    const auto frame = index.find(view.time);
     if (frame == index.end()) continue;
     auto pose = estimateTargetPose(*recording.camera, view);
     if (!pose) continue;
@@ -96,17 +98,18 @@ void requireEnough(const Recording& recording, const CalibrationInput& input, si
 }  // namespace
 
 Recording prepareRecording(const CalibrationInput& input) {
-  const std::vector<int64_t> frames = sortedUnique(input.frames);
+  const std::vector<CameraTime> frames = sortedUnique(input.frames);
   if (frames.empty()) throw CalibrationError("there are no frames");
-  const int64_t origin = frames.front();
+  const CameraTime origin = frames.front();
+  const ImuTime imu_origin(origin.time_since_epoch());  // the time shift is an unknown of the problem
   Recording recording;
   recording.camera = std::make_shared<Camera>(input.camera);
-  recording.imu = std::make_shared<ImuHistory>(input.imu, origin);
+  recording.imu = std::make_shared<ImuHistory>(input.imu, imu_origin);
   if (recording.imu->size() < 2) throw CalibrationError("there are no IMU samples");
 
   std::vector<double> t;
   t.reserve(frames.size());
-  for (const int64_t utime : frames) t.push_back(static_cast<double>(utime - origin) * 1e-6);
+  for (const CameraTime frame : frames) t.push_back(seconds(frame - origin));
   const auto [begin, end] = coveredRun(t, *recording.imu, input.nominal.timeshift_s);
   if (end - begin < kMinFrames) {
     throw CalibrationError("the IMU covers only " + std::to_string(end - begin) + " of " +
@@ -115,12 +118,12 @@ Recording prepareRecording(const CalibrationInput& input) {
   }
   recording.t_cam_s.assign(t.begin() + static_cast<ptrdiff_t>(begin),
                            t.begin() + static_cast<ptrdiff_t>(end));
-  std::map<int64_t, size_t> index;
+  std::map<CameraTime, size_t> index;
   for (size_t k = begin; k < end; ++k) index[frames[k]] = k - begin;
 
   if (input.target.empty()) {
     addGround(recording, input, index);
-    recording.heights = heightsOf(input.altimeter, origin);
+    recording.heights = heightsOf(input.altimeter, imu_origin);
     requireEnough(recording, input, recording.ground.size());
   } else {
     addTarget(recording, input, index);

@@ -43,11 +43,4 @@ class IncreasingTimes {
   int64_t last_ = 0;
 };
 
-/// ns to us, to the nearest: periods of 24 Hz are no whole microseconds, and truncating would shift every
-/// frame by half a microsecond on average against the IMU's.
-constexpr int64_t microseconds(int64_t nanoseconds) {
-  const int64_t rest = nanoseconds % 1000;  // rounding before the division could overflow
-  return nanoseconds / 1000 + (rest >= 500 ? 1 : 0) - (rest <= -500 ? 1 : 0);
-}
-
 }  // namespace redbee

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -12,11 +13,11 @@ enum class FusionSource { kNone, kInertial, kVisual, kFused };
 const char* toString(FusionSource source);
 
 struct FusedHomography {
-  int64_t utime_previous = 0;
-  int64_t utime = 0;
+  CameraTime time_previous{};
+  CameraTime time{};
   FusionSource source = FusionSource::kNone;  ///< kNone: no estimate for this pair; a new epoch begins
   int32_t epoch = 0;         ///< number of the anchor; H_anchor of two messages compose only inside one epoch
-  int64_t utime_anchor = 0;  ///< frame 0 of this epoch
+  CameraTime time_anchor{};  ///< frame 0 of this epoch
   Eigen::Matrix3d H_step;    ///< frame k-1 to k, ideal pixels, h33 = 1
   Matrix8d covariance_step;  ///< scaled
   Eigen::Matrix3d H_anchor;  ///< anchor frame to frame k (the paper's x_t)

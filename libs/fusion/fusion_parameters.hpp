@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -30,14 +30,14 @@ struct FusionParameters {
 };
 
 struct InertialInput {
-  int64_t utime_previous = 0;  ///< the frame that H starts from
+  CameraTime time_previous{};  ///< the frame that H starts from
   Eigen::Matrix3d H;           ///< from that frame to k, ideal pixels, h33 = 1
   Matrix8d covariance;         ///< scaled
 };
 struct VisualInput {
-  int64_t utime_previous =
-      0;  ///< the frame that H starts from; may lie more than one frame back where vision skipped frames
-  Eigen::Matrix3d H;    ///< frame k-1 to k, ideal pixels, h33 = 1
+  /// Of the frame that H starts from; may lie more than one frame back where vision skipped frames.
+  CameraTime time_previous{};
+  Eigen::Matrix3d H;    ///< from that frame to k, ideal pixels, h33 = 1
   Matrix8d covariance;  ///< scaled
   int inliers = 0;
   int outliers = 0;

@@ -36,27 +36,27 @@ HomographyFusion::HomographyFusion(int width, int height, const FusionParameters
       units_(workingUnits(scaling_, parameters.noise)),
       gate_(chiSquareQuantile(parameters.gate_probability, 8)) {}
 
-FusedHomography HomographyFusion::step(int64_t utime, const std::optional<InertialInput>& inertial,
+FusedHomography HomographyFusion::step(CameraTime time, const std::optional<InertialInput>& inertial,
                                        const std::optional<VisualInput>& visual) {
-  if (chain_.empty() || utime <= chain_.newest()) return beginChain(utime);
+  if (chain_.empty() || time <= chain_.newest()) return beginChain(time);
   const Sources sources = anchorSources(inertial, visual);
-  if (!sources.inertial && !sources.visual) return beginChain(utime);
+  if (!sources.inertial && !sources.visual) return beginChain(time);
 
   FusedHomography out;
-  out.utime_previous = chain_.newest();
-  out.utime = utime;
+  out.time_previous = chain_.newest();
+  out.time = time;
   const Estimate step = advance(sources, out);
-  if (!isUsable(step) || !isUsable(anchor_)) return beginChain(utime);
+  if (!isUsable(step) || !isUsable(anchor_)) return beginChain(time);
   // The paper's constant noise is not an estimate of this step's error.
   const bool knows_its_error = parameters_.noise == FusionNoise::kPropagated;
   if (knows_its_error && transferSigma(step.H, step.P, width_, height_) > kMaxStepSigma_px) {
-    return beginChain(utime);
+    return beginChain(time);
   }
-  chain_.append(utime, step);
-  if (overlap(units_.unscale(anchor_.H), width_, height_) < parameters_.min_overlap) anchorAt(utime);
+  chain_.append(time, step);
+  if (overlap(units_.unscale(anchor_.H), width_, height_) < parameters_.min_overlap) anchorAt(time);
 
   out.epoch = epoch_;
-  out.utime_anchor = utime_anchor_;
+  out.time_anchor = time_anchor_;
   out.H_step = units_.unscale(step.H);
   out.covariance_step = toScaled(step);
   out.H_anchor = units_.unscale(anchor_.H);
@@ -76,12 +76,12 @@ Estimate HomographyFusion::advance(const Sources& sources, FusedHomography& out)
   return follow(*sources.visual);
 }
 
-std::optional<Estimate> HomographyFusion::stepFrom(int64_t utime_previous, const Eigen::Matrix3d& H_px,
+std::optional<Estimate> HomographyFusion::stepFrom(CameraTime time_previous, const Eigen::Matrix3d& H_px,
                                                    const Matrix8d& covariance) const {
   if (!isUsable(H_px) || !isCovariance(covariance)) return std::nullopt;
   const Eigen::Matrix3d H = units_.scale(H_px);
   if (!isUsable(H)) return std::nullopt;
-  return chain_.stepOf(utime_previous, {H, covariance});
+  return chain_.stepOf(time_previous, {H, covariance});
 }
 
 /// The step composed onto the anchor homography, with the covariance that the step adds: equation 2.
@@ -96,12 +96,12 @@ HomographyFusion::Sources HomographyFusion::anchorSources(const std::optional<In
   Sources sources;
   if (inertial) {
     std::optional<Estimate> step =
-        stepFrom(inertial->utime_previous, inertial->H, parameters_.process_inflation * inertial->covariance);
+        stepFrom(inertial->time_previous, inertial->H, parameters_.process_inflation * inertial->covariance);
     if (step) sources.inertial = ontoAnchor(*step, parameters_.paper_Q);
   }
   if (visual && visual->inliers > 0 && visual->outliers >= 0) {
     std::optional<Estimate> step =
-        stepFrom(visual->utime_previous, visual->H, measurementCovariance(*visual, parameters_));
+        stepFrom(visual->time_previous, visual->H, measurementCovariance(*visual, parameters_));
     if (step) sources.visual = ontoAnchor(*step, visualNoiseRatio(*visual) * parameters_.paper_P0);
   }
   return sources;
@@ -150,7 +150,7 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
   if (!agrees) {
     out.source = FusionSource::kVisual;
     Estimate step = follow(visual);
-    anchorAt(out.utime);
+    anchorAt(out.time);
     return step;
   }
   out.source = FusionSource::kFused;
@@ -174,27 +174,27 @@ Estimate HomographyFusion::accept(const Eigen::Matrix3d& H_anchor, const Matrix8
   return step;
 }
 
-void HomographyFusion::anchorAt(int64_t utime) {
+void HomographyFusion::anchorAt(CameraTime time) {
   ++epoch_;
-  utime_anchor_ = utime;
+  time_anchor_ = time;
   anchor_ = identityEstimate();
 }
 
-FusedHomography HomographyFusion::beginChain(int64_t utime) {
+FusedHomography HomographyFusion::beginChain(CameraTime time) {
   FusedHomography out;
-  out.utime_previous = utime;
+  out.time_previous = time;
   if (!chain_.empty()) {
-    out.utime_previous = chain_.newest() == utime ? chain_.secondNewest() : chain_.newest();
+    out.time_previous = chain_.newest() == time ? chain_.secondNewest() : chain_.newest();
     ++epoch_;
   }
-  utime_anchor_ = utime;
+  time_anchor_ = time;
   anchor_ = identityEstimate();
   gated_in_a_row_ = 0;
-  chain_.beginAt(utime);
+  chain_.beginAt(time);
 
-  out.utime = utime;
+  out.time = time;
   out.epoch = epoch_;
-  out.utime_anchor = utime;
+  out.time_anchor = time;
   out.H_step.setIdentity();
   out.covariance_step = kUnknownVariance * Matrix8d::Identity();
   out.H_anchor.setIdentity();

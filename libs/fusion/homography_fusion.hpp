@@ -24,10 +24,10 @@ class HomographyFusion {
  public:
   HomographyFusion(int width, int height, const FusionParameters& parameters);
 
-  /// One frame with the available sources. Where neither input connects `utime` to a frame of this epoch, the
-  /// chain is broken: the source is kNone and a new epoch begins at `utime`. A time that does not move
+  /// One frame with the available sources. Where neither input connects `time` to a frame of this epoch, the
+  /// chain is broken: the source is kNone and a new epoch begins at `time`. A time that does not move
   /// forward is refused the same way.
-  FusedHomography step(int64_t utime, const std::optional<InertialInput>& inertial,
+  FusedHomography step(CameraTime time, const std::optional<InertialInput>& inertial,
                        const std::optional<VisualInput>& visual);
 
  private:
@@ -37,8 +37,8 @@ class HomographyFusion {
     std::optional<Estimate> visual;
   };
 
-  /// Of a homography from the frame at `utime_previous`, which may lie further back than the newest.
-  std::optional<Estimate> stepFrom(int64_t utime_previous, const Eigen::Matrix3d& H_px,
+  /// Of a homography from the frame at `time_previous`, which may lie further back than the newest.
+  std::optional<Estimate> stepFrom(CameraTime time_previous, const Eigen::Matrix3d& H_px,
                                    const Matrix8d& covariance) const;
   Estimate ontoAnchor(const Estimate& step, const Vector8d& paper_noise) const;
   Sources anchorSources(const std::optional<InertialInput>& inertial,
@@ -51,8 +51,8 @@ class HomographyFusion {
   Estimate fuse(const Estimate& inertial, const Estimate& visual, FusedHomography& out);
   Estimate accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,
                   const Matrix8d& covariance_anchor);
-  void anchorAt(int64_t utime);
-  FusedHomography beginChain(int64_t utime);
+  void anchorAt(CameraTime time);
+  FusedHomography beginChain(CameraTime time);
 
   FusionParameters parameters_;
   int width_;
@@ -61,7 +61,7 @@ class HomographyFusion {
   ImageScaling units_;  ///< that the filter works in
   double gate_;
   int32_t epoch_ = 0;
-  int64_t utime_anchor_ = 0;
+  CameraTime time_anchor_{};
   Estimate anchor_ = identityEstimate();  ///< anchor frame to the newest frame
   StepChain chain_;
   int gated_in_a_row_ = 0;

@@ -9,15 +9,15 @@ constexpr std::size_t kMaxFrames = 32;
 
 }  // namespace
 
-void StepChain::append(int64_t utime, const Estimate& step) {
-  frames_.push_back({utime, step});
+void StepChain::append(CameraTime time, const Estimate& step) {
+  frames_.push_back({time, step});
   if (frames_.size() > kMaxFrames) frames_.pop_front();
 }
 
 /// H^{k-1:k} = H^{s:k} (H^{s:k-1})^-1.
-std::optional<Estimate> StepChain::stepOf(int64_t utime, const Estimate& since) const {
+std::optional<Estimate> StepChain::stepOf(CameraTime time, const Estimate& since) const {
   const auto start =
-      std::find_if(frames_.begin(), frames_.end(), [&](const Frame& frame) { return frame.utime == utime; });
+      std::find_if(frames_.begin(), frames_.end(), [&](const Frame& frame) { return frame.time == time; });
   if (start == frames_.end()) return std::nullopt;
   if (start + 1 == frames_.end()) return Estimate{since.H, symmetric(since.P)};
   Estimate known = identityEstimate();

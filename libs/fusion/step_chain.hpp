@@ -2,11 +2,11 @@
 // of the newest step.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <optional>
 
 #include "redbee/fusion/estimate.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -15,21 +15,21 @@ class StepChain {
  public:
   bool empty() const { return frames_.empty(); }
   /// Precondition: not empty.
-  int64_t newest() const { return frames_.back().utime; }
+  CameraTime newest() const { return frames_.back().time; }
   /// The frame before the newest one; the newest one where there is no other. Precondition: not empty.
-  int64_t secondNewest() const { return frames_[frames_.size() > 1 ? frames_.size() - 2 : 0].utime; }
+  CameraTime secondNewest() const { return frames_[frames_.size() > 1 ? frames_.size() - 2 : 0].time; }
 
   /// Erases all others.
-  void beginAt(int64_t utime) { frames_.assign(1, {utime, identityEstimate()}); }
-  void append(int64_t utime, const Estimate& step);
+  void beginAt(CameraTime time) { frames_.assign(1, {time, identityEstimate()}); }
+  void append(CameraTime time, const Estimate& step);
 
-  /// `since`: from the frame at `utime` to one that follows the newest. The part of it after the newest
-  /// frame; nothing where `utime` is not a frame of this chain.
-  std::optional<Estimate> stepOf(int64_t utime, const Estimate& since) const;
+  /// `since`: from the frame at `time` to one that follows the newest. The part of it after the newest
+  /// frame; nothing where `time` is not a frame of this chain.
+  std::optional<Estimate> stepOf(CameraTime time, const Estimate& since) const;
 
  private:
   struct Frame {
-    int64_t utime;
+    CameraTime time;
     Estimate step;  ///< from the frame before
   };
   std::deque<Frame> frames_;

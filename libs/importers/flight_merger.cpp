@@ -1,7 +1,6 @@
 #include "redbee/importers/flight_merger.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "redbee/altimeter_t.hpp"
 #include "redbee/ins_t.hpp"
@@ -11,8 +10,8 @@ namespace {
 
 ins_t toMessage(const ImuSample& sample) {
   ins_t message{};
-  message.utime = sample.utime;
-  message.device_time = sample.utime;
+  message.utime = toUtime(sample.time);
+  message.device_time = toUtime(sample.time);
   std::copy_n(sample.gyro.data(), 3, message.gyro);
   std::copy_n(sample.accel.data(), 3, message.accel);
   message.quat[0] = 1;
@@ -21,7 +20,7 @@ ins_t toMessage(const ImuSample& sample) {
 
 altimeter_t toMessage(const AltitudeSample& sample) {
   altimeter_t message{};
-  message.utime = sample.utime;
+  message.utime = toUtime(sample.time);
   message.height = sample.height_m;
   message.sigma = sample.sigma_m;
   return message;
@@ -34,14 +33,14 @@ FlightMerger::FlightMerger(const std::filesystem::path& log, ImportChannels chan
     : log_(log), channels_(std::move(channels)), imu_(std::move(imu)), altitudes_(std::move(altitudes)) {}
 
 void FlightMerger::addFrame(const image_t& frame) {
-  writeUpTo(frame.utime);
+  writeUpTo(fromUtime(frame.utime));
   log_.write(channels_.camera, frame);
   if (frames_++ == 0) first_utime_ = frame.utime;
   last_utime_ = frame.utime;
 }
 
 void FlightMerger::close(ImportSummary& summary) {
-  writeUpTo(std::numeric_limits<int64_t>::max());
+  writeUpTo(Duration::max());
   log_.close();
   summary.frames = frames_;
   summary.imu_samples = static_cast<int64_t>(imu_.size());
@@ -50,18 +49,18 @@ void FlightMerger::close(ImportSummary& summary) {
   summary.last_utime = last_utime_;
   summary.imu_rate_hz = meanRate(imu_);
   summary.vehicle.has_imu = !imu_.empty();
-  const auto warning = imuCoverageWarning(imu_, first_utime_, last_utime_);
+  const auto warning =
+      imuCoverageWarning(imu_, CameraTime(fromUtime(first_utime_)), CameraTime(fromUtime(last_utime_)));
   if (warning) summary.warnings.push_back(*warning);
 }
 
-void FlightMerger::writeUpTo(int64_t utime) {
-  const auto due = [utime](const auto& samples, size_t next) {
-    return next < samples.size() && samples[next].utime <= utime;
+void FlightMerger::writeUpTo(Duration time) {
+  const auto due = [limit = ImuTime(time)](const auto& samples, size_t next) {
+    return next < samples.size() && samples[next].time <= limit;
   };
   while (due(imu_, next_imu_) || due(altitudes_, next_altitude_)) {
-    const bool imu_first =
-        due(imu_, next_imu_) &&
-        (!due(altitudes_, next_altitude_) || imu_[next_imu_].utime <= altitudes_[next_altitude_].utime);
+    const bool imu_first = due(imu_, next_imu_) && (!due(altitudes_, next_altitude_) ||
+                                                    imu_[next_imu_].time <= altitudes_[next_altitude_].time);
     if (imu_first) {
       log_.write(channels_.imu, toMessage(imu_[next_imu_++]));
     } else {

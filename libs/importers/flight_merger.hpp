@@ -21,7 +21,7 @@ class FlightMerger {
   void close(ImportSummary& summary);
 
  private:
-  void writeUpTo(int64_t utime);
+  void writeUpTo(Duration time);
 
   LogWriter log_;
   ImportChannels channels_;

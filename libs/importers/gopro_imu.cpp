@@ -147,7 +147,7 @@ std::vector<ImuSample> mergeAtGyroTimes(const GoproStreams& streams) {
   samples.reserve(streams.gyro.size());
   for (const TimedVector& gyro : streams.gyro) {
     ImuSample sample;
-    sample.utime = std::llround(1e6 * gyro.t_s);
+    sample.time = ImuTime(fromSeconds(gyro.t_s));
     sample.gyro = gyro.value;
     const auto after = std::lower_bound(streams.accel.begin(), streams.accel.end(), gyro.t_s,
                                         [](const TimedVector& accel, double t_s) { return accel.t_s < t_s; });

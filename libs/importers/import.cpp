@@ -59,6 +59,11 @@ void emitSegmentationWithoutImu(YAML::Emitter& out) {
   out << YAML::EndMap;
 }
 
+/// Whole ones; 0 for a negative duration.
+std::string milliseconds(Duration d) {
+  return std::to_string(std::max(Duration(0), d) / std::chrono::milliseconds(1));
+}
+
 }  // namespace
 
 std::string vehicleYaml(const VehicleDescription& vehicle) {
@@ -102,28 +107,29 @@ void assumeIntrinsics(ImportSummary& summary) {
                              " px are assumed, 0.8 of the longer side");
 }
 
-std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, int64_t first_frame,
-                                              int64_t last_frame) {
+std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, CameraTime first_frame,
+                                              CameraTime last_frame) {
   if (imu.empty()) return std::nullopt;
   // A time shift or the last sample of a recording costs a few periods; more than this is a gap.
-  constexpr int64_t kTolerance = 50'000;
-  const int64_t head = imu.front().utime - first_frame;
-  const int64_t tail = last_frame - imu.back().utime;
-  if (imu.front().utime > last_frame || imu.back().utime < first_frame) {
-    return "the IMU covers none of the frames: its times are " + std::to_string(imu.front().utime) + " to " +
-           std::to_string(imu.back().utime) + " us, the frames' " + std::to_string(first_frame) + " to " +
-           std::to_string(last_frame) + " us";
+  constexpr Duration kTolerance = std::chrono::milliseconds(50);
+  const ImuTime first = toImu(first_frame, Duration(0));
+  const ImuTime last = toImu(last_frame, Duration(0));
+  const Duration head = imu.front().time - first;
+  const Duration tail = last - imu.back().time;
+  if (imu.front().time > last || imu.back().time < first) {
+    return "the IMU covers none of the frames: its times are " + std::to_string(toUtime(imu.front().time)) +
+           " to " + std::to_string(toUtime(imu.back().time)) + " us, the frames' " +
+           std::to_string(toUtime(first_frame)) + " to " + std::to_string(toUtime(last_frame)) + " us";
   }
   if (head <= kTolerance && tail <= kTolerance) return std::nullopt;
-  return "the IMU does not cover all frames: it starts " + std::to_string(std::max<int64_t>(head, 0) / 1000) +
-         " ms after the first and ends " + std::to_string(std::max<int64_t>(tail, 0) / 1000) +
-         " ms before the last";
+  return "the IMU does not cover all frames: it starts " + milliseconds(head) +
+         " ms after the first and ends " + milliseconds(tail) + " ms before the last";
 }
 
 double meanRate(const std::vector<ImuSample>& imu) {
-  if (imu.size() < 2 || imu.back().utime <= imu.front().utime) return 0;
+  if (imu.size() < 2 || imu.back().time <= imu.front().time) return 0;
   return 1e6 * static_cast<double>(imu.size() - 1) /
-         static_cast<double>(imu.back().utime - imu.front().utime);
+         static_cast<double>((imu.back().time - imu.front().time).count());
 }
 
 }  // namespace redbee

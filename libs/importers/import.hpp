@@ -61,8 +61,8 @@ std::filesystem::path writeVehicleConfiguration(const VehicleDescription& vehicl
 void assumeIntrinsics(ImportSummary& summary);
 
 /// A line for the summary where the IMU leaves frames uncovered; nothing where it covers all of them.
-std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, int64_t first_frame,
-                                              int64_t last_frame);
+std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, CameraTime first_frame,
+                                              CameraTime last_frame);
 double meanRate(const std::vector<ImuSample>& imu);
 
 }  // namespace redbee

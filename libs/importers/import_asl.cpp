@@ -13,10 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// How far from the first frame an altitude is still the start height.
-constexpr int64_t kStartHeightWindow = 200'000;
+constexpr Duration kStartHeightWindow = std::chrono::milliseconds(200);
 
 struct NamedFrame {
-  int64_t utime = 0;
+  CameraTime time{};
   std::string name;
   int line = 0;
 };
@@ -33,10 +33,10 @@ std::vector<NamedFrame> readFrameList(const fs::path& file) {
   IncreasingTimes times;
   std::vector<NamedFrame> frames;
   while (csv.next(2)) {
-    const int64_t utime = microseconds(csv.integer(0));
-    times.check(csv, utime);
+    const CameraTime time(fromNanoseconds(csv.integer(0)));
+    times.check(csv, toUtime(time));
     if (csv.fields()[1].empty()) csv.fail("names no image");
-    frames.push_back({utime, csv.fields()[1], csv.line()});
+    frames.push_back({time, csv.fields()[1], csv.line()});
   }
   if (frames.empty()) throw InputError(file, "lists no images");
   return frames;
@@ -48,8 +48,8 @@ std::vector<ImuSample> readImu(const fs::path& file) {
   std::vector<ImuSample> samples;
   while (csv.next(7)) {
     ImuSample sample;
-    sample.utime = microseconds(csv.integer(0));
-    times.check(csv, sample.utime);
+    sample.time = ImuTime(fromNanoseconds(csv.integer(0)));
+    times.check(csv, toUtime(sample.time));
     for (int axis = 0; axis < 3; ++axis) {
       sample.gyro[axis] = csv.number(static_cast<size_t>(1 + axis));
       sample.accel[axis] = csv.number(static_cast<size_t>(4 + axis));
@@ -67,19 +67,19 @@ std::vector<AltitudeSample> readAltitudes(const fs::path& folder) {
   IncreasingTimes times;
   std::vector<AltitudeSample> samples;
   while (csv.next(2)) {
-    const int64_t utime = microseconds(csv.integer(0));
-    times.check(csv, utime);
-    samples.push_back({utime, csv.number(1), sigma});
+    const ImuTime time(fromNanoseconds(csv.integer(0)));
+    times.check(csv, toUtime(time));
+    samples.push_back({time, csv.number(1), sigma});
   }
   return samples;
 }
 
-std::optional<AltitudeSample> altitudeAt(const std::vector<AltitudeSample>& altitudes, int64_t utime) {
+std::optional<AltitudeSample> altitudeAt(const std::vector<AltitudeSample>& altitudes, ImuTime time) {
   std::optional<AltitudeSample> nearest;
   for (const AltitudeSample& sample : altitudes) {
-    const int64_t distance = std::abs(sample.utime - utime);
+    const Duration distance = std::chrono::abs(sample.time - time);
     if (distance > kStartHeightWindow || sample.height_m <= 0) continue;
-    if (!nearest || distance < std::abs(nearest->utime - utime)) nearest = sample;
+    if (!nearest || distance < std::chrono::abs(nearest->time - time)) nearest = sample;
   }
   return nearest;
 }
@@ -115,7 +115,7 @@ void describeVehicle(const fs::path& mav, bool has_imu, ImportSummary& summary) 
 image_t loadListed(const fs::path& list, const NamedFrame& frame, const ImageOptions& options) {
   const fs::path file = list.parent_path() / "data" / frame.name;
   if (!fs::exists(file)) throw InputError(list, frame.line, "image " + file.string() + " is missing");
-  return loadImage(file, frame.utime, options);
+  return loadImage(file, toUtime(frame.time), options);
 }
 
 void checkAgainstCalibration(const fs::path& camera_folder, const image_t& first,
@@ -143,7 +143,7 @@ ImportSummary importAsl(const AslImportOptions& options, Progress& progress) {
   describeVehicle(mav, has_imu, summary);
   summary.vehicle.name =
       fs::weakly_canonical(mav.filename() == "mav0" ? mav.parent_path() : mav).filename().string();
-  summary.vehicle.start_height = altitudeAt(altitudes, frames.front().utime);
+  summary.vehicle.start_height = altitudeAt(altitudes, toImu(frames.front().time, Duration(0)));
 
   FlightMerger merger(options.log, options.channels, imu, altitudes);
   OneResolution resolution;

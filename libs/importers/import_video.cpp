@@ -80,8 +80,8 @@ std::vector<ImuSample> readImuCsv(const fs::path& file) {
     ImuSample sample;
     const double t_s = csv.number(columns[0]);
     if (std::abs(t_s) > kLatest_s) csv.fail("'" + csv.fields().at(columns[0]) + "' s is no time");
-    sample.utime = std::llround(1e6 * t_s);
-    times.check(csv, sample.utime);
+    sample.time = ImuTime(fromSeconds(t_s));
+    times.check(csv, toUtime(sample.time));
     for (int axis = 0; axis < 3; ++axis) {
       sample.gyro[axis] = csv.number(columns[static_cast<size_t>(1 + axis)]);
       sample.accel[axis] = csv.number(columns[static_cast<size_t>(4 + axis)]);

@@ -8,7 +8,6 @@
 #include "redbee/geometry/chi_square.hpp"
 #include "redbee/geometry/so3.hpp"
 #include "redbee/inertial/homography_measurement.hpp"
-#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {
@@ -35,29 +34,29 @@ AltitudeCorrection::AltitudeCorrection(const InertialParameters& parameters)
 
 void AltitudeCorrection::add(const AltitudeSample& sample) {
   const auto place =
-      std::lower_bound(samples_.begin(), samples_.end(), sample.utime,
-                       [](const AltitudeSample& held, int64_t utime) { return held.utime < utime; });
-  if (place != samples_.end() && place->utime == sample.utime) return;
+      std::lower_bound(samples_.begin(), samples_.end(), sample.time,
+                       [](const AltitudeSample& held, ImuTime time) { return held.time < time; });
+  if (place != samples_.end() && place->time == sample.time) return;
   samples_.insert(place, sample);
   if (samples_.size() > kMaxAltitudes) samples_.pop_front();
 }
 
-std::optional<AltitudeSample> AltitudeCorrection::next(int64_t end) {
-  if (samples_.empty() || samples_.front().utime > end) return std::nullopt;
+std::optional<AltitudeSample> AltitudeCorrection::next(ImuTime end) {
+  if (samples_.empty() || samples_.front().time > end) return std::nullopt;
   const AltitudeSample sample = samples_.front();
   samples_.pop_front();
   return sample;
 }
 
-void AltitudeCorrection::correctLate(NavigationState& state, int64_t now) {
+void AltitudeCorrection::correctLate(NavigationState& state, ImuTime now) {
   while (const std::optional<AltitudeSample> sample = next(now)) {
-    const double lag = seconds(now - sample->utime);
+    const double lag = seconds(now - sample->time);
     if (lag <= kMaxAltitudeLag) correct(state, *sample, lag);
   }
 }
 
-void AltitudeCorrection::eraseBefore(int64_t utime) {
-  while (!samples_.empty() && samples_.front().utime < utime) samples_.pop_front();
+void AltitudeCorrection::eraseBefore(ImuTime time) {
+  while (!samples_.empty() && samples_.front().time < time) samples_.pop_front();
 }
 
 void AltitudeCorrection::correct(NavigationState& state, const AltitudeSample& sample, double lag_s) {
@@ -112,7 +111,7 @@ CorrectionReport VisionCorrection::correct(NavigationState& state, const Homogra
   update<8>(state, z.jacobian, innovation, R, S_inverse);
   refused_in_a_row_ = 0;
   widening_ = 1;
-  applied_utime_ = observation.utime;
+  applied_ = observation.time;
   return {true, test_ratio};
 }
 
@@ -126,13 +125,13 @@ void VisionCorrection::openVelocity(NavigationState& state) {
   widening_ = std::min(2 * widening_, kMaxWidening);
 }
 
-double VisionCorrection::secondsSinceApplied(int64_t frame_utime) const {
-  if (!applied_utime_) return std::numeric_limits<double>::infinity();
-  return seconds(frame_utime - *applied_utime_);
+double VisionCorrection::secondsSinceApplied(CameraTime frame) const {
+  if (!applied_) return std::numeric_limits<double>::infinity();
+  return seconds(frame - *applied_);
 }
 
 void VisionCorrection::restart() {
-  applied_utime_.reset();
+  applied_.reset();
   refused_in_a_row_ = 0;
   widening_ = 1;
 }
@@ -146,7 +145,7 @@ void correctByGravity(NavigationState& state, const ImuSpan& span, const Inertia
   if (std::abs(force.norm() - parameters.gravity) > parameters.gravity_gate) return;
 
   // The drone's own acceleration lasts: over a span much shorter than it does, the error is not a fresh one.
-  const double duration = seconds(span.knots.back().sample.utime - span.knots.front().sample.utime);
+  const double duration = seconds(span.knots.back().sample.time - span.knots.front().sample.time);
   if (duration <= 0) return;
   const double variance = parameters.gravity_sigma * parameters.gravity_sigma *
                           std::max(1.0, parameters.gravity_correlation_s / duration);

@@ -1,11 +1,11 @@
 // Corrections of the dead reckoning by altimeter, vision and gravity, each gated by its innovation.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <limits>
 #include <optional>
 
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/error_state.hpp"
 #include "redbee/inertial/imu_buffer.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
@@ -20,13 +20,13 @@ class AltitudeCorrection {
 
   void add(const AltitudeSample& sample);
   /// Removes and returns the oldest queued sample, if not later than `end`.
-  std::optional<AltitudeSample> next(int64_t end);
+  std::optional<AltitudeSample> next(ImuTime end);
   /// Applies samples that arrived after the filter had passed their time, propagated with the vertical speed;
   /// samples that are too old are dropped.
-  void correctLate(NavigationState& state, int64_t now);
+  void correctLate(NavigationState& state, ImuTime now);
   /// `lag_s`: how long before the state's time the height was measured.
   void correct(NavigationState& state, const AltitudeSample& sample, double lag_s);
-  void eraseBefore(int64_t utime);
+  void eraseBefore(ImuTime time);
 
  private:
   Eigen::Vector3d p_IC_;
@@ -44,7 +44,7 @@ class VisionCorrection {
   CorrectionReport correct(NavigationState& state, const HomographyObservation& observation,
                            const Camera& camera, const Eigen::Vector3d& p_IC);
   /// Infinity before the first.
-  double secondsSinceApplied(int64_t frame_utime) const;
+  double secondsSinceApplied(CameraTime frame) const;
   void restart();
 
  private:
@@ -54,7 +54,7 @@ class VisionCorrection {
   double start_velocity_sigma_;
   double tilt_sigma_;
   double feedback_correlation_frames_;
-  std::optional<int64_t> applied_utime_;
+  std::optional<CameraTime> applied_;
   int refused_in_a_row_ = 0;
   double widening_ = 1;
 };

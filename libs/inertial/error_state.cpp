@@ -22,7 +22,7 @@ struct Step {
 
 Step makeStep(const NavigationState& state, const ImuKnot& from, const ImuKnot& to) {
   Step step;
-  step.dt = static_cast<double>(to.sample.utime - from.sample.utime) * 1e-6;
+  step.dt = seconds(to.sample.time - from.sample.time);
   step.rate = 0.5 * (from.sample.gyro + to.sample.gyro) - state.gyro_bias;
   step.turn = expSO3(step.rate * step.dt);
   step.force_begin = from.sample.accel - state.accel_bias;

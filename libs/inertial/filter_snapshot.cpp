@@ -5,9 +5,7 @@
 
 #include "redbee/geometry/so3.hpp"
 #include "redbee/inertial/error_state.hpp"
-#include "redbee/inertial/imu_buffer.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
-#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {
@@ -25,7 +23,7 @@ constexpr double kMaxTilt = 3.2;          // rad, of its sigma
 constexpr double kUnitTolerance = 1e-6;
 constexpr double kDoubt = 2;
 
-double ageAt(const FilterSnapshot& known, int64_t utime) { return seconds(utime - known.utime); }
+double ageAt(const FilterSnapshot& known, CameraTime time) { return seconds(time - known.time); }
 
 /// False for what is not a number.
 bool isSigma(const Eigen::Vector3d& sigma, double limit) {
@@ -73,21 +71,21 @@ const char* toString(SnapshotCheck check) {
   return "unknown";
 }
 
-bool isRecent(const FilterSnapshot& known, int64_t utime) {
-  const double age = ageAt(known, utime);
+bool isRecent(const FilterSnapshot& known, CameraTime time) {
+  const double age = ageAt(known, time);
   return age >= 0 && age <= kMaxAge;
 }
 
-SnapshotCheck validate(const FilterSnapshot& known, int64_t utime, const InertialParameters& parameters) {
-  if (!isPlausibleTime(known.utime) || !couldBeLearned(known, parameters)) {
+SnapshotCheck validate(const FilterSnapshot& known, CameraTime time, const InertialParameters& parameters) {
+  if (!isPlausibleTime(known.time) || !couldBeLearned(known, parameters)) {
     return SnapshotCheck::kImplausible;
   }
-  if (ageAt(known, utime) < 0) return SnapshotCheck::kFuture;
-  return isRecent(known, utime) ? SnapshotCheck::kAccepted : SnapshotCheck::kStale;
+  if (ageAt(known, time) < 0) return SnapshotCheck::kFuture;
+  return isRecent(known, time) ? SnapshotCheck::kAccepted : SnapshotCheck::kStale;
 }
 
-FilterSnapshot aged(FilterSnapshot known, int64_t utime) {
-  const double age = ageAt(known, utime);
+FilterSnapshot aged(FilterSnapshot known, CameraTime time) {
+  const double age = ageAt(known, time);
   for (Eigen::Vector3d* sigma : {&known.up_sigma, &known.velocity_sigma, &known.gyro_bias_sigma,
                                  &known.accel_bias_sigma, &known.R_CI_sigma}) {
     *sigma *= kDoubt;
@@ -101,7 +99,7 @@ FilterSnapshot aged(FilterSnapshot known, int64_t utime) {
     double& sigma = known.velocity_sigma(axis);
     sigma = std::hypot(sigma, age * kUnknownAcceleration, axis < 2 ? turned : 0.0);
   }
-  known.utime = utime;
+  known.time = time;
   return known;
 }
 

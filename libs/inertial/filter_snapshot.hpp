@@ -3,7 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
+
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -11,7 +12,7 @@ struct InertialParameters;
 
 /// Sigmas are one standard deviation each, by component.
 struct FilterSnapshot {
-  int64_t utime = 0;    ///< us, camera clock: the frame that it is valid at
+  CameraTime time{};    ///< of the frame that it is valid at
   double height_m = 0;  ///< of the camera above the ground plane
   double height_sigma_m = 0;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();       ///< unit, in I
@@ -37,15 +38,15 @@ enum class SnapshotCheck {
 };
 const char* toString(SnapshotCheck check);
 
-/// True while its height, vertical and velocity still constrain the frame at `utime`.
-bool isRecent(const FilterSnapshot& known, int64_t utime);
+/// True while its height, vertical and velocity still constrain the frame at `time`.
+bool isRecent(const FilterSnapshot& known, CameraTime time);
 
-/// Whether a filter with these parameters, at its first frame `utime`, may be warm-started from it.
-SnapshotCheck validate(const FilterSnapshot& known, int64_t utime, const InertialParameters& parameters);
+/// Whether a filter with these parameters, at its first frame `time`, may be warm-started from it.
+SnapshotCheck validate(const FilterSnapshot& known, CameraTime time, const InertialParameters& parameters);
 
-/// The snapshot propagated to the frame at `utime`; precondition: isRecent(). The drone may have accelerated
+/// The snapshot propagated to the frame at `time`; precondition: isRecent(). The drone may have accelerated
 /// and turned since, and the sigmas grow by that. They are doubled as well: after a fault the filter should
 /// not be overconfident.
-FilterSnapshot aged(FilterSnapshot known, int64_t utime);
+FilterSnapshot aged(FilterSnapshot known, CameraTime time);
 
 }  // namespace redbee

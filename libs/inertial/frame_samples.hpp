@@ -1,46 +1,46 @@
 // IMU samples by frame: the camera's clock on one side, the IMU's on the other.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu_buffer.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
 
 namespace redbee {
 
-/// Buffers the plausible samples. Frames are times of the camera's clock, other times are the IMU's.
+/// Buffers the plausible samples. Frames are named by their times on the camera's clock.
 class FrameSamples {
  public:
   explicit FrameSamples(const InertialParameters& parameters);
 
   /// False for a sample that is not finite or has an implausible time; it is refused.
   bool add(const ImuSample& sample);
-  int64_t imuTime(int64_t frame) const { return frame + timeshift_us_; }
+  ImuTime imuTime(CameraTime frame) const { return toImu(frame, timeshift_); }
 
   /// True when the samples reach a frame's exposure.
-  bool cover(int64_t frame) const;
+  bool cover(CameraTime frame) const;
   /// s, from a frame to the nearest sample, which may be a later one after a jump of the IMU's clock.
-  double outageAt(int64_t frame) const;
+  double outageAt(CameraTime frame) const;
   /// True where samples were refused in the interval of two frames.
-  bool wereRefused(int64_t from_frame, int64_t to_frame) const;
+  bool wereRefused(CameraTime from_frame, CameraTime to_frame) const;
   /// Samples for the initial vertical at a frame, oldest first: those just before it, or else the first one
   /// after it.
-  std::vector<ImuSample> forVertical(int64_t frame) const;
+  std::vector<ImuSample> forVertical(CameraTime frame) const;
 
   bool empty() const { return imu_.empty(); }
-  /// On [begin, end] by the IMU's clock; precondition: not empty.
-  ImuSpan span(int64_t begin, int64_t end) const { return imu_.span(begin, end); }
+  /// On [begin, end]; precondition: not empty.
+  ImuSpan span(ImuTime begin, ImuTime end) const { return imu_.span(begin, end); }
   /// True where the span has no sample, nor one right beside it.
   static bool isMissing(const ImuSpan& span);
   /// True where a gap in the span is long enough to be reported.
   bool hasGap(const ImuSpan& span) const;
   /// Keeps the samples that a restart at the frame would need.
-  void eraseBefore(int64_t frame);
+  void eraseBefore(CameraTime frame);
 
  private:
-  int64_t timeshift_us_;
+  Duration timeshift_;
   double max_gap_s_;
   ImuSampleCheck check_;
   ImuBuffer imu_;

@@ -2,20 +2,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
+
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
 /// One IMU measurement, in the IMU frame I, on the IMU's clock.
 struct ImuSample {
-  int64_t utime = 0;      ///< us
+  ImuTime time{};
   Eigen::Vector3d gyro;   ///< rad/s, angular rate of I against the ground, in I
   Eigen::Vector3d accel;  ///< m/s^2, specific force in I (+9.81 upwards at rest)
 };
 
 /// Height of the camera above the ground plane, on the IMU's clock.
 struct AltitudeSample {
-  int64_t utime = 0;    ///< us
+  ImuTime time{};
   double height_m = 0;  ///< m
   double sigma_m = 0;   ///< m, one standard deviation; > 0
 };

@@ -1,18 +1,14 @@
 // IMU samples in the order of their own times, whatever order they arrived in.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
 
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu.hpp"
 
 namespace redbee {
-
-/// Times beyond this [us] are damaged; within it, differences cannot overflow.
-constexpr int64_t kMaxUtime = 4'000'000'000'000'000'000;
-bool isPlausibleTime(int64_t utime);
 
 /// One end of an integration step.
 struct ImuKnot {
@@ -38,17 +34,17 @@ class ImuBuffer {
   bool empty() const { return samples_.empty(); }
   std::size_t size() const { return samples_.size(); }
   /// Precondition of all below: not empty.
-  int64_t newest() const { return samples_.back().utime; }
-  int64_t oldest() const { return samples_.front().utime; }
-  ImuSpan span(int64_t begin, int64_t end) const;
+  ImuTime newest() const { return samples_.back().time; }
+  ImuTime oldest() const { return samples_.front().time; }
+  ImuSpan span(ImuTime begin, ImuTime end) const;
   /// Samples on [begin, end].
-  std::vector<ImuSample> samplesOn(int64_t begin, int64_t end) const;
-  /// Erases what is not needed for spans that begin at `utime` or later.
-  void eraseBefore(int64_t utime);
+  std::vector<ImuSample> samplesOn(ImuTime begin, ImuTime end) const;
+  /// Erases what is not needed for spans that begin at `time` or later.
+  void eraseBefore(ImuTime time);
 
  private:
-  ImuSample at(int64_t utime) const;
-  bool isFar(int64_t a, int64_t b) const;
+  ImuSample at(ImuTime time) const;
+  bool isFar(ImuTime a, ImuTime b) const;
   void insert(const ImuSample& sample);
 
   double clock_jump_us_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "redbee/inertial/seconds.hpp"
-
 namespace redbee {
 namespace {
 
@@ -24,13 +22,13 @@ void ImuSampleCheck::Channel::note(double difference) {
   usual += (std::min(difference, kMostInLimits * limit()) - usual) / kMemorySamples;
 }
 
-bool ImuSampleCheck::Channel::isStuck(bool same, int64_t utime) {
+bool ImuSampleCheck::Channel::isStuck(bool same, ImuTime time) {
   if (!same) {
-    same_since = utime;
+    same_since = time;
     same_count = 0;
     return false;
   }
-  return ++same_count >= kStuckSamples && seconds(utime - same_since) > kStuckFor_s;
+  return ++same_count >= kStuckSamples && seconds(time - same_since) > kStuckFor_s;
 }
 
 bool ImuSampleCheck::isSaturated(const ImuSample& sample) const {
@@ -39,8 +37,8 @@ bool ImuSampleCheck::isSaturated(const ImuSample& sample) const {
 }
 
 bool ImuSampleCheck::isStuck(const ImuSample& sample) {
-  const bool gyro = gyro_.isStuck(previous_ && previous_->gyro == sample.gyro, sample.utime);
-  const bool accel = accel_.isStuck(previous_ && previous_->accel == sample.accel, sample.utime);
+  const bool gyro = gyro_.isStuck(previous_ && previous_->gyro == sample.gyro, sample.time);
+  const bool accel = accel_.isStuck(previous_ && previous_->accel == sample.accel, sample.time);
   return gyro || accel;
 }
 
@@ -50,13 +48,13 @@ double ImuSampleCheck::distance(const ImuSample& a, const ImuSample& b) const {
 
 std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
   std::vector<ImuSample> accepted;
-  const double since = previous_ ? seconds(sample.utime - previous_->utime) : kNeighbour_s + 1;
+  const double since = previous_ ? seconds(sample.time - previous_->time) : kNeighbour_s + 1;
   if (isSaturated(sample)) {
-    refuse(sample.utime);
+    refuse(sample.time);
     return accepted;
   }
   if (since <= 0 && since > -kLate_s) {
-    if (!isRefused(sample.utime)) accepted.push_back(sample);
+    if (!isRefused(sample.time)) accepted.push_back(sample);
     return accepted;
   }
   if (since <= 0 || since > kNeighbour_s) {
@@ -68,7 +66,7 @@ std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
   accel_.note((sample.accel - previous_->accel).norm());
   previous_ = sample;
   if (stuck) {
-    refuse(sample.utime);
+    refuse(sample.time);
     return accepted;
   }
   if (held_) {
@@ -77,7 +75,7 @@ std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
       accepted.push_back(*held_);
       accepted_ = held_;
     } else {
-      refuse(held_->utime);
+      refuse(held_->time);
     }
     held_.reset();
   }
@@ -87,18 +85,18 @@ std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
 
 /// After a gap, or a clock set back: there is nothing to compare it with.
 void ImuSampleCheck::startAt(const ImuSample& sample) {
-  if (held_) refuse(held_->utime);
+  if (held_) refuse(held_->time);
   held_.reset();
   previous_ = accepted_ = sample;
   for (Channel* channel : {&gyro_, &accel_}) {
     channel->same_count = 0;
-    channel->same_since = sample.utime;
+    channel->same_since = sample.time;
   }
 }
 
-bool ImuSampleCheck::isRefused(int64_t utime) const {
-  return (held_ && held_->utime == utime) ||
-         std::find(refused_.begin(), refused_.end(), utime) != refused_.end();
+bool ImuSampleCheck::isRefused(ImuTime time) const {
+  return (held_ && held_->time == time) ||
+         std::find(refused_.begin(), refused_.end(), time) != refused_.end();
 }
 
 void ImuSampleCheck::acceptOrHold(const ImuSample& sample, std::vector<ImuSample>& accepted) {
@@ -110,18 +108,18 @@ void ImuSampleCheck::acceptOrHold(const ImuSample& sample, std::vector<ImuSample
   accepted.push_back(sample);
 }
 
-void ImuSampleCheck::refuse(int64_t utime) {
-  refused_.push_back(utime);
+void ImuSampleCheck::refuse(ImuTime time) {
+  refused_.push_back(time);
   if (refused_.size() > kMaxRefused) refused_.pop_front();
 }
 
-int ImuSampleCheck::refusedOn(int64_t begin, int64_t end) const {
+int ImuSampleCheck::refusedOn(ImuTime begin, ImuTime end) const {
   return static_cast<int>(std::count_if(refused_.begin(), refused_.end(),
-                                        [&](int64_t utime) { return utime > begin && utime <= end; }));
+                                        [&](ImuTime time) { return time > begin && time <= end; }));
 }
 
-void ImuSampleCheck::eraseBefore(int64_t utime) {
-  const auto old = [&](int64_t refused) { return refused < utime; };
+void ImuSampleCheck::eraseBefore(ImuTime time) {
+  const auto old = [&](ImuTime refused) { return refused < time; };
   refused_.erase(std::remove_if(refused_.begin(), refused_.end(), old), refused_.end());
 }
 

@@ -1,11 +1,11 @@
 // Refuses implausible IMU samples: sensors fail while they go on sending.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
 
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu.hpp"
 
 namespace redbee {
@@ -31,19 +31,19 @@ class ImuSampleCheck {
   /// Samples accepted now, in order: none, this one, or one that was held back and this one.
   std::vector<ImuSample> take(const ImuSample& sample);
   /// Samples on (begin, end] that were refused.
-  int refusedOn(int64_t begin, int64_t end) const;
-  void eraseBefore(int64_t utime);
+  int refusedOn(ImuTime begin, ImuTime end) const;
+  void eraseBefore(ImuTime time);
 
  private:
   /// One sensor's three components.
   struct Channel {
     double floor;      ///< a difference below it is never a spike
     double usual = 0;  ///< running mean of differences between neighbours
-    int64_t same_since = 0;
+    ImuTime same_since{};
     int same_count = 0;
     double limit() const;
     void note(double difference);
-    bool isStuck(bool same, int64_t utime);
+    bool isStuck(bool same, ImuTime time);
   };
 
   bool isSaturated(const ImuSample& sample) const;
@@ -52,8 +52,8 @@ class ImuSampleCheck {
   double distance(const ImuSample& a, const ImuSample& b) const;
   void acceptOrHold(const ImuSample& sample, std::vector<ImuSample>& accepted);
   void startAt(const ImuSample& sample);
-  bool isRefused(int64_t utime) const;
-  void refuse(int64_t utime);
+  bool isRefused(ImuTime time) const;
+  void refuse(ImuTime time);
 
   ImuSampleLimits limits_;
   Channel gyro_{0.5};                  // rad/s
@@ -61,7 +61,7 @@ class ImuSampleCheck {
   std::optional<ImuSample> previous_;  ///< the last to arrive, accepted or not
   std::optional<ImuSample> accepted_;
   std::optional<ImuSample> held_;
-  std::deque<int64_t> refused_;
+  std::deque<ImuTime> refused_;
 };
 
 }  // namespace redbee

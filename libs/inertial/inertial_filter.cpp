@@ -7,17 +7,16 @@
 #include "redbee/inertial/frame_samples.hpp"
 #include "redbee/inertial/homography_measurement.hpp"
 #include "redbee/inertial/initial_state.hpp"
-#include "redbee/inertial/seconds.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr double kMaxOutage = 0.5;  // s without IMU after which the state is discarded
 
-InertialHomography nothing(int64_t frame_before, int64_t frame, InertialStatus status) {
+InertialHomography nothing(CameraTime frame_before, CameraTime frame, InertialStatus status) {
   InertialHomography result;
-  result.utime_previous = frame_before;
-  result.utime = frame;
+  result.time_previous = frame_before;
+  result.time = frame;
   result.status = status;
   return result;
 }
@@ -37,15 +36,15 @@ class InertialFilter::Implementation {
   bool addImu(const ImuSample& sample) { return samples_.add(sample); }
 
   bool addAltitude(const AltitudeSample& sample) {
-    const bool usable = isPlausibleTime(sample.utime) && std::isfinite(sample.height_m) &&
+    const bool usable = isPlausibleTime(sample.time) && std::isfinite(sample.height_m) &&
                         std::isfinite(sample.sigma_m) && sample.sigma_m > 0;
     if (usable) altitude_.add(sample);
     return usable;
   }
 
-  bool covers(int64_t frame) const { return samples_.cover(frame); }
+  bool covers(CameraTime frame) const { return samples_.cover(frame); }
 
-  InertialHomography advanceTo(int64_t frame) {
+  InertialHomography advanceTo(CameraTime frame) {
     if (!isPlausibleTime(frame) || (frame_ && frame == *frame_)) {
       return nothing(frame_.value_or(frame), frame, InertialStatus::kClockJump);
     }
@@ -60,8 +59,8 @@ class InertialFilter::Implementation {
   }
 
   CorrectionReport correct(const HomographyObservation& observation) {
-    const bool belongs = state_ && previous_frame_ && !corrected_ && observation.utime == *frame_ &&
-                         observation.utime_previous == *previous_frame_;
+    const bool belongs = state_ && previous_frame_ && !corrected_ && observation.time == *frame_ &&
+                         observation.time_previous == *previous_frame_;
     if (!belongs) return {};
     const NavigationState before = *state_;
     const CorrectionReport report = vision_.correct(*state_, observation, camera_, p_IC());
@@ -97,7 +96,7 @@ class InertialFilter::Implementation {
  private:
   const Eigen::Vector3d& p_IC() const { return parameters_.extrinsics.p_IC; }
 
-  InertialHomography start(int64_t frame, InertialStatus status) {
+  InertialHomography start(CameraTime frame, InertialStatus status) {
     InertialHomography result = nothing(frame_.value_or(frame), frame, status);
     const std::vector<ImuSample> before = samples_.forVertical(frame);
     forgetFrames();
@@ -119,7 +118,7 @@ class InertialFilter::Implementation {
   }
 
   /// No sample in the interval: the last one is held for a while, then the state is discarded.
-  InertialHomography coast(int64_t frame) {
+  InertialHomography coast(CameraTime frame) {
     InertialHomography result = nothing(*frame_, frame, statusOf(frame, InertialStatus::kNoImu));
     if (samples_.outageAt(frame) > kMaxOutage) {
       forgetFrames();
@@ -130,7 +129,7 @@ class InertialFilter::Implementation {
     return isSound(*state_) ? result : startAfresh(frame);
   }
 
-  InertialHomography move(int64_t frame, const ImuSpan& span) {
+  InertialHomography move(CameraTime frame, const ImuSpan& span) {
     const bool gap = samples_.hasGap(span);
     InertialHomography result =
         nothing(*frame_, frame, statusOf(frame, gap ? InertialStatus::kImuGap : InertialStatus::kGood));
@@ -145,24 +144,24 @@ class InertialFilter::Implementation {
   }
 
   /// Refused samples take precedence over missing ones.
-  InertialStatus statusOf(int64_t frame, InertialStatus otherwise) const {
+  InertialStatus statusOf(CameraTime frame, InertialStatus otherwise) const {
     return samples_.wereRefused(*frame_, frame) ? InertialStatus::kBadSamples : otherwise;
   }
 
-  InertialHomography startAfresh(int64_t frame) {
+  InertialHomography startAfresh(CameraTime frame) {
     known_.reset();
     return start(frame, InertialStatus::kInitialising);
   }
 
   /// Moves the state to the frame, stopping at each altitude on the way.
-  void integrate(int64_t frame) {
-    int64_t time = samples_.imuTime(*frame_);
-    const int64_t end = samples_.imuTime(frame);
+  void integrate(CameraTime frame) {
+    ImuTime time = samples_.imuTime(*frame_);
+    const ImuTime end = samples_.imuTime(frame);
     altitude_.correctLate(*state_, time);
     clonePose(*state_);
     while (const std::optional<AltitudeSample> altitude = altitude_.next(end)) {
-      integrateTo(time, altitude->utime);
-      time = altitude->utime;
+      integrateTo(time, altitude->time);
+      time = altitude->time;
       altitude_.correct(*state_, *altitude, 0);
     }
     integrateTo(time, end);
@@ -174,7 +173,7 @@ class InertialFilter::Implementation {
     has_moved_ = true;
   }
 
-  void integrateTo(int64_t begin, int64_t end) {
+  void integrateTo(ImuTime begin, ImuTime end) {
     if (end <= begin) return;
     const ImuSpan span = samples_.span(begin, end);
     for (std::size_t i = 1; i < span.knots.size(); ++i) {
@@ -197,8 +196,8 @@ class InertialFilter::Implementation {
   VisionCorrection vision_;
   std::optional<NavigationState> state_;
   std::optional<FilterSnapshot> known_;  ///< of the last valid state: survives a restart
-  std::optional<int64_t> frame_;
-  std::optional<int64_t> previous_frame_;
+  std::optional<CameraTime> frame_;
+  std::optional<CameraTime> previous_frame_;
   bool corrected_ = false;  ///< by vision, for the last two frames
   bool has_moved_ = false;  ///< past the first frame
 };
@@ -213,10 +212,8 @@ bool InertialFilter::addImu(const ImuSample& sample) { return implementation_->a
 bool InertialFilter::addAltitude(const AltitudeSample& sample) {
   return implementation_->addAltitude(sample);
 }
-bool InertialFilter::covers(int64_t frame_utime) const { return implementation_->covers(frame_utime); }
-InertialHomography InertialFilter::advanceTo(int64_t frame_utime) {
-  return implementation_->advanceTo(frame_utime);
-}
+bool InertialFilter::covers(CameraTime frame) const { return implementation_->covers(frame); }
+InertialHomography InertialFilter::advanceTo(CameraTime frame) { return implementation_->advanceTo(frame); }
 CorrectionReport InertialFilter::correct(const HomographyObservation& observation) {
   return implementation_->correct(observation);
 }

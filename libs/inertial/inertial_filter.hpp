@@ -11,13 +11,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/camera.hpp"
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
@@ -55,8 +55,8 @@ struct InertialParameters {
 /// A homography of the ground between two consecutive frames, measured independently of the IMU: vision's
 /// input to the fusion. (Feeding back the fused value would count the IMU twice.)
 struct HomographyObservation {
-  int64_t utime_previous = 0;
-  int64_t utime = 0;
+  CameraTime time_previous{};
+  CameraTime time{};
   Eigen::Matrix3d H;    ///< ideal pixels, h33 = 1
   Matrix8d covariance;  ///< scaled
 };
@@ -69,7 +69,7 @@ struct CorrectionReport {
 
 /// The filter's nominal state, for tests and monitoring.
 struct NominalState {
-  int64_t utime = 0;     ///< camera clock
+  CameraTime time{};
   Eigen::Matrix3d R_GI;  ///< yaw free
   Eigen::Vector3d v_GI;  ///< m/s in G
   double camera_height_m = 0;
@@ -90,12 +90,12 @@ class InertialFilter {
   bool addImu(const ImuSample& sample);
   bool addAltitude(const AltitudeSample& sample);
 
-  /// True when the samples reach the exposure time of a frame with this (camera) time.
-  bool covers(int64_t frame_utime) const;
+  /// True when the samples reach the exposure time of this frame.
+  bool covers(CameraTime frame) const;
 
   /// Advances the filter to this frame and returns the motion since the last one. Never throws on bad times:
   /// see the status.
-  InertialHomography advanceTo(int64_t frame_utime);
+  InertialHomography advanceTo(CameraTime frame);
 
   /// Corrects the state at the last frame. Refused (not applied) when it is not for the last two frames or
   /// fails its gate.

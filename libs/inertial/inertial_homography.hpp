@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -21,8 +21,8 @@ const char* toString(InertialStatus status);
 /// Motion of the camera from frame a (the previous) to frame b, and the homography of the ground that
 /// follows.
 struct InertialHomography {
-  int64_t utime_previous = 0;  ///< camera clock, us
-  int64_t utime = 0;           ///< camera clock, us
+  CameraTime time_previous{};
+  CameraTime time{};
   InertialStatus status = InertialStatus::kInitialising;
   bool valid = false;                               ///< H, covariance and motion are meaningful
   Eigen::Matrix3d H = Eigen::Matrix3d::Identity();  ///< ideal pixels of a to ideal pixels of b, h33 = 1

@@ -16,7 +16,7 @@ Eigen::Vector3d meanForce(const std::vector<ImuSample>& samples, const Eigen::Ve
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (i > 0) {
-      const double dt = static_cast<double>(samples[i].utime - samples[i - 1].utime) * 1e-6;
+      const double dt = seconds(samples[i].time - samples[i - 1].time);
       const Eigen::Vector3d rate = 0.5 * (samples[i].gyro + samples[i - 1].gyro) - gyro_bias;
       sum = expSO3(-rate * dt) * sum;
     }
@@ -94,11 +94,11 @@ Eigen::Vector3d sigmaOf(const Eigen::Matrix3d& covariance) {
 
 }  // namespace
 
-NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before,
+NavigationState initialState(CameraTime time, const std::vector<ImuSample>& before,
                              const InertialParameters& parameters,
                              const std::optional<FilterSnapshot>& learned) {
-  const bool is_recent = learned && isRecent(*learned, utime);
-  const FilterSnapshot known = is_recent ? aged(*learned, utime)
+  const bool is_recent = learned && isRecent(*learned, time);
+  const FilterSnapshot known = is_recent ? aged(*learned, time)
                                : learned ? sensorsOf(*learned, parameters)
                                          : configured(parameters);
   NavigationState state;
@@ -123,11 +123,11 @@ NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before
   return state;
 }
 
-FilterSnapshot snapshotOf(const NavigationState& state, int64_t utime, const Eigen::Vector3d& p_IC) {
+FilterSnapshot snapshotOf(const NavigationState& state, CameraTime time, const Eigen::Vector3d& p_IC) {
   const Eigen::Matrix3d from_G = righting(state.R_GI.row(2)) * state.R_GI.transpose();
   const auto block = [&](int index) -> Eigen::Matrix3d { return state.P.block<3, 3>(index, index); };
   FilterSnapshot known;
-  known.utime = utime;
+  known.time = time;
   known.height_m = cameraHeight(state, p_IC);
   known.height_sigma_m = cameraHeightSigma(state, p_IC);
   known.up = state.R_GI.row(2).normalized();

@@ -4,23 +4,24 @@
 #include <optional>
 #include <vector>
 
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/error_state.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
 
 namespace redbee {
 
-/// The state at the frame at `utime` (camera clock). `before`: the samples just before it, oldest first; not
+/// The state at the frame at `time`. `before`: the samples just before it, oldest first; not
 /// empty. Their specific force is rotated into the last one's orientation by the gyro and averaged. The
 /// covariance treats the drone's own acceleration (gravity_sigma) as constant over them, and includes the
 /// correlation of tilt and accelerometer bias. `known`: an earlier snapshot. Biases and mounting are taken
 /// from it, for the sensors are the same. While it is recent, height, vertical and velocity are as well, and
 /// specific force only corrects the vertical; later they are the configured ones.
-NavigationState initialState(int64_t utime, const std::vector<ImuSample>& before,
+NavigationState initialState(CameraTime time, const std::vector<ImuSample>& before,
                              const InertialParameters& parameters,
                              const std::optional<FilterSnapshot>& known);
 
-/// Snapshot of `state` at the frame at `utime`, for the warm start of another filter.
-FilterSnapshot snapshotOf(const NavigationState& state, int64_t utime, const Eigen::Vector3d& p_IC);
+/// Snapshot of `state` at the frame at `time`, for the warm start of another filter.
+FilterSnapshot snapshotOf(const NavigationState& state, CameraTime time, const Eigen::Vector3d& p_IC);
 
 }  // namespace redbee

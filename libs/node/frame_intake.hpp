@@ -1,7 +1,7 @@
 // What every node does with the time of a frame that arrives.
 #pragma once
 
-#include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/node/frame_order.hpp"
 #include "redbee/node/health.hpp"
 
@@ -10,7 +10,7 @@ namespace redbee {
 /// True for a frame to work on. `restart` is called first where the camera's clock was set back.
 template <typename Restart>
 bool acceptFrame(FrameOrder& order, HealthMonitor& health, int64_t utime, const Restart& restart) {
-  if (!isPlausibleTime(utime)) {
+  if (!isPlausibleTime(CameraTime(fromUtime(utime)))) {
     health.noteDamaged();
     return false;
   }

@@ -47,9 +47,6 @@ struct FrameTimers {
   CpuTimer cpu;
 };
 
-/// The configuration's seconds in the messages' unit.
-inline int64_t microseconds(double seconds) { return static_cast<int64_t>(seconds * 1e6); }
-
 /// `arrival`: since the frame was taken in.
 inline void noteDone(HealthMonitor& health, int64_t utime, const WorkTimer& arrival,
                      const FrameTimers& timers) {

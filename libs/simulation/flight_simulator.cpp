@@ -34,12 +34,12 @@ FlightSimulator::FlightSimulator(const Scenario& scenario)
       camera_(scenario.intrinsics),
       renderer_(camera_, scenario.scene, scenario.sensor) {}
 
-int64_t FlightSimulator::frameUtime(int k) const {
-  return scenario_.start_utime + static_cast<int64_t>(std::llround(k / scenario_.fps * 1e6));
+CameraTime FlightSimulator::frameTime(int k) const {
+  return CameraTime(scenario_.start + fromSeconds(k / scenario_.fps));
 }
 
 double FlightSimulator::exposureTime(int k) const {
-  return static_cast<double>(frameUtime(k) - scenario_.start_utime) * 1e-6 + scenario_.extrinsics.timeshift_s;
+  return seconds(frameTime(k) - CameraTime(scenario_.start)) + scenario_.extrinsics.timeshift_s;
 }
 
 CameraPose FlightSimulator::pose(int k) const {
@@ -47,7 +47,7 @@ CameraPose FlightSimulator::pose(int k) const {
 }
 
 SimulatedFrame FlightSimulator::frame(int k) const {
-  return {frameUtime(k), renderer_.render(pose(k), exposureTime(k), static_cast<unsigned>(k))};
+  return {frameTime(k), renderer_.render(pose(k), exposureTime(k), static_cast<unsigned>(k))};
 }
 
 Eigen::Matrix3d FlightSimulator::homography(int k) const {
@@ -67,12 +67,12 @@ double FlightSimulator::recordingEnd() const { return exposureTime(scenario_.fra
 
 std::vector<ImuSample> FlightSimulator::imu() const {
   return simulateImu(scenario_.trajectory, exposureTime(0) - kRecordingMargin, recordingEnd(),
-                     scenario_.start_utime, scenario_.imu);
+                     ImuTime(scenario_.start), scenario_.imu);
 }
 
 std::vector<AltitudeSample> FlightSimulator::altimeter() const {
   return simulateAltimeter(scenario_.trajectory, scenario_.extrinsics, exposureTime(0) - kRecordingMargin,
-                           recordingEnd(), scenario_.start_utime, scenario_.altimeter.rate_hz,
+                           recordingEnd(), ImuTime(scenario_.start), scenario_.altimeter.rate_hz,
                            scenario_.altimeter.sigma_m, scenario_.altimeter.seed);
 }
 

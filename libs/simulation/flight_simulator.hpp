@@ -1,14 +1,14 @@
 // A simulated flight: images, IMU and altimeter of one trajectory over one scene, with ground truth.
 //
-// Clocks: the trajectory runs on the IMU's clock, utime = start_utime + t. Frame k carries the camera's
-// clock, start_utime + k / fps, and was exposed at t_imu = t_cam + timeshift (Kalibr's sign).
+// Clocks: the trajectory runs on the IMU's clock, time = start + t. Frame k carries the camera's
+// clock, start + k / fps, and was exposed at t_imu = t_cam + timeshift (Kalibr's sign).
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <vector>
 
 #include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/simulation/imu_simulator.hpp"
 #include "redbee/simulation/renderer.hpp"
@@ -33,11 +33,12 @@ struct Scenario {
   SensorParameters sensor;
   double fps = 24;
   int frames = 240;
-  int64_t start_utime = 1700000000000000;
+  Duration start{
+      1700000000000000};  ///< what both clocks show at the start of the trajectory, but for the time shift
 };
 
 struct SimulatedFrame {
-  int64_t utime = 0;  ///< camera clock
+  CameraTime time{};
   RenderedImage image;
 };
 
@@ -51,7 +52,7 @@ class FlightSimulator {
 
   /// Any k >= 0, in any order; frame k is always the same.
   SimulatedFrame frame(int k) const;
-  int64_t frameUtime(int k) const;   ///< camera clock, us
+  CameraTime frameTime(int k) const;
   double exposureTime(int k) const;  ///< trajectory time [s]
   CameraPose pose(int k) const;
 

@@ -8,10 +8,6 @@
 namespace redbee::simulation {
 namespace {
 
-int64_t toUtime(int64_t start_utime, double t_s) {
-  return start_utime + static_cast<int64_t>(std::llround(t_s * 1e6));
-}
-
 /// How many samples of this rate fit on [begin_s, end_s], both ends included.
 int64_t sampleCount(double begin_s, double end_s, double rate_hz) {
   return end_s < begin_s ? 0 : static_cast<int64_t>(std::floor((end_s - begin_s) * rate_hz + 1e-9)) + 1;
@@ -34,8 +30,8 @@ Eigen::Vector3d specificForce(const TrajectoryState& state, double gravity) {
 
 }  // namespace
 
-std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s, double end_s,
-                                   int64_t start_utime, const ImuSimulatorParameters& parameters) {
+std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s, double end_s, ImuTime start,
+                                   const ImuSimulatorParameters& parameters) {
   const ImuNoise& noise = parameters.noise;
   const double root_rate = std::sqrt(parameters.rate_hz);
   WhiteNoise random(parameters.seed);
@@ -48,9 +44,9 @@ std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s,
   for (int64_t k = 0; k < count; ++k) {
     // Sampled at the rounded time stamp, so that a perfect IMU stays exact at periods that are no whole
     // microseconds.
-    const int64_t utime = toUtime(start_utime, begin_s + static_cast<double>(k) / parameters.rate_hz);
-    const TrajectoryState state = trajectory.at(static_cast<double>(utime - start_utime) * 1e-6);
-    samples.push_back({utime, state.omega_I + gyro_bias + random.vector(noise.gyro_noise_density * root_rate),
+    const ImuTime time = start + fromSeconds(begin_s + static_cast<double>(k) / parameters.rate_hz);
+    const TrajectoryState state = trajectory.at(seconds(time - start));
+    samples.push_back({time, state.omega_I + gyro_bias + random.vector(noise.gyro_noise_density * root_rate),
                        specificForce(state, parameters.gravity) + accel_bias +
                            random.vector(noise.accel_noise_density * root_rate)});
     gyro_bias += random.vector(noise.gyro_random_walk / root_rate);
@@ -61,17 +57,16 @@ std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s,
 
 std::vector<AltitudeSample> simulateAltimeter(const Trajectory& trajectory,
                                               const InertialExtrinsics& extrinsics, double begin_s,
-                                              double end_s, int64_t start_utime, double rate_hz,
-                                              double sigma_m, unsigned seed) {
+                                              double end_s, ImuTime start, double rate_hz, double sigma_m,
+                                              unsigned seed) {
   WhiteNoise random(seed);
   std::vector<AltitudeSample> samples;
   const int64_t count = sampleCount(begin_s, end_s, rate_hz);
   samples.reserve(static_cast<size_t>(count));
   for (int64_t k = 0; k < count; ++k) {
-    const int64_t utime = toUtime(start_utime, begin_s + static_cast<double>(k) / rate_hz);
-    const CameraPose pose =
-        cameraPose(trajectory.at(static_cast<double>(utime - start_utime) * 1e-6), extrinsics);
-    samples.push_back({utime, pose.p_GC.z() + random.scalar(sigma_m), sigma_m});
+    const ImuTime time = start + fromSeconds(begin_s + static_cast<double>(k) / rate_hz);
+    const CameraPose pose = cameraPose(trajectory.at(seconds(time - start)), extrinsics);
+    samples.push_back({time, pose.p_GC.z() + random.scalar(sigma_m), sigma_m});
   }
   return samples;
 }

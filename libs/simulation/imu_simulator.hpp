@@ -1,11 +1,11 @@
 // What an imperfect IMU and altimeter on a trajectory would have measured.
 #pragma once
 
-#include <cstdint>
 #include <random>
 #include <vector>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/simulation/trajectory.hpp"
 
@@ -20,15 +20,15 @@ struct ImuSimulatorParameters {
   unsigned seed = 1;
 };
 
-/// Samples on [begin_s, end_s] of the trajectory's time. utime = start_utime + t.
-std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s, double end_s,
-                                   int64_t start_utime, const ImuSimulatorParameters& parameters);
+/// Samples on [begin_s, end_s] of the trajectory's time. time = start + t.
+std::vector<ImuSample> simulateImu(const Trajectory& trajectory, double begin_s, double end_s, ImuTime start,
+                                   const ImuSimulatorParameters& parameters);
 
 /// Height of the camera above z = 0 with white noise.
 std::vector<AltitudeSample> simulateAltimeter(const Trajectory& trajectory,
                                               const InertialExtrinsics& extrinsics, double begin_s,
-                                              double end_s, int64_t start_utime, double rate_hz,
-                                              double sigma_m, unsigned seed);
+                                              double end_s, ImuTime start, double rate_hz, double sigma_m,
+                                              unsigned seed);
 
 /// Exact motion of the camera between two trajectory times (IMU clock) over the plane z = 0.
 PlaneMotion exactMotion(const Trajectory& trajectory, const InertialExtrinsics& extrinsics, double t_a,

@@ -66,12 +66,12 @@ VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& par
 
 void VisualHomographyEstimator::resetReference() {
   tracker_.reset();
-  previous_utime_.reset();
+  previous_time_.reset();
   reference_sharpness_ = 0;
 }
 
-void VisualHomographyEstimator::adopt(int64_t utime, cv::Size size, double sharpness) {
-  previous_utime_ = utime;
+void VisualHomographyEstimator::adopt(CameraTime time, cv::Size size, double sharpness) {
+  previous_time_ = time;
   size_ = size;
   reference_sharpness_ = sharpness;
 }
@@ -98,18 +98,18 @@ std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
   return largest;
 }
 
-VisualHomography VisualHomographyEstimator::step(int64_t utime, const cv::Mat& grey,
+VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat& grey,
                                                  const std::optional<HomographyPrediction>& prediction) {
   if (grey.empty() || grey.type() != CV_8UC1) {
     throw std::invalid_argument("the visual stage takes 8-bit images of one channel");
   }
   VisualHomography result;
-  result.utime = utime;
-  const bool connected = previous_utime_ && utime > *previous_utime_ &&
-                         static_cast<double>(utime - *previous_utime_) <= 1e6 * parameters_.max_frame_gap_s &&
+  result.time = time;
+  const bool connected = previous_time_ && time > *previous_time_ &&
+                         (time - *previous_time_).count() <= 1e6 * parameters_.max_frame_gap_s &&
                          grey.size() == size_;
   if (!connected) resetReference();
-  result.utime_previous = previous_utime_.value_or(utime);
+  result.time_previous = previous_time_.value_or(time);
 
   Pyramid image = tracker_.pyramidOf(grey);
   const double sharpness = sharpnessOf(image);
@@ -120,7 +120,7 @@ VisualHomography VisualHomographyEstimator::step(int64_t utime, const cv::Mat& g
   const std::optional<Eigen::Matrix3d> guess =
       prediction && prediction->H.allFinite() ? std::optional(prediction->H) : std::nullopt;
   result.tracks = tracker_.advance(std::move(image), guess);
-  adopt(utime, grey.size(), sharpness);
+  adopt(time, grey.size(), sharpness);
   if (!connected) return result;
 
   if (static_cast<int>(result.tracks.previous.size()) < parameters_.ransac.min_inliers) {

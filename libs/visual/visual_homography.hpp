@@ -2,10 +2,10 @@
 // homography").
 #pragma once
 
-#include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "redbee/geometry/time.hpp"
 #include "redbee/visual/homography_estimation.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
@@ -37,8 +37,8 @@ struct HomographyPrediction {
 };
 
 struct VisualHomography {
-  int64_t utime_previous = 0;
-  int64_t utime = 0;
+  CameraTime time_previous{};
+  CameraTime time{};
   VisualStatus status = VisualStatus::kFirstFrame;
   PointTracks tracks;
   std::optional<HomographyEstimate> ground;  ///< present exactly when status is kGood
@@ -50,25 +50,25 @@ class VisualHomographyEstimator {
   explicit VisualHomographyEstimator(const VisualParameters& parameters, const cv::Mat& unseen = {});
 
   /// Time of the frame that the next one is tracked from; nothing before the first.
-  std::optional<int64_t> previousTime() const { return previous_utime_; }
+  std::optional<CameraTime> previousTime() const { return previous_time_; }
 
   /// `grey`: 8-bit, undistorted; anything else throws std::invalid_argument. A blank or blurred frame
   /// (kNoTexture) is skipped: the next one is tracked from the last good frame, as long as that is not older
   /// than max_frame_gap_s, so `prediction` starts at previousTime(). A time that does not move forward
   /// restarts from this frame.
-  VisualHomography step(int64_t utime, const cv::Mat& grey,
+  VisualHomography step(CameraTime time, const cv::Mat& grey,
                         const std::optional<HomographyPrediction>& prediction);
 
  private:
   void resetReference();
-  void adopt(int64_t utime, cv::Size size, double sharpness);
+  void adopt(CameraTime time, cv::Size size, double sharpness);
   bool isBlind(const Pyramid& image, double sharpness) const;
   std::optional<HomographyEstimate> estimateGround(
       const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const;
 
   VisualParameters parameters_;
   PointTracker tracker_;
-  std::optional<int64_t> previous_utime_;
+  std::optional<CameraTime> previous_time_;
   cv::Size size_;
   double reference_sharpness_ = 0;  ///< of the frame tracked from; 0 where there is none
 };

@@ -3,6 +3,7 @@
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/node/work_timer.hpp"
@@ -18,8 +19,8 @@ constexpr int8_t kVisualGood = 0;
 constexpr auto kInertialInitialising = static_cast<int8_t>(InertialStatus::kInitialising);
 
 VisualInput inputOf(const visual_homography_t& visual) {
-  return {visual.utime_previous, matrix3(visual.H), matrix8(visual.covariance), visual.inliers,
-          visual.outliers};
+  return {CameraTime(fromUtime(visual.utime_previous)), matrix3(visual.H), matrix8(visual.covariance),
+          visual.inliers, visual.outliers};
 }
 
 }  // namespace
@@ -30,8 +31,8 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
       health_(programName(kHomographyFusion), configurationHash(configuration)),
       camera_(idealCamera(configuration.camera)),
       fusion_(camera_.width, camera_.height, configuration.fusion),
-      inertial_(microseconds(configuration.waits.fusion_s), configuration.has_imu),
-      visual_(microseconds(configuration.waits.fusion_s), true) {
+      inertial_(fromSeconds(configuration.waits.fusion_s).count(), configuration.has_imu),
+      visual_(fromSeconds(configuration.waits.fusion_s).count(), true) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<inertial_homography_t>(
@@ -135,14 +136,14 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
   const visual_homography_t* visual = visual_.find(utime);
   std::optional<InertialInput> inertial_input;
   if (inertial != nullptr && inertial->valid != 0) {
-    inertial_input =
-        InertialInput{inertial->utime_previous, matrix3(inertial->H), matrix8(inertial->covariance)};
+    inertial_input = InertialInput{CameraTime(fromUtime(inertial->utime_previous)), matrix3(inertial->H),
+                                   matrix8(inertial->covariance)};
   }
   std::optional<VisualInput> visual_input;
   if (visual != nullptr && visual->status == kVisualGood) visual_input = inputOf(*visual);
-  const FusedHomography fused = fusion_.step(utime, inertial_input, visual_input);
+  const FusedHomography fused = fusion_.step(CameraTime(fromUtime(utime)), inertial_input, visual_input);
   if (fused.has_innovation && inertial_input && visual_input &&
-      inertial_input->utime_previous == visual_input->utime_previous) {
+      inertial_input->time_previous == visual_input->time_previous) {
     noteCalibration(calibration_, health_, fused.test_ratio, inertial_input->H, visual_input->H, camera_);
   }
   fused_homography_t message = messageOf(fused);
@@ -160,12 +161,12 @@ void HomographyFusionNode::fuse(int64_t utime, const WorkTimer& since_arrival) {
 
 fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused) {
   fused_homography_t message{};
-  message.utime = fused.utime;
-  message.utime_previous = fused.utime_previous;
+  message.utime = toUtime(fused.time);
+  message.utime_previous = toUtime(fused.time_previous);
   message.sequence = sequence_++;
   message.source = static_cast<int8_t>(fused.source);
   message.epoch = fused.epoch;
-  message.utime_anchor = fused.utime_anchor;
+  message.utime_anchor = toUtime(fused.time_anchor);
   message.width = camera_.width;
   message.height = camera_.height;
   fill(message.H, fused.H_step);
@@ -184,14 +185,14 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
 void HomographyFusionNode::addSources(fused_homography_t& message, const FusedHomography& fused,
                                       const inertial_homography_t* inertial,
                                       const visual_homography_t* visual) const {
-  if (inertial != nullptr && inertial->valid != 0 && inertial->utime_previous == fused.utime_previous) {
+  if (inertial != nullptr && inertial->valid != 0 && inertial->utime_previous == message.utime_previous) {
     message.has_motion = 1;
     fill(message.R, matrix3(inertial->R));
     fill(message.t, vector3(inertial->t));
     fill(message.normal, vector3(inertial->normal));
     message.plane_distance = inertial->plane_distance;
   }
-  if (visual != nullptr && visual->utime_previous == fused.utime_previous) {
+  if (visual != nullptr && visual->utime_previous == message.utime_previous) {
     const PointTracks tracks = tracksOf(*visual);
     fillTracks(message, tracks);
     if (visual->status == kVisualGood) {

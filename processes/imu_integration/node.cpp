@@ -7,6 +7,7 @@
 #include "processes/conversions.hpp"
 #include "processes/note_calibration.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/node/frame_intake.hpp"
 #include "redbee/node/work_timer.hpp"
 
@@ -29,7 +30,7 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
       health_(programName(kImuIntegration), configuration_hash_),
       camera_(configuration.camera),
       filter_(camera_, configuration.inertial),
-      feedback_(microseconds(configuration.waits.inertial_s), true) {
+      feedback_(fromSeconds(configuration.waits.inertial_s).count(), true) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(
@@ -58,7 +59,7 @@ void ImuIntegrationNode::takeFrame(const image_t& message) {
 
 void ImuIntegrationNode::takeImu(const ins_t& message) {
   clock_.noteOther(message.utime);
-  if (!filter_.addImu({message.utime, vector3(message.gyro), vector3(message.accel)})) {
+  if (!filter_.addImu({ImuTime(fromUtime(message.utime)), vector3(message.gyro), vector3(message.accel)})) {
     health_.noteDamaged();
     return;
   }
@@ -66,7 +67,8 @@ void ImuIntegrationNode::takeImu(const ins_t& message) {
 }
 
 void ImuIntegrationNode::takeAltitude(const altimeter_t& message) {
-  if (!filter_.addAltitude({message.utime, message.height, message.sigma})) health_.noteDamaged();
+  if (!filter_.addAltitude({ImuTime(fromUtime(message.utime)), message.height, message.sigma}))
+    health_.noteDamaged();
 }
 
 void ImuIntegrationNode::takeFused(const fused_homography_t& message) {
@@ -88,8 +90,8 @@ void ImuIntegrationNode::restart() {
 
 bool ImuIntegrationNode::readyFor(int64_t frame_utime) {
   if (finishing_) return true;
-  const int64_t patience = microseconds(configuration_.waits.inertial_s);
-  if (imu_alive_ && !filter_.covers(frame_utime)) {
+  const int64_t patience = fromSeconds(configuration_.waits.inertial_s).count();
+  if (imu_alive_ && !filter_.covers(CameraTime(fromUtime(frame_utime)))) {
     if (clock_.now() - frame_utime <= patience) return false;
     imu_alive_ = false;
   }
@@ -121,7 +123,8 @@ void ImuIntegrationNode::applyFeedback() {
   if (!last_frame_utime_) return;
   const fused_homography_t* fused = feedback_.find(*last_frame_utime_);
   if (fused == nullptr || fused->has_observation == 0) return;
-  const HomographyObservation observation{fused->utime_previous, fused->utime, matrix3(fused->H_observed),
+  const HomographyObservation observation{CameraTime(fromUtime(fused->utime_previous)),
+                                          CameraTime(fromUtime(fused->utime)), matrix3(fused->H_observed),
                                           matrix8(fused->covariance_observed)};
   if (!observation.H.allFinite() || !observation.covariance.allFinite()) {
     health_.noteDamaged();
@@ -157,14 +160,14 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
   applyFeedback();
   agreed_in_a_row_ = feedback_report_.applied ? agreed_in_a_row_ + 1 : 0;
   if (last_frame_utime_) feedback_.eraseThrough(*last_frame_utime_);
-  const InertialHomography result = filter_.advanceTo(frame.utime);
+  const InertialHomography result = filter_.advanceTo(CameraTime(fromUtime(frame.utime)));
   last_frame_utime_ = frame.utime;
   last_H_ = result.valid ? std::optional<Eigen::Matrix3d>(result.H) : std::nullopt;
   timers.cpu.answered();
 
   inertial_homography_t message{};
   message.utime = frame.utime;
-  message.utime_previous = result.utime_previous;
+  message.utime_previous = toUtime(result.time_previous);
   message.sequence = sequence_++;
   message.status = static_cast<int8_t>(result.status);
   message.valid = result.valid ? 1 : 0;

@@ -7,6 +7,7 @@
 #include "processes/note_calibration.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/node/work_timer.hpp"
 
 namespace redbee {
@@ -37,7 +38,7 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
       publisher_(bus_, configuration_, camera_),
       segmenter_(configuration.segmentation),
       images_(configuration.waits.max_backlog),
-      fused_(microseconds(configuration.waits.segmentation_s), true),
+      fused_(fromSeconds(configuration.waits.segmentation_s).count(), true),
       visual_(0, false) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;

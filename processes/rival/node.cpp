@@ -4,6 +4,7 @@
 
 #include "processes/conversions.hpp"
 #include "redbee/detection/rivals/graded_score.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/node/work_timer.hpp"
 
 namespace redbee {
@@ -43,7 +44,7 @@ RivalNode::RivalNode(Bus& bus, const Configuration& configuration, const std::st
       rival_(makeRival(rival)),
       tracker_(configuration_.segmentation),
       images_(configuration.waits.max_backlog),
-      inertial_(microseconds(configuration.waits.segmentation_s),
+      inertial_(fromSeconds(configuration.waits.segmentation_s).count(),
                 configuration.has_imu && rival_->wantsMotion()) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;

@@ -7,6 +7,7 @@
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/geometry/chi_square.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/node/work_timer.hpp"
 
 namespace redbee {
@@ -25,7 +26,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
       rectifier_(camera_),
       estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual, rectifier_.unseen())),
       images_(configuration.waits.max_backlog),
-      inertial_(microseconds(configuration.waits.visual_s), configuration.has_imu) {
+      inertial_(fromSeconds(configuration.waits.visual_s).count(), configuration.has_imu) {
   const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
   bus_.subscribe<image_t>(
@@ -55,7 +56,7 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t uti
   if (!from) return std::nullopt;
   const ImageScaling scaling(camera_.ideal().width, camera_.ideal().height);
   std::optional<HomographyPrediction> chain;
-  for (int64_t at = utime; at > *from;) {
+  for (int64_t at = utime; at > toUtime(*from);) {
     const inertial_homography_t* link = inertial_.find(at);
     if (link == nullptr || link->valid == 0 || link->utime_previous >= at) return std::nullopt;
     const HomographyPrediction step{matrix3(link->H), matrix8(link->covariance)};
@@ -68,7 +69,7 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t uti
       chain->H = normaliseHomography(chain->H * step.H);
     }
     at = link->utime_previous;
-    if (at < *from) return std::nullopt;
+    if (at < toUtime(*from)) return std::nullopt;
   }
   return chain;
 }
@@ -84,12 +85,13 @@ void VisualHomographyNode::finish() {
 void VisualHomographyNode::track(const Arrived<image_t>& frame) {
   FrameTimers timers;
   const image_t& message = frame.content;
+  const CameraTime time(fromUtime(message.utime));
   const auto grey = decodeGrey(message);
   if (!grey || grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
     if (!grey) health_.noteDamaged();
     visual_homography_t refusal{};
     refusal.utime = message.utime;
-    refusal.utime_previous = estimator_->previousTime().value_or(message.utime);
+    refusal.utime_previous = toUtime(estimator_->previousTime().value_or(time));
     refusal.sequence = sequence_++;
     refusal.status = kImageDoesNotFit;
     refusal.width = camera_.ideal().width;
@@ -103,13 +105,13 @@ void VisualHomographyNode::track(const Arrived<image_t>& frame) {
     return;
   }
   const auto predicted = prediction(message.utime);
-  const VisualHomography result = estimator_->step(message.utime, rectifier_.toIdeal(*grey), predicted);
+  const VisualHomography result = estimator_->step(time, rectifier_.toIdeal(*grey), predicted);
   timers.cpu.answered();
   publish(result);
   if (predicted && result.ground) judgeCalibration(*predicted, result);
   // After a image that nothing could be tracked in, the next one is tracked from an earlier frame: its
   // links are still needed.
-  inertial_.eraseThrough(estimator_->previousTime().value_or(message.utime));
+  inertial_.eraseThrough(toUtime(estimator_->previousTime().value_or(time)));
   noteDone(health_, message.utime, frame.since, timers);
 }
 
@@ -127,8 +129,8 @@ void VisualHomographyNode::judgeCalibration(const HomographyPrediction& predicti
 
 void VisualHomographyNode::publish(const VisualHomography& result) {
   visual_homography_t message{};
-  message.utime = result.utime;
-  message.utime_previous = result.utime_previous;
+  message.utime = toUtime(result.time);
+  message.utime_previous = toUtime(result.time_previous);
   message.sequence = sequence_++;
   message.status = static_cast<int8_t>(result.status);
   message.width = camera_.ideal().width;

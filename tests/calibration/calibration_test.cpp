@@ -180,13 +180,13 @@ TEST(Calibration, ATargetReplacesTheGround) {
   const Camera camera(r.input.camera);
   std::mt19937 random(31);
   std::normal_distribution<double> noise(0, 0.1);
-  for (const int64_t utime : r.input.frames) {
-    const double t = static_cast<double>(utime - r.input.frames.front()) * 1e-6 + r.truth.timeshift_s;
+  for (const CameraTime frame : r.input.frames) {
+    const double t = seconds(frame - r.input.frames.front()) + r.truth.timeshift_s;
     const simulation::TrajectoryState state = trajectory.at(t);
     const Eigen::Matrix3d R_CG = r.truth.R_CI * state.R_GI.transpose();
     const Eigen::Vector3d p_GC = state.p_GI + state.R_GI * r.truth.p_IC;
     TargetView view;
-    view.utime = utime;
+    view.time = frame;
     for (int i = 0; i < 64; ++i) {
       const int column = i % 8, row = i / 8;
       const Eigen::Vector3d corner(0.6 + 0.15 * column, 0.5 - 0.15 * row, 0);
@@ -226,7 +226,7 @@ TEST(Calibration, ReportsWhyARecordingIsUnusable) {
   input.frames.clear();
   EXPECT_EQ(complaintAbout(input), "there are no frames");
   input = whole.input;
-  for (ImuSample& sample : input.imu) sample.utime += 60'000'000;
+  for (ImuSample& sample : input.imu) sample.time += std::chrono::minutes(1);
   EXPECT_THAT(complaintAbout(input), testing::HasSubstr("covers only 0 of 288 frames"));
   input = whole.input;
   for (GroundMatch& match : input.ground) match.points = {};

@@ -27,12 +27,12 @@ RecordingOptions briefly(double duration_s) {
 std::vector<ImuSample> perfectImu(const Trajectory& trajectory, double end_s) {
   simulation::ImuSimulatorParameters parameters;
   parameters.noise = {0, 0, 0, 0};
-  return simulation::simulateImu(trajectory, 0, end_s, 0, parameters);
+  return simulation::simulateImu(trajectory, 0, end_s, ImuTime(), parameters);
 }
 
 TEST(ImuHistory, RotationBetweenAnyTimesIsTheTrajectorys) {
   const Trajectory trajectory = Trajectory::calibration(3, 6);
-  const ImuHistory imu(perfectImu(trajectory, 3), 0);
+  const ImuHistory imu(perfectImu(trajectory, 3), ImuTime());
   const double a = 0.50123, b = 2.00071;
   const Eigen::Matrix3d expected = trajectory.at(a).R_GI.transpose() * trajectory.at(b).R_GI;
   EXPECT_LT(logSO3(imu.rotation(a, b) * expected.transpose()).norm(), 2e-5);
@@ -42,17 +42,17 @@ TEST(ImuHistory, SortsLateSamplesAndReportsGaps) {
   std::vector<ImuSample> samples = perfectImu(Trajectory::calibration(1, 6), 2);
   std::swap(samples[10], samples[20]);
   samples[30].gyro.x() = std::nan("");
-  const ImuHistory whole(samples, 0);
+  const ImuHistory whole(samples, ImuTime());
   EXPECT_EQ(whole.size(), samples.size() - 1);
   EXPECT_TRUE(whole.covers(0.1, 1.9, 0.01));
   samples.erase(samples.begin() + 400, samples.begin() + 480);
-  EXPECT_FALSE(ImuHistory(samples, 0).covers(0.1, 1.9, 0.1));
+  EXPECT_FALSE(ImuHistory(samples, ImuTime()).covers(0.1, 1.9, 0.1));
   EXPECT_FALSE(whole.covers(0.1, 2.5, 0.1));
 }
 
 TEST(Preintegration, CarriesTheStateFromOneTimeToTheOther) {
   const Trajectory trajectory = Trajectory::calibration(2, 6);
-  const ImuHistory imu(perfectImu(trajectory, 2), 0);
+  const ImuHistory imu(perfectImu(trajectory, 2), ImuTime());
   const auto a = trajectory.at(0.7011), b = trajectory.at(1.2043);
   const Preintegration sum = preintegrate(imu, 0.7011, 1.2043, {}, {});
   const Eigen::Vector3d g(0, 0, -9.81);
@@ -63,7 +63,7 @@ TEST(Preintegration, CarriesTheStateFromOneTimeToTheOther) {
 }
 
 TEST(Preintegration, FirstOrderBiasCorrectionReplacesIntegratingAgain) {
-  const ImuHistory imu(perfectImu(Trajectory::calibration(2, 6), 2), 0);
+  const ImuHistory imu(perfectImu(Trajectory::calibration(2, 6), 2), ImuTime());
   const Bias bias{{0.003, -0.002, 0.004}, {0.03, -0.02, 0.05}};
   const Preintegration without = preintegrate(imu, 0.5, 0.75, {}, {});
   const Preintegration with = preintegrate(imu, 0.5, 0.75, bias, {});
@@ -115,17 +115,15 @@ TEST(HandEye, TurningAboutOneAxisLeavesTheSecondSingularValueAtZero) {
 
 TEST(RotationAlignment, FindsTimeShiftAndRotationWithoutAStartingValue) {
   SimulatedRecording r = simulateRecording(Trajectory::calibration(7, 6), 7, briefly(8));
-  const ImuHistory imu(r.input.imu, r.input.frames.front());
+  const ImuHistory imu(r.input.imu, toImu(r.input.frames.front(), Duration(0)));
   std::vector<RotationObservation> observations;
   const Camera camera(r.input.camera);
   for (const GroundMatch& match : r.input.ground) {
     const auto estimate = estimateHomography(match.points, 640, 480, r.input.ransac);
     ASSERT_TRUE(estimate);
-    const auto time = [&](int64_t utime) {
-      return static_cast<double>(utime - r.input.frames.front()) * 1e-6;
-    };
+    const auto time_s = [&](CameraTime frame) { return seconds(frame - r.input.frames.front()); };
     observations.push_back(
-        {time(match.utime_a), time(match.utime_b), rotationsFromHomography(camera.K(), estimate->H)});
+        {time_s(match.time_a), time_s(match.time_b), rotationsFromHomography(camera.K(), estimate->H)});
   }
   const RotationAlignment alignment = alignRotations(observations, imu);
   ASSERT_TRUE(alignment.possible);

@@ -71,7 +71,7 @@ TEST(HomographyFusion, BothLostBreaksTheChainAndStartsANewEpoch) {
   const FusedHomography broken = fusion.step(frameTime(2), std::nullopt, std::nullopt);
   EXPECT_EQ(broken.source, FusionSource::kNone);
   EXPECT_EQ(broken.epoch, 1);
-  EXPECT_EQ(broken.utime_anchor, frameTime(2));
+  EXPECT_EQ(broken.time_anchor, frameTime(2));
   const FusedHomography back = fusion.step(frameTime(3), inputs.inertial(2, 3), inputs.visual(2, 3));
   EXPECT_EQ(back.source, FusionSource::kFused);
   EXPECT_EQ(back.epoch, 1);
@@ -83,7 +83,7 @@ TEST(HomographyFusion, VisionThatSkippedFramesIsUsedWithItsOwnStart) {
   for (int k = 1; k <= 4; ++k) fusion.step(frameTime(k), inputs.inertial(k - 1, k), std::nullopt);
   const FusedHomography out = fusion.step(frameTime(5), std::nullopt, inputs.visual(0, 5, 0.01));
   EXPECT_EQ(out.source, FusionSource::kVisual);
-  EXPECT_EQ(out.utime_previous, frameTime(4));
+  EXPECT_EQ(out.time_previous, frameTime(4));
   EXPECT_LT(inputs.error(out.H_anchor, 0, 5), 0.1);
   const FusedHomography lost = fusion.step(frameTime(6), std::nullopt, inputs.visual(-1, 6));
   EXPECT_EQ(lost.source, FusionSource::kNone);  // starts at a frame that the fusion never had
@@ -93,11 +93,11 @@ TEST(HomographyFusion, TimeThatDoesNotMoveForwardIsRefusedNotThrown) {
   FusionInputs inputs(7);
   HomographyFusion fusion = makeFusion();
   fusion.step(frameTime(1), inputs.inertial(0, 1), inputs.visual(0, 1));
-  for (const int64_t utime : {frameTime(1), frameTime(0), std::numeric_limits<int64_t>::min()}) {
+  for (const CameraTime time : {frameTime(1), frameTime(0), CameraTime::min()}) {
     FusedHomography out;
-    EXPECT_NO_THROW(out = fusion.step(utime, inputs.inertial(0, 1), inputs.visual(0, 1)));
+    EXPECT_NO_THROW(out = fusion.step(time, inputs.inertial(0, 1), inputs.visual(0, 1)));
     EXPECT_EQ(out.source, FusionSource::kNone);
-    EXPECT_EQ(out.utime_anchor, utime);
+    EXPECT_EQ(out.time_anchor, time);
   }
 }
 

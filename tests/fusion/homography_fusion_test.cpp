@@ -113,13 +113,13 @@ TEST(HomographyFusion, EpochsRenewTheAnchorAndComposeWithin) {
     ASSERT_NE(out.source, FusionSource::kNone) << k;
     if (out.epoch != epoch) {
       EXPECT_EQ(out.epoch, epoch + 1);
-      EXPECT_EQ(out.utime_anchor, frameTime(k));
+      EXPECT_EQ(out.time_anchor, frameTime(k));
       EXPECT_TRUE(out.H_anchor.isIdentity());
       EXPECT_LT(inputs.error(out.H_step, k - 1, k), 3);
       epoch = out.epoch;
       anchor = k;
     }
-    EXPECT_EQ(out.utime_anchor, frameTime(anchor));
+    EXPECT_EQ(out.time_anchor, frameTime(anchor));
   }
   EXPECT_GE(epoch, 1);
 }

@@ -44,11 +44,12 @@ struct Event {
 std::vector<Event> inputs() {
   const simulation::FlightSimulator simulator(smallScenario());
   std::vector<Event> events;
-  const int64_t end = simulator.frameUtime(simulator.scenario().frames);
+  const ImuTime begin = toImu(simulator.frameTime(0), Duration(0));
+  const ImuTime end = toImu(simulator.frameTime(simulator.scenario().frames), Duration(0));
   for (const ImuSample& sample : simulator.imu()) {
-    if (sample.utime < simulator.frameUtime(0) - 20'000 || sample.utime > end) continue;
+    if (sample.time < begin - std::chrono::milliseconds(20) || sample.time > end) continue;
     ins_t m{};
-    m.utime = sample.utime;
+    m.utime = toUtime(sample.time);
     for (int i = 0; i < 3; ++i) {
       m.gyro[i] = sample.gyro(i);
       m.accel[i] = sample.accel(i);
@@ -56,14 +57,14 @@ std::vector<Event> inputs() {
     events.push_back({m.utime, 1, "IMU", encodeMessage(m)});
   }
   for (const AltitudeSample& sample : simulator.altimeter()) {
-    if (sample.utime < simulator.frameUtime(0) || sample.utime > end) continue;
-    events.push_back({sample.utime, 2, "ALTIMETER",
-                      encodeMessage(altimeter_t{sample.utime, sample.height_m, sample.sigma_m})});
+    if (sample.time < begin || sample.time > end) continue;
+    events.push_back({toUtime(sample.time), 2, "ALTIMETER",
+                      encodeMessage(altimeter_t{toUtime(sample.time), sample.height_m, sample.sigma_m})});
   }
   for (int k = 0; k < simulator.scenario().frames; ++k) {
     const auto frame = simulator.frame(k);
-    const image_t m = k == 3 ? jpegMessage(frame.utime, frame.image.grey, 80)
-                             : rawGreyMessage(frame.utime, frame.image.grey);
+    const image_t m = k == 3 ? jpegMessage(toUtime(frame.time), frame.image.grey, 80)
+                             : rawGreyMessage(toUtime(frame.time), frame.image.grey);
     events.push_back({m.utime, 0, "CAMERA", encodeMessage(m)});
   }
   std::stable_sort(events.begin(), events.end(),
@@ -96,12 +97,13 @@ std::vector<Event> outputs(const std::vector<Event>& events) {
 Event keptState(const std::vector<Event>& flight) {
   constexpr uint8_t kWarmStart = 7;
   FilterSnapshot known;
-  known.utime =
+  const int64_t utime =
       std::find_if(flight.begin(), flight.end(), [](const Event& e) { return e.name == "CAMERA"; })->utime;
+  known.time = CameraTime(fromUtime(utime));
   known.height_m = 5;
   known.height_sigma_m = 0.1;
   known.R_CI = smallVehicle().inertial.extrinsics.R_CI;
-  return {known.utime, kWarmStart, "WARM_START",
+  return {utime, kWarmStart, "WARM_START",
           encodeMessage(messageOf(known, configurationHash(smallVehicle())))};
 }
 

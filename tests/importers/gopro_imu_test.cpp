@@ -43,7 +43,7 @@ TEST(GoproImuTest, TheAccelerometerIsInterpolated) {
   EXPECT_EQ(merged[0].accel.z(), 4);
   EXPECT_NEAR(merged[1].accel.z(), 5, 1e-12);
   EXPECT_EQ(merged[2].accel.z(), 8);
-  EXPECT_EQ(merged[1].utime, 1'250'000);
+  EXPECT_EQ(toUtime(merged[1].time), 1'250'000);
 }
 
 TEST(GoproImuTest, UnitsAreChecked) {

@@ -65,7 +65,7 @@ TEST(ImportGoproTest, AKarmaFlight) {
   const auto frames = messagesOn<image_t>(events, "CAMERA");
   ASSERT_EQ(frames.size(), frame_times.size());
   for (size_t k = 0; k < frames.size(); ++k)
-    ASSERT_NEAR(1e-6 * static_cast<double>(frames[k].utime), frame_times[k][1], 2e-6);
+    ASSERT_NEAR(seconds(fromUtime(frames[k].utime)), frame_times[k][1], 2e-6);
 
   const auto reference = readNumbers(*flight / "imu.csv");
   const auto imu = messagesOn<ins_t>(events, "IMU");
@@ -75,7 +75,7 @@ TEST(ImportGoproTest, AKarmaFlight) {
   double accel_error = 0;
   for (size_t k = 0; k < imu.size(); ++k) {
     const auto& row = reference[k];
-    time_error = std::max(time_error, std::abs(1e-6 * static_cast<double>(imu[k].utime) - row[0]));
+    time_error = std::max(time_error, std::abs(seconds(fromUtime(imu[k].utime)) - row[0]));
     // The reference lists (Z, X, Y); I = (-Y, X, Z).
     const Eigen::Vector3d gyro(-row[3], row[2], row[1]);
     const Eigen::Vector3d accel(-row[6], row[5], row[4]);
@@ -106,7 +106,7 @@ TEST(ImportGoproTest, KarmaAccelerometerAgreesWithTheVelocityOfTheDrone) {
     double felt = 0;
     int count = 0;
     for (const ImuSample& sample : imu) {
-      if (std::abs(1e-6 * static_cast<double>(sample.utime) - velocity[k][0]) > 0.25) continue;
+      if (std::abs(seconds(sample.time.time_since_epoch()) - velocity[k][0]) > 0.25) continue;
       felt += sample.accel.x();
       ++count;
     }

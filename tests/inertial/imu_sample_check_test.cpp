@@ -7,7 +7,7 @@
 namespace redbee {
 namespace {
 
-constexpr int64_t kStep = 5000;  // us: 200 Hz
+constexpr Duration kStep = std::chrono::milliseconds(5);  // 200 Hz
 
 /// A gentle turn with consumer-grade noise.
 std::vector<ImuSample> gentleFlight(int samples) {
@@ -17,7 +17,7 @@ std::vector<ImuSample> gentleFlight(int samples) {
   for (int i = 0; i < samples; ++i) {
     const double t = 0.005 * i;
     ImuSample s;
-    s.utime = 1'000'000 + i * kStep;
+    s.time = ImuTime(std::chrono::seconds(1) + i * kStep);
     for (int axis = 0; axis < 3; ++axis) {
       s.gyro(axis) = 0.5 * std::sin(3 * t + axis) + 0.002 * normal(random);
       s.accel(axis) = 2 * std::cos(2 * t + axis) + 0.03 * normal(random);
@@ -36,7 +36,9 @@ std::vector<ImuSample> accepted(ImuSampleCheck& check, const std::vector<ImuSamp
   return result;
 }
 
-int refused(const ImuSampleCheck& check) { return check.refusedOn(0, 10'000'000'000); }
+constexpr ImuTime kEnd(std::chrono::seconds(10'000));
+
+int refused(const ImuSampleCheck& check) { return check.refusedOn(ImuTime(), kEnd); }
 
 TEST(ImuSampleCheck, AcceptsAFlightAndItsVibration) {
   ImuSampleCheck check({});
@@ -47,7 +49,7 @@ TEST(ImuSampleCheck, AcceptsAFlightAndItsVibration) {
   }
   accepted(check, flight);
   EXPECT_LE(refused(check), 40) << "the first few of a vibration may be doubted";
-  EXPECT_EQ(check.refusedOn(flight[1100].utime, flight.back().utime), 0);
+  EXPECT_EQ(check.refusedOn(flight[1100].time, flight.back().time), 0);
 }
 
 TEST(ImuSampleCheck, RefusesASpikeAndKeepsItsNeighbours) {
@@ -58,7 +60,7 @@ TEST(ImuSampleCheck, RefusesASpikeAndKeepsItsNeighbours) {
   const auto good = accepted(check, flight);
   EXPECT_EQ(good.size(), 98U);
   EXPECT_EQ(refused(check), 2);
-  EXPECT_EQ(check.refusedOn(flight[49].utime, flight[50].utime), 1);
+  EXPECT_EQ(check.refusedOn(flight[49].time, flight[50].time), 1);
 }
 
 TEST(ImuSampleCheck, AcceptsAManoeuvre) {
@@ -90,9 +92,9 @@ TEST(ImuSampleCheck, RefusesOneStuckSensorUntilItMoves) {
       if (!gyro) flight[i].accel = flight[100].accel;
     }
     accepted(check, flight);
-    EXPECT_EQ(check.refusedOn(flight[111].utime, flight[199].utime), 88) << "from 50 ms on";
-    EXPECT_EQ(check.refusedOn(flight[0].utime, flight[109].utime), 0);
-    EXPECT_LE(check.refusedOn(flight[199].utime, flight[299].utime), 1);
+    EXPECT_EQ(check.refusedOn(flight[111].time, flight[199].time), 88) << "from 50 ms on";
+    EXPECT_EQ(check.refusedOn(flight[0].time, flight[109].time), 0);
+    EXPECT_LE(check.refusedOn(flight[199].time, flight[299].time), 1);
   }
 }
 
@@ -112,7 +114,7 @@ TEST(ImuSampleCheck, RestartsWhereTimeIsSetBack) {
   ImuSampleCheck check({});
   std::vector<ImuSample> flight = gentleFlight(50);
   accepted(check, flight);
-  for (ImuSample& sample : flight) sample.utime -= 3'600'000'000;
+  for (ImuSample& sample : flight) sample.time -= std::chrono::hours(1);
   flight[30].accel.x() += 60;
   EXPECT_EQ(accepted(check, flight).size(), 49U);
 }
@@ -122,7 +124,7 @@ TEST(ImuSampleCheck, RemembersABoundedNumber) {
   const std::vector<ImuSample> flight = gentleFlight(100);
   for (int round = 0; round < 200; ++round) accepted(check, flight);
   EXPECT_LE(refused(check), 8192);
-  check.eraseBefore(10'000'000'000);
+  check.eraseBefore(kEnd);
   EXPECT_EQ(refused(check), 0);
 }
 

@@ -26,9 +26,9 @@ TEST(InertialFilter, LateAndRepeatedSamplesChangeNothing) {
 TEST(InertialFilter, AHoleInTheImuIsBridgedWithAGrownCovariance) {
   const FilteredFlight flight(1, 8, ConsumerImu(1));
   InertialFilter filter(camera(), flight.parameters());
-  const int64_t begin = kStart + 1'020'000;
+  const ImuTime begin = toImu(kStart, std::chrono::milliseconds(1020));
   for (const ImuSample& s : flight.samples) {
-    if (s.utime < begin || s.utime > begin + 150'000) filter.addImu(s);
+    if (s.time < begin || s.time > begin + std::chrono::milliseconds(150)) filter.addImu(s);
   }
   InertialHomography before;
   InertialHomography bridged;
@@ -54,7 +54,8 @@ TEST(InertialFilter, ALostImuIsReportedAndItsReturnUsed) {
   double error = 0;
   for (int k = 0; k <= 144; ++k) {
     const bool lost = k >= 24 && k < 48;
-    while (next < flight.samples.size() && flight.samples[next].utime <= frameTime(k) + 10'000) {
+    while (next < flight.samples.size() &&
+           flight.samples[next].time <= toImu(frameTime(k), std::chrono::milliseconds(10))) {
       if (!lost) filter.addImu(flight.samples[next]);
       ++next;
     }
@@ -84,11 +85,13 @@ TEST(InertialFilter, TheHeightOutlivesAnOutage) {
   InertialHomography result;
   for (int k = 0; k <= 130; ++k) {
     const bool lost = k >= 96 && k < 120;
-    while (next < flight.samples.size() && flight.samples[next].utime <= frameTime(k) + 10'000) {
+    while (next < flight.samples.size() &&
+           flight.samples[next].time <= toImu(frameTime(k), std::chrono::milliseconds(10))) {
       if (!lost) filter.addImu(flight.samples[next]);
       ++next;
     }
-    while (next_altitude < altitudes.size() && altitudes[next_altitude].utime <= frameTime(k)) {
+    while (next_altitude < altitudes.size() &&
+           altitudes[next_altitude].time <= toImu(frameTime(k), Duration(0))) {
       filter.addAltitude(altitudes[next_altitude++]);
     }
     result = filter.advanceTo(frameTime(k));
@@ -111,7 +114,7 @@ TEST(InertialFilter, RestartsWhereClocksJump) {
   EXPECT_TRUE(filter.advanceTo(frameTime(21)).valid);
   EXPECT_EQ(filter.advanceTo(frameTime(21 + 24 * 3)).status, InertialStatus::kClockJump);
   EXPECT_TRUE(filter.advanceTo(frameTime(22 + 24 * 3)).valid);
-  for (const int64_t absurd : {std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()}) {
+  for (const CameraTime absurd : {CameraTime::min(), CameraTime::max()}) {
     EXPECT_EQ(filter.advanceTo(absurd).status, InertialStatus::kClockJump);
   }
 }
@@ -120,9 +123,9 @@ TEST(InertialFilter, BothClocksSetBackTogetherAreFollowed) {
   const FilteredFlight flight(1, 8, ConsumerImu(1));
   InertialFilter filter = flight.filter(flight.parameters());
   for (int k = 0; k < 30; ++k) filter.advanceTo(frameTime(k));
-  constexpr int64_t kBack = 500'000'000;
+  constexpr Duration kBack = std::chrono::seconds(500);
   for (ImuSample s : flight.samples) {
-    s.utime -= kBack;
+    s.time -= kBack;
     filter.addImu(s);
   }
   EXPECT_EQ(filter.advanceTo(frameTime(30) - kBack).status, InertialStatus::kClockJump);
@@ -133,11 +136,11 @@ TEST(InertialFilter, DamagedSamplesAreRefused) {
   const FilteredFlight flight(1, 8, ConsumerImu(1));
   InertialFilter filter = flight.filter(flight.parameters());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(filter.addImu({kStart, Eigen::Vector3d::Constant(nan), Eigen::Vector3d::Zero()}));
-  EXPECT_FALSE(filter.addAltitude({kStart, nan, 0.1}));
-  EXPECT_FALSE(filter.addAltitude({kStart, 3.0, 0.0}));
   EXPECT_FALSE(
-      filter.addImu({std::numeric_limits<int64_t>::min(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}));
+      filter.addImu({toImu(kStart, Duration(0)), Eigen::Vector3d::Constant(nan), Eigen::Vector3d::Zero()}));
+  EXPECT_FALSE(filter.addAltitude({toImu(kStart, Duration(0)), nan, 0.1}));
+  EXPECT_FALSE(filter.addAltitude({toImu(kStart, Duration(0)), 3.0, 0.0}));
+  EXPECT_FALSE(filter.addImu({ImuTime::min(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}));
   filter.advanceTo(frameTime(0));
   EXPECT_TRUE(filter.advanceTo(frameTime(1)).H.allFinite());
 }
@@ -146,7 +149,8 @@ TEST(InertialFilter, AbsurdButFiniteSamplesNeverPublishNaN) {
   const FilteredFlight flight(1, 8, ConsumerImu(1));
   InertialFilter filter(camera(), flight.parameters());
   for (ImuSample s : flight.samples) {
-    if (s.utime > frameTime(10) && s.utime < frameTime(11)) s.accel *= 1e200;
+    if (s.time > toImu(frameTime(10), Duration(0)) && s.time < toImu(frameTime(11), Duration(0)))
+      s.accel *= 1e200;
     filter.addImu(s);
   }
   for (int k = 0; k < 40; ++k) {

@@ -66,7 +66,7 @@ TEST(InertialFilter, CovarianceOfTheHomographyIsConsistent) {
       if (!result.valid) continue;
       if (k == kFrames) {
         sum += normalisedErrorSquared(result.H, result.covariance,
-                                      flight.homography(result.utime_previous, result.utime));
+                                      flight.homography(result.time_previous, result.time));
       }
       filter.correct(flight.observe(result, random));
     }
@@ -124,7 +124,8 @@ TEST(InertialFilter, LateAltitudesStillCount) {
   std::size_t next = 0;
   InertialHomography result;
   for (int k = 0; k <= 72; ++k) {
-    while (altitudes[next].utime < frameTime(k) - 60'000) filter.addAltitude(altitudes[next++]);
+    while (altitudes[next].time < toImu(frameTime(k), -std::chrono::milliseconds(60)))
+      filter.addAltitude(altitudes[next++]);
     result = filter.advanceTo(frameTime(k));
   }
   EXPECT_NEAR(result.height_m, flight.motion(frameTime(72), frameTime(73)).h_a, 0.2);

@@ -16,9 +16,9 @@
 namespace redbee::test {
 namespace {
 
-/// Rows of numbers; the first column is a time in ns and comes back in us.
+/// Rows of numbers; the first column is a time in ns and comes back in whole microseconds.
 struct Row {
-  int64_t utime;
+  Duration time;  ///< since the clocks began
   std::vector<double> values;
 };
 std::vector<Row> readTable(const fs::path& path) {
@@ -29,7 +29,7 @@ std::vector<Row> readTable(const fs::path& path) {
     std::istringstream cells(line);
     std::string cell;
     std::getline(cells, cell, ',');
-    Row row{(std::stoll(cell) + 500) / 1000, {}};
+    Row row{fromNanoseconds(std::stoll(cell)), {}};
     while (std::getline(cells, cell, ',')) row.values.push_back(std::stod(cell));
     rows.push_back(row);
   }
@@ -77,9 +77,9 @@ TEST_P(SharedFlight, HomographyFedBackStaysBelowThreeTenthsOfAPixel) {
   InertialFilter filter(camera(), parameters);
   for (const Row& row : readTable(clip / "mav0/imu0/data.csv")) {
     const std::vector<double>& x = row.values;
-    filter.addImu({row.utime, {x[0], x[1], x[2]}, {x[3], x[4], x[5]}});
+    filter.addImu({ImuTime(row.time), {x[0], x[1], x[2]}, {x[3], x[4], x[5]}});
   }
-  for (const Row& row : heights) filter.addAltitude({row.utime, row.values[0], 0.05});
+  for (const Row& row : heights) filter.addAltitude({ImuTime(row.time), row.values[0], 0.05});
 
   std::mt19937 random(1);
   constexpr int kSettled = 24;  // frames: a second in which velocity becomes known
@@ -89,7 +89,7 @@ TEST_P(SharedFlight, HomographyFedBackStaysBelowThreeTenthsOfAPixel) {
   int refused = 0;
   int frame = 0;
   for (const Row& row : readTable(clip / "labels/homography.csv")) {
-    const InertialHomography result = filter.advanceTo(row.utime);
+    const InertialHomography result = filter.advanceTo(CameraTime(row.time));
     if (frame++ == 0) continue;
     ASSERT_TRUE(result.valid) << frame;
     Eigen::Matrix3d exact;
@@ -101,8 +101,8 @@ TEST_P(SharedFlight, HomographyFedBackStaysBelowThreeTenthsOfAPixel) {
       ++count;
     }
     HomographyObservation observation = noisyHomography(exact, 0.3, random);
-    observation.utime_previous = result.utime_previous;
-    observation.utime = result.utime;
+    observation.time_previous = result.time_previous;
+    observation.time = result.time;
     refused += !filter.correct(observation).applied;
   }
   std::cout << GetParam() << ": mean transfer error " << sum / count << " px, normalised error squared "

@@ -44,8 +44,9 @@ TEST(WarmStart, IsNotPublishedBeforeAnythingWasLearned) {
   FaultInjection dropped;
   dropped.drop_warm_start = true;
   for (const filter_snapshot_t& snapshot : run(flight, dropped).snapshots) {
-    EXPECT_TRUE(snapshot.utime < frameTime(kKilledAt) || snapshot.utime > frameTime(kBackAt + 12));
-    EXPECT_GT(snapshot.utime, frameTime(12));
+    EXPECT_TRUE(snapshot.utime < toUtime(frameTime(kKilledAt)) ||
+                snapshot.utime > toUtime(frameTime(kBackAt + 12)));
+    EXPECT_GT(snapshot.utime, toUtime(frameTime(12)));
   }
 }
 
@@ -87,7 +88,8 @@ TEST(WarmStart, AStateThatVisionContradictsIsNotPublished) {
   const RunResult result = run(flight, faults);
   int after = 0;
   for (const filter_snapshot_t& snapshot : result.snapshots) {
-    after += snapshot.utime > frameTime(kWrongFrom + 1) && snapshot.utime < frameTime(kKilledAt);
+    after +=
+        snapshot.utime > toUtime(frameTime(kWrongFrom + 1)) && snapshot.utime < toUtime(frameTime(kKilledAt));
   }
   EXPECT_GT(result.snapshots.size(), 150U);
   EXPECT_EQ(after, 0);

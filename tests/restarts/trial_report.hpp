@@ -144,8 +144,8 @@ class TrialReport {
         std::find_if(kills_.begin(), kills_.end(), [&](const Kill& kill) { return kill.utime >= utime; });
     if (next == kills_.begin()) return "before any kill, frame " + std::to_string(flight_.frameAt(utime));
     const Kill& last = *std::prev(next);
-    return std::to_string(static_cast<double>(utime - last.utime) * 1e-6) + " s after " + last.process +
-           ", frame " + std::to_string(flight_.frameAt(utime) % kLoopFrames) + " of the loop";
+    return std::to_string(seconds(fromUtime(utime - last.utime))) + " s after " + last.process + ", frame " +
+           std::to_string(flight_.frameAt(utime) % kLoopFrames) + " of the loop";
   }
 
   bool masksWereNeverWild() {

@@ -196,10 +196,10 @@ TEST(FlightSimulator, TheImuClockRunsAheadOfTheCamerasByTheTimeShift) {
   Scenario scenario = groundOnly(1);
   scenario.extrinsics.timeshift_s = 0.02;
   const FlightSimulator flight(scenario);
-  EXPECT_EQ(flight.frameUtime(24), scenario.start_utime + 1000000);
+  EXPECT_EQ(flight.frameTime(24), CameraTime(scenario.start + std::chrono::seconds(1)));
   EXPECT_NEAR(flight.exposureTime(24), 1.02, 1e-9);
-  EXPECT_LT(flight.imu().front().utime, flight.frameUtime(0));
-  EXPECT_GT(flight.imu().back().utime, flight.frameUtime(scenario.frames - 1));
+  EXPECT_LT(flight.imu().front().time, toImu(flight.frameTime(0), Duration(0)));
+  EXPECT_GT(flight.imu().back().time, toImu(flight.frameTime(scenario.frames - 1), Duration(0)));
 }
 
 TEST(FlightSimulator, ImpossibleScenariosAreRefused) {

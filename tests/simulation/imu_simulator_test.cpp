@@ -26,7 +26,7 @@ Trajectory hover() {
 /// Midpoint integration of the samples from the state at the first one.
 TrajectoryState integrate(const std::vector<ImuSample>& samples, TrajectoryState state, double gravity) {
   for (size_t i = 0; i + 1 < samples.size(); ++i) {
-    const double dt = static_cast<double>(samples[i + 1].utime - samples[i].utime) * 1e-6;
+    const double dt = seconds(samples[i + 1].time - samples[i].time);
     const Eigen::Matrix3d next_R = state.R_GI * expSO3((samples[i].gyro + samples[i + 1].gyro) / 2 * dt);
     const Eigen::Vector3d a = (state.R_GI * samples[i].accel + next_R * samples[i + 1].accel) / 2 -
                               gravity * Eigen::Vector3d::UnitZ();
@@ -51,9 +51,9 @@ Statistics statisticsOf(const std::vector<double>& values) {
 
 TEST(ImuSimulator, APerfectImuIntegratesBackToTheTrajectory) {
   const Trajectory trajectory = Trajectory::calibration(5, 6);
-  const std::vector<ImuSample> samples = simulateImu(trajectory, 0, 1, 1000, perfectImu());
+  const std::vector<ImuSample> samples = simulateImu(trajectory, 0, 1, ImuTime(Duration(1000)), perfectImu());
   ASSERT_EQ(samples.size(), 401U);
-  ASSERT_EQ(samples.back().utime, 1001000);
+  ASSERT_EQ(samples.back().time, ImuTime(Duration(1001000)));
   const TrajectoryState end = integrate(samples, trajectory.at(0), 9.81), truth = trajectory.at(1);
   const double angle_deg = logSO3(end.R_GI.transpose() * truth.R_GI).norm() * 180 / M_PI;
   std::cout << "after 1 s: " << (end.p_GI - truth.p_GI).norm() * 1e3 << " mm, " << angle_deg << " deg\n";
@@ -63,7 +63,7 @@ TEST(ImuSimulator, APerfectImuIntegratesBackToTheTrajectory) {
 }
 
 TEST(ImuSimulator, AtRestItReadsGravityUpwards) {
-  const ImuSample sample = simulateImu(hover(), 0, 0.01, 0, perfectImu()).front();
+  const ImuSample sample = simulateImu(hover(), 0, 0.01, ImuTime(), perfectImu()).front();
   EXPECT_LT((sample.accel - Eigen::Vector3d(0, 0, 9.81)).norm(), 1e-12);
   EXPECT_EQ(sample.gyro.norm(), 0);
 }
@@ -74,7 +74,7 @@ TEST(ImuSimulator, NoiseHasTheDensityAskedFor) {
   parameters.noise.accel_noise_density = 3e-3;
   parameters.gyro_bias = {0.01, 0, 0};
   std::vector<double> gyro, accel;
-  for (const ImuSample& sample : simulateImu(hover(), 0, 100, 0, parameters)) {
+  for (const ImuSample& sample : simulateImu(hover(), 0, 100, ImuTime(), parameters)) {
     gyro.push_back(sample.gyro.x());
     accel.push_back(sample.accel.y());
   }
@@ -91,7 +91,7 @@ TEST(ImuSimulator, BiasesWalkAtTheRateAskedFor) {
   std::vector<double> ends;
   for (unsigned seed = 0; seed < 300; ++seed) {
     parameters.seed = seed;
-    const Eigen::Vector3d end = simulateImu(hover(), 0, 4, 0, parameters).back().gyro;
+    const Eigen::Vector3d end = simulateImu(hover(), 0, 4, ImuTime(), parameters).back().gyro;
     ends.insert(ends.end(), {end.x(), end.y(), end.z()});
   }
   // Deviation after t seconds is walk * sqrt(t); 900 draws know it to 2.4 %.
@@ -101,7 +101,7 @@ TEST(ImuSimulator, BiasesWalkAtTheRateAskedFor) {
 TEST(ImuSimulator, TheAltimeterReadsTheCamerasHeight) {
   InertialExtrinsics extrinsics;
   extrinsics.p_IC = {0, 0, -0.5};
-  const auto samples = simulateAltimeter(hover(), extrinsics, 0, 100, 0, 50, 0.05, 3);
+  const auto samples = simulateAltimeter(hover(), extrinsics, 0, 100, ImuTime(), 50, 0.05, 3);
   ASSERT_EQ(samples.size(), 5001U);
   std::vector<double> heights;
   heights.reserve(samples.size());

@@ -105,7 +105,7 @@ inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajec
   recording.gyro_bias = 0.006 * randomDirection(random);
   recording.accel_bias = 0.1 * randomDirection(random);
 
-  constexpr int64_t kRecordingStart = 1600000000000000;
+  constexpr CameraTime kRecordingStart(std::chrono::seconds(1600000000));
   const SimulatedFlight flight(trajectory, recording.truth, kRecordingStart);
   ConsumerImu imu(seed);
   imu.noise = input.noise;
@@ -118,7 +118,7 @@ inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajec
   for (int k = 0; k < frames; ++k) {
     input.frames.push_back(frameTime(k, kRecordingStart, options.fps));
     if (k == 0) continue;
-    const int64_t previous = input.frames[static_cast<size_t>(k - 1)];
+    const CameraTime previous = input.frames[static_cast<size_t>(k - 1)];
     const Eigen::Matrix3d H = flight.homography(previous, input.frames.back());
     input.ground.push_back(
         {previous, input.frames.back(), simulatedPoints(H, input.camera, options.grid_px, noise)});

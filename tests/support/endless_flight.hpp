@@ -73,9 +73,9 @@ class EndlessFlight {
  public:
   const simulation::Scenario& scenario() const { return loop_.scenario(); }
   const cv::Mat& image(int64_t k) const { return at(k).grey; }
-  int64_t utime(int64_t k) const { return scenario().start_utime + k * 1000000 / kFps; }
+  int64_t utime(int64_t k) const { return scenario().start.count() + k * 1000000 / kFps; }
   int64_t frameAt(int64_t utime) const {
-    return ((utime - scenario().start_utime) * kFps + 500000) / 1000000;
+    return ((utime - scenario().start.count()) * kFps + 500000) / 1000000;
   }
 
   FrameTruth truth(int64_t k) const {

@@ -32,13 +32,13 @@ struct FilteredFlight : SimulatedFlight {
   }
   /// What vision measures of the same step, with 0.3 px of noise.
   HomographyObservation observe(const InertialHomography& result, std::mt19937& random) const {
-    HomographyObservation z = noisyHomography(homography(result.utime_previous, result.utime), 0.3, random);
-    z.utime_previous = result.utime_previous;
-    z.utime = result.utime;
+    HomographyObservation z = noisyHomography(homography(result.time_previous, result.time), 0.3, random);
+    z.time_previous = result.time_previous;
+    z.time = result.time;
     return z;
   }
   double transferError(const InertialHomography& result) const {
-    return meanTransferError(result.H, homography(result.utime_previous, result.utime), kWidth, kHeight);
+    return meanTransferError(result.H, homography(result.time_previous, result.time), kWidth, kHeight);
   }
   /// Mean transfer error over frames [measure_from, frames), with vision fed back [px].
   double errorFedBack(InertialFilter& filter, int frames, int measure_from) const {

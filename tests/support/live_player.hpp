@@ -15,21 +15,23 @@ class LivePlayer {
   LivePlayer(Bus& bus, const EndlessFlight& flight, double longest_s, double speed = 1)
       : bus_(bus), flight_(flight), speed_(speed) {
     const simulation::Scenario& s = flight.scenario();
-    imu_ = simulation::simulateImu(s.trajectory, 0, longest_s, s.start_utime, s.imu);
-    altitudes_ = simulation::simulateAltimeter(s.trajectory, s.extrinsics, 0, longest_s, s.start_utime,
+    imu_ = simulation::simulateImu(s.trajectory, 0, longest_s, ImuTime(s.start), s.imu);
+    altitudes_ = simulation::simulateAltimeter(s.trajectory, s.extrinsics, 0, longest_s, ImuTime(s.start),
                                                s.altimeter.rate_hz, s.altimeter.sigma_m, s.altimeter.seed);
   }
 
   /// Everything that is due by now.
   void publishDue() {
     const std::chrono::duration<double, std::micro> elapsed = Clock::now() - start_;
-    const int64_t until = flight_.scenario().start_utime + static_cast<int64_t>(elapsed.count() * speed_);
-    for (; imu_at_ < imu_.size() && imu_[imu_at_].utime <= until; ++imu_at_)
+    const Duration until =
+        flight_.scenario().start + Duration(static_cast<int64_t>(elapsed.count() * speed_));
+    for (; imu_at_ < imu_.size() && imu_[imu_at_].time <= ImuTime(until); ++imu_at_)
       bus_.publish("IMU", message(imu_[imu_at_]));
-    for (; altitude_at_ < altitudes_.size() && altitudes_[altitude_at_].utime <= until; ++altitude_at_) {
+    for (; altitude_at_ < altitudes_.size() && altitudes_[altitude_at_].time <= ImuTime(until);
+         ++altitude_at_) {
       bus_.publish("ALTIMETER", message(altitudes_[altitude_at_]));
     }
-    for (; flight_.utime(frame_) <= until; ++frame_) {
+    for (; fromUtime(flight_.utime(frame_)) <= until; ++frame_) {
       bus_.publish("CAMERA", rawGreyMessage(flight_.utime(frame_), flight_.image(frame_)));
     }
   }

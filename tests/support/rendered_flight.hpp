@@ -27,7 +27,7 @@ class RenderedFlight {
   const simulation::FlightSimulator& simulator() const { return simulator_; }
   const simulation::Scenario& scenario() const { return simulator_.scenario(); }
   int frames() const { return static_cast<int>(images_.size()); }
-  int64_t utime(int k) const { return simulator_.frameUtime(k); }  ///< us, camera's clock
+  int64_t utime(int k) const { return toUtime(simulator_.frameTime(k)); }  ///< us, camera's clock
   const simulation::RenderedImage& image(int k) const { return images_[static_cast<size_t>(k)]; }
   /// From frame k-1 to frame k.
   Eigen::Matrix3d homography(int k) const { return simulator_.homography(k); }

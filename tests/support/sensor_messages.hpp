@@ -16,7 +16,7 @@ namespace redbee::test {
 
 inline ins_t message(const ImuSample& sample) {
   ins_t m{};
-  m.utime = sample.utime;
+  m.utime = toUtime(sample.time);
   for (int i = 0; i < 3; ++i) {
     m.gyro[i] = sample.gyro(i);
     m.accel[i] = sample.accel(i);
@@ -24,7 +24,7 @@ inline ins_t message(const ImuSample& sample) {
   return m;
 }
 inline altimeter_t message(const AltitudeSample& sample) {
-  return {sample.utime, sample.height_m, sample.sigma_m};
+  return {toUtime(sample.time), sample.height_m, sample.sigma_m};
 }
 
 /// One message of a sensor, encoded.

@@ -4,23 +4,23 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/so3.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/simulation/imu_simulator.hpp"
 #include "redbee/simulation/trajectory.hpp"
 #include "tests/support/camera.hpp"
 
 namespace redbee::test {
 
-inline constexpr double kFrameRate = 24;          ///< Hz
-inline constexpr int64_t kStart = 1'000'000'000;  ///< us, of frame 0
+inline constexpr double kFrameRate = 24;                         ///< Hz
+inline constexpr CameraTime kStart{std::chrono::seconds(1000)};  ///< of frame 0
 
-inline int64_t frameTime(int k, int64_t start = kStart, double frame_rate = kFrameRate) {
-  return start + static_cast<int64_t>(std::llround(k * 1e6 / frame_rate));
+inline CameraTime frameTime(int k, CameraTime start = kStart, double frame_rate = kFrameRate) {
+  return start + Duration(std::llround(k * 1e6 / frame_rate));
 }
 
 /// Optical axis along IMU x, `pitch_deg` below the horizon; 5 cm from the IMU.
@@ -42,37 +42,36 @@ class SimulatedFlight {
       : SimulatedFlight(simulation::Trajectory::ordinary(seed, height_m), mountedCamera(height_m), kStart) {
     extrinsics.start_height_m = heightAt(kStart);
   }
-  SimulatedFlight(simulation::Trajectory trajectory, const InertialExtrinsics& mounting, int64_t start)
+  SimulatedFlight(simulation::Trajectory trajectory, const InertialExtrinsics& mounting, CameraTime start)
       : extrinsics(mounting), trajectory_(std::move(trajectory)), start_(start) {}
 
-  /// Between two times of the camera's clock.
-  PlaneMotion motion(int64_t utime_a, int64_t utime_b) const {
-    return simulation::exactMotion(trajectory_, extrinsics, trajectoryTime(utime_a), trajectoryTime(utime_b));
+  /// Between two frames.
+  PlaneMotion motion(CameraTime a, CameraTime b) const {
+    return simulation::exactMotion(trajectory_, extrinsics, trajectoryTime(a), trajectoryTime(b));
   }
-  Eigen::Matrix3d homography(int64_t utime_a, int64_t utime_b) const {
-    return planeHomography(camera().K(), motion(utime_a, utime_b));
+  Eigen::Matrix3d homography(CameraTime a, CameraTime b) const {
+    return planeHomography(camera().K(), motion(a, b));
   }
   /// Of the camera above the ground [m].
-  double heightAt(int64_t utime) const { return motion(utime, utime + 10'000).h_a; }
+  double heightAt(CameraTime frame) const { return motion(frame, frame + std::chrono::milliseconds(10)).h_a; }
 
   /// From half a second before the first frame to `end_s` after it.
   std::vector<ImuSample> imu(const simulation::ImuSimulatorParameters& parameters, double end_s) const {
-    return simulation::simulateImu(trajectory_, -0.5, end_s, start_, parameters);
+    return simulation::simulateImu(trajectory_, -0.5, end_s, imuStart(), parameters);
   }
   /// 50 Hz, sigma 5 cm.
   std::vector<AltitudeSample> altimeter(double begin_s, double end_s, unsigned seed) const {
-    return simulation::simulateAltimeter(trajectory_, extrinsics, begin_s, end_s, start_, 50, 0.05, seed);
+    return simulation::simulateAltimeter(trajectory_, extrinsics, begin_s, end_s, imuStart(), 50, 0.05, seed);
   }
 
   InertialExtrinsics extrinsics;  ///< true ones
 
  private:
-  double trajectoryTime(int64_t utime) const {
-    return static_cast<double>(utime - start_) * 1e-6 + extrinsics.timeshift_s;
-  }
+  ImuTime imuStart() const { return toImu(start_, Duration(0)); }
+  double trajectoryTime(CameraTime frame) const { return seconds(frame - start_) + extrinsics.timeshift_s; }
 
   simulation::Trajectory trajectory_;
-  int64_t start_;
+  CameraTime start_;
 };
 
 }  // namespace redbee::test

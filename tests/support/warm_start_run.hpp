@@ -117,17 +117,20 @@ class WarmStartRun {
   }
 
   void publishFrame() {
-    const int64_t utime = frameTime(frame_);
+    const CameraTime time = frameTime(frame_);
+    const ImuTime altitudes_until = toImu(time, Duration(0));
+    const ImuTime samples_until = toImu(time, std::chrono::milliseconds(15));
     const auto& samples = flight_.samples;
-    for (; next_sample_ < samples.size() && samples[next_sample_].utime <= utime + 15'000; ++next_sample_) {
+    for (; next_sample_ < samples.size() && samples[next_sample_].time <= samples_until; ++next_sample_) {
       bus_->publish("IMU", message(samples[next_sample_]));
     }
     const auto& altitudes = flight_.altitudes;
-    for (; next_altitude_ < altitudes.size() && altitudes[next_altitude_].utime <= utime; ++next_altitude_) {
+    for (; next_altitude_ < altitudes.size() && altitudes[next_altitude_].time <= altitudes_until;
+         ++next_altitude_) {
       bus_->publish("ALTIMETER", message(altitudes[next_altitude_]));
     }
     image_t image{};
-    image.utime = utime;
+    image.utime = toUtime(time);
     bus_->publish("CAMERA", image);
     settle();
     bus_->publish("VISUAL_HOMOGRAPHY", vision());
@@ -144,8 +147,8 @@ class WarmStartRun {
   visual_homography_t vision() {
     constexpr double kNoise_px = 0.3;
     visual_homography_t vision{};
-    vision.utime = frameTime(frame_);
-    vision.utime_previous = frameTime(std::max(0, frame_ - 1));
+    vision.utime = toUtime(frameTime(frame_));
+    vision.utime_previous = toUtime(frameTime(std::max(0, frame_ - 1)));
     vision.sequence = frame_;
     vision.status = frame_ > 0 ? 0 : 1;
     vision.width = kWidth;

@@ -10,7 +10,8 @@
 namespace redbee::test {
 namespace {
 
-constexpr int64_t kFrame = 41667;  // us
+/// The kth of 24 frames a second.
+CameraTime frameTime(int k) { return CameraTime(k * Duration(41667)); }
 
 cv::Mat still(unsigned noise_seed) { return Canvas(8).view(Eigen::Matrix3d::Identity(), 1.5, noise_seed); }
 
@@ -42,8 +43,8 @@ TEST(VisualHomography, ImagesWith40PercentThatMoveOtherwise) {
     cv::Mat after = canvas.view(H, 1.5, 2);
     scatter(before, after, 0.4, seed);
     VisualHomographyEstimator estimator({});
-    estimator.step(kFrame, before, {});
-    const VisualHomography found = estimator.step(2 * kFrame, after, {});
+    estimator.step(frameTime(1), before, {});
+    const VisualHomography found = estimator.step(frameTime(2), after, {});
     ASSERT_EQ(found.status, VisualStatus::kGood);
     const double error = meanTransferError(found.ground->H, H, kWidth, kHeight);
     std::cout << "mean transfer error " << error << " px, " << found.ground->inliers << " inliers, "
@@ -62,7 +63,7 @@ TEST(VisualHomography, SimulatedFlight) {
   constexpr int kFrames = 8;
   for (int k = 0; k <= kFrames; ++k) {
     const auto frame = flight.frame(k);
-    const VisualHomography found = estimator.step(frame.utime, frame.image.grey, {});
+    const VisualHomography found = estimator.step(frame.time, frame.image.grey, {});
     if (k == 0) continue;
     ASSERT_EQ(found.status, VisualStatus::kGood) << "frame " << k;
     sum += meanTransferError(found.ground->H, flight.homography(k), kWidth, kHeight) / kFrames;
@@ -80,14 +81,14 @@ TEST(VisualHomography, BlankBlackAndBlurredFramesAreNoHomography) {
   const cv::Mat blank(kHeight, kWidth, CV_8U, cv::Scalar(200));
   for (const cv::Mat& bad : {black, blank, blurred}) {
     VisualHomographyEstimator estimator({});
-    estimator.step(kFrame, still(1), {});
-    const VisualHomography blind = estimator.step(2 * kFrame, bad, {});
+    estimator.step(frameTime(1), still(1), {});
+    const VisualHomography blind = estimator.step(frameTime(2), bad, {});
     EXPECT_EQ(blind.status, VisualStatus::kNoTexture);
     EXPECT_FALSE(blind.ground);
     // The next good frame is tracked from the last good one.
-    const VisualHomography next = estimator.step(3 * kFrame, still(4), {});
+    const VisualHomography next = estimator.step(frameTime(3), still(4), {});
     EXPECT_EQ(next.status, VisualStatus::kGood);
-    EXPECT_EQ(next.utime_previous, kFrame);
+    EXPECT_EQ(next.time_previous, frameTime(1));
   }
 }
 
@@ -95,27 +96,27 @@ TEST(VisualHomography, AModeratelyBlurredFrameStillServes) {
   cv::Mat streaked;
   cv::blur(still(3), streaked, {4, 1}, {1, 0});
   VisualHomographyEstimator estimator({});
-  estimator.step(kFrame, still(1), {});
-  EXPECT_EQ(estimator.step(2 * kFrame, streaked, {}).status, VisualStatus::kGood);
+  estimator.step(frameTime(1), still(1), {});
+  EXPECT_EQ(estimator.step(frameTime(2), streaked, {}).status, VisualStatus::kGood);
 }
 
 TEST(VisualHomography, RestartsAfterTimesThatDoNotIncreaseGapsAndOtherSizes) {
   VisualHomographyEstimator estimator({});
-  EXPECT_EQ(estimator.step(10 * kFrame, still(1), {}).status, VisualStatus::kFirstFrame);
-  EXPECT_EQ(estimator.step(10 * kFrame, still(2), {}).status, VisualStatus::kFirstFrame) << "repeated";
-  EXPECT_EQ(estimator.step(9 * kFrame, still(3), {}).status, VisualStatus::kFirstFrame) << "earlier";
-  EXPECT_EQ(estimator.step(10 * kFrame, still(4), {}).status, VisualStatus::kGood);
-  EXPECT_EQ(estimator.step(60 * kFrame, still(5), {}).status, VisualStatus::kFirstFrame) << "gap";
+  EXPECT_EQ(estimator.step(frameTime(10), still(1), {}).status, VisualStatus::kFirstFrame);
+  EXPECT_EQ(estimator.step(frameTime(10), still(2), {}).status, VisualStatus::kFirstFrame) << "repeated";
+  EXPECT_EQ(estimator.step(frameTime(9), still(3), {}).status, VisualStatus::kFirstFrame) << "earlier";
+  EXPECT_EQ(estimator.step(frameTime(10), still(4), {}).status, VisualStatus::kGood);
+  EXPECT_EQ(estimator.step(frameTime(60), still(5), {}).status, VisualStatus::kFirstFrame) << "gap";
   const cv::Mat smaller = still(6)(cv::Rect(0, 0, 320, 240));
-  EXPECT_EQ(estimator.step(61 * kFrame, smaller, {}).status, VisualStatus::kFirstFrame) << "size";
-  EXPECT_EQ(estimator.step(62 * kFrame, smaller, {}).status, VisualStatus::kGood);
+  EXPECT_EQ(estimator.step(frameTime(61), smaller, {}).status, VisualStatus::kFirstFrame) << "size";
+  EXPECT_EQ(estimator.step(frameTime(62), smaller, {}).status, VisualStatus::kGood);
 }
 
 TEST(VisualHomography, TheSameFramesGiveTheSameHomography) {
   const auto run = [] {
     VisualHomographyEstimator estimator({});
-    estimator.step(kFrame, still(1), {});
-    return estimator.step(2 * kFrame, Canvas(8).view(groundHomography({5, 5, 5}, {1, 0, 1}), 1.5, 2), {});
+    estimator.step(frameTime(1), still(1), {});
+    return estimator.step(frameTime(2), Canvas(8).view(groundHomography({5, 5, 5}, {1, 0, 1}), 1.5, 2), {});
   };
   const VisualHomography a = run(), b = run();
   ASSERT_TRUE(a.ground && b.ground);

@@ -80,7 +80,7 @@ void readSource(const CalibrateOptions& options, const Configuration& configurat
     throw InputError("calibrate: give --log, or --target-corners with --imu");
   }
   input.target = readTargetCorners(options.target_corners);
-  for (const auto& view : input.target) input.frames.push_back(view.utime);
+  for (const auto& view : input.target) input.frames.push_back(view.time);
   input.imu = readTargetImu(options.imu);
 }
 

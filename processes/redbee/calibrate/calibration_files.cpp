@@ -57,8 +57,9 @@ std::string verdictComment(const CalibrationResult& result, const char* name) {
 double imuRate(const CalibrationInput& input) {
   if (input.imu.size() < 2) return 0;
   const auto [first, last] = std::minmax_element(
-      input.imu.begin(), input.imu.end(), [](const auto& a, const auto& b) { return a.utime < b.utime; });
-  return 1e6 * static_cast<double>(input.imu.size() - 1) / static_cast<double>(last->utime - first->utime);
+      input.imu.begin(), input.imu.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  return 1e6 * static_cast<double>(input.imu.size() - 1) /
+         static_cast<double>((last->time - first->time).count());
 }
 
 /// Keys of the configuration that the recording shows.

@@ -35,24 +35,24 @@ class LongBaseline {
       : tracker_(tracker, unseen), delay_(delay) {}
 
   /// `step`: from the previous frame to this one. The match that ends at this frame, where one does.
-  std::optional<calibration::GroundMatch> advance(int64_t utime, const cv::Mat& ideal,
+  std::optional<calibration::GroundMatch> advance(CameraTime time, const cv::Mat& ideal,
                                                   const std::optional<HomographyEstimate>& step) {
     size_ = ideal.size();
     if (delay_-- > 0) return std::nullopt;
     ++frames_;
-    if (!step || begin_utime_ == 0) {
+    if (!step || begin_ == CameraTime()) {
       tracker_.advance(ideal, std::nullopt);
-      begin(utime);
+      begin(time);
       return std::nullopt;
     }
     chain_ = normaliseHomography(step->H * chain_);
     if (motion() < kEnoughMotion_px && frames_ < kMostFrames) return std::nullopt;
-    const int64_t from = begin_utime_;
+    const CameraTime from = begin_;
     const bool worthwhile = frames_ >= kFewestFrames;
     PointTracks tracks = tracker_.advance(ideal, chain_);
-    begin(utime);
+    begin(time);
     if (!worthwhile || tracks.current.empty()) return std::nullopt;
-    return calibration::GroundMatch{from, utime, std::move(tracks)};
+    return calibration::GroundMatch{from, time, std::move(tracks)};
   }
 
  private:
@@ -60,8 +60,8 @@ class LongBaseline {
   static constexpr int kMostFrames = 12;
   static constexpr int kFewestFrames = 3;
 
-  void begin(int64_t utime) {
-    begin_utime_ = utime;
+  void begin(CameraTime time) {
+    begin_ = time;
     chain_.setIdentity();
     frames_ = 0;
   }
@@ -80,7 +80,7 @@ class LongBaseline {
   PointTracker tracker_;
   cv::Size size_;
   Eigen::Matrix3d chain_ = Eigen::Matrix3d::Identity();  ///< from the frame that the match begins at
-  int64_t begin_utime_ = 0;
+  CameraTime begin_{};
   int frames_ = 0;
   int delay_;
 };
@@ -116,7 +116,7 @@ class LogIntake {
   void takeImu(const LogEvent& event) {
     ins_t message;
     if (!decodes(event, message)) return noteDamaged();
-    input_.imu.push_back({message.utime,
+    input_.imu.push_back({ImuTime(fromUtime(message.utime)),
                           {message.gyro[0], message.gyro[1], message.gyro[2]},
                           {message.accel[0], message.accel[1], message.accel[2]}});
   }
@@ -124,7 +124,7 @@ class LogIntake {
   void takeAltitude(const LogEvent& event) {
     altimeter_t message;
     if (!decodes(event, message)) return noteDamaged();
-    input_.altimeter.push_back({message.utime, message.height, message.sigma});
+    input_.altimeter.push_back({ImuTime(fromUtime(message.utime)), message.height, message.sigma});
   }
 
   void takeImage(const LogEvent& event) {
@@ -138,20 +138,20 @@ class LogIntake {
                                  ", configured are " + std::to_string(configuration_.camera.width) + "x" +
                                  std::to_string(configuration_.camera.height));
     }
-    const int64_t previous = input_.frames.empty() ? message.utime : input_.frames.back();
+    const CameraTime time(fromUtime(message.utime));
+    const CameraTime previous = input_.frames.empty() ? time : input_.frames.back();
     // An image that arrives twice or late would be tracked backwards.
-    if (!input_.frames.empty() && message.utime <= previous) return;
+    if (!input_.frames.empty() && time <= previous) return;
     const cv::Mat ideal = rectifier_.toIdeal(*grey);
     PointTracks points = tracker_.advance(ideal, std::nullopt);
     const auto step = estimateHomography(points, ideal.cols, ideal.rows, configuration_.visual.ransac);
     for (LongBaseline& baseline : long_baselines_) {
-      if (auto match = baseline.advance(message.utime, ideal, step))
-        input_.ground.push_back(std::move(*match));
+      if (auto match = baseline.advance(time, ideal, step)) input_.ground.push_back(std::move(*match));
     }
-    input_.frames.push_back(message.utime);
-    const double gap_s = static_cast<double>(message.utime - previous) * 1e-6;
+    input_.frames.push_back(time);
+    const double gap_s = seconds(time - previous);
     if (points.current.empty() || gap_s > configuration_.visual.max_frame_gap_s) return;
-    input_.ground.push_back({previous, message.utime, std::move(points)});
+    input_.ground.push_back({previous, time, std::move(points)});
   }
 
   void noteDamaged() { ++damaged_; }

@@ -200,7 +200,7 @@ std::string heightPlot(const CalibrationInput& input, const Diagnostics& diagnos
   SvgPlot plot("Camera above the ground", "s", "m");
   std::vector<double> t, height;
   for (const AltitudeSample& sample : input.altimeter) {
-    t.push_back(static_cast<double>(sample.utime - input.frames.front()) * 1e-6);
+    t.push_back(seconds(sample.time - toImu(input.frames.front(), Duration(0))));
     height.push_back(sample.height_m);
   }
   if (!t.empty()) plot.addLine("altimeter", t, height, kBefore);

@@ -63,10 +63,10 @@ std::vector<calibration::TargetView> cornersIn(CsvReader& csv) {
   constexpr size_t kColumns = 12;
   std::vector<calibration::TargetView> views;
   while (csv.next(kColumns)) {
-    const int64_t utime = microseconds(csv.integer(0));
-    if (views.empty() || views.back().utime != utime) {
-      if (!views.empty() && utime < views.back().utime) csv.fail("time runs backwards");
-      views.push_back({utime, {}, {}});
+    const CameraTime time(fromNanoseconds(csv.integer(0)));
+    if (views.empty() || views.back().time != time) {
+      if (!views.empty() && time < views.back().time) csv.fail("time runs backwards");
+      views.push_back({time, {}, {}});
     }
     views.back().pixels.emplace_back(csv.number(5), csv.number(6));
     views.back().corners.emplace_back(csv.number(7), csv.number(8), csv.number(9));
@@ -108,8 +108,8 @@ std::vector<ImuSample> readTargetImu(const std::filesystem::path& csv) {
   std::vector<ImuSample> samples;
   while (reader.next(kColumns)) {
     ImuSample sample;
-    sample.utime = microseconds(reader.integer(0));
-    times.check(reader, sample.utime);
+    sample.time = ImuTime(fromNanoseconds(reader.integer(0)));
+    times.check(reader, toUtime(sample.time));
     sample.gyro = {reader.number(1), reader.number(2), reader.number(3)};
     sample.accel = {reader.number(4), reader.number(5), reader.number(6)};
     samples.push_back(sample);

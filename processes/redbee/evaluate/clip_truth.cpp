@@ -10,6 +10,7 @@
 
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/results/png_file.hpp"
 
 namespace redbee {
@@ -139,7 +140,7 @@ void ClipTruth::findMasks(const fs::path& folder) {
   by_number_ = !images.empty() || std::any_of(files.begin(), files.end(), looksLikeFrameNumber);
   for (const fs::path& file : files) {
     if (images.empty()) {
-      masks_[by_number_ ? numberIn(file) : microseconds(numberIn(file))] = file;
+      masks_[by_number_ ? numberIn(file) : fromNanoseconds(numberIn(file)).count()] = file;
       continue;
     }
     const auto image = images.find(file.stem().string());
@@ -155,7 +156,7 @@ void ClipTruth::readObjectStates() {
     TruthObject object;
     object.id = static_cast<int>(csv.integer(2));
     object.counts = csv.fields()[4] == "moving";
-    objects_by_utime_.emplace(microseconds(csv.integer(0)), object);
+    objects_by_utime_.emplace(fromNanoseconds(csv.integer(0)).count(), object);
   }
 }
 

@@ -38,9 +38,9 @@ class TruthFolder {
     homographies_.precision(12);
   }
 
-  void add(int k, int64_t utime, const cv::Mat& mask, const Eigen::Matrix3d& H) {
+  void add(int k, CameraTime time, const cv::Mat& mask, const Eigen::Matrix3d& H) {
     if (folder_.empty()) return;
-    const std::string stamp = std::to_string(utime * 1000);
+    const std::string stamp = std::to_string(toUtime(time) * 1000);
     cv::imwrite((folder_ / "mask" / (stamp + ".png")).string(), mask);
     homographies_ << stamp << ',' << k;
     for (int i = 0; i < 9; ++i) homographies_ << ',' << H(i / 3, i % 3);
@@ -87,8 +87,8 @@ void runSimulate(const SimulateOptions& options) {
   TruthFolder truth(options.truth);
   for (int k = 0; k < scenario.frames; ++k) {
     const simulation::SimulatedFrame frame = simulator.frame(k);
-    merger.addFrame(rawGreyMessage(frame.utime, frame.image.grey));
-    truth.add(k, frame.utime, frame.image.mask, simulator.homography(k));
+    merger.addFrame(rawGreyMessage(toUtime(frame.time), frame.image.grey));
+    truth.add(k, frame.time, frame.image.mask, simulator.homography(k));
     progress.update(k + 1, scenario.frames);
   }
   ImportSummary summary;
