@@ -47,7 +47,8 @@ const std::vector<CameraModelType>& cameraModelTypes();
 const CameraModelType* findCameraModel(const std::string& name);
 /// The names, for messages: "radtan or equidistant".
 std::string cameraModelNames();
-/// What is wrong with the number of coefficients; empty where nothing is. None at all means that all are zero.
+/// What is wrong with the number of coefficients; empty where nothing is. None at all means that all are
+/// zero.
 std::string coefficientFault(const CameraModelType& type, size_t count);
 /// Throws std::invalid_argument on an unknown model or a wrong number of coefficients.
 std::unique_ptr<const CameraModel> makeCameraModel(const CameraIntrinsics& intrinsics);
