@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "redbee/filter_snapshot_t.hpp"
+#include "redbee/geometry/row_major.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
 
-using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor8d = Eigen::Matrix<double, 8, 8, Eigen::RowMajor>;
 
 inline Eigen::Matrix3d matrix3(const double (&entries)[9]) { return Eigen::Map<const RowMajor3d>(entries); }

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "redbee/geometry/row_major.hpp"
+
 namespace redbee::configuration {
 namespace {
-
-using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 [[noreturn]] void refuse(const std::string& wanted, const YAML::Node& node) {
   throw ValueError("must be " + wanted + (node.IsScalar() ? ", is \"" + node.Scalar() + "\"" : ""));

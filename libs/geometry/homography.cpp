@@ -4,12 +4,12 @@
 #include <Eigen/LU>
 #include <limits>
 
+#include "redbee/geometry/row_major.hpp"
 #include "redbee/geometry/so3.hpp"
 
 namespace redbee {
 namespace {
 
-using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Matrix98d = Eigen::Matrix<double, 9, 8>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "redbee/files/atomic_file.hpp"
+#include "redbee/geometry/row_major.hpp"
 
 namespace redbee {
 namespace {
@@ -29,10 +30,7 @@ void emitCamera(YAML::Emitter& out, const VehicleDescription& vehicle) {
     out << YAML::Key << "model" << YAML::Value << camera.model;
     emitFlow(out, "distortion", camera.distortion);
   }
-  if (vehicle.R_CI) {
-    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = *vehicle.R_CI;
-    emitFlow(out, "R_CI", std::vector<double>(R.data(), R.data() + 9));
-  }
+  if (vehicle.R_CI) emitFlow(out, "R_CI", rowByRow(*vehicle.R_CI));
   if (vehicle.p_IC)
     emitFlow(out, "p_IC", std::vector<double>(vehicle.p_IC->data(), vehicle.p_IC->data() + 3));
   out << YAML::EndMap;

@@ -14,6 +14,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "redbee/geometry/row_major.hpp"
 #include "tests/support/stack_run.hpp"
 
 namespace redbee::test {
@@ -59,7 +60,7 @@ inline bool agrees(const StackOutput& output, const StackOutput& expected, int64
   const fused_homography_t& calm = expected.fused.at(utime);
   if (fused->second.source != calm.source || fused->second.utime_previous != calm.utime_previous)
     return false;
-  const Eigen::Matrix3d H = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(calm.H);
+  const Eigen::Matrix3d H = Eigen::Map<const RowMajor3d>(calm.H);
   if (groundError(fused->second, H) > kSamePx || foreground->second.status != 0) return false;
   const cv::Mat mask = maskOf(foreground->second);
   const cv::Mat calm_mask = maskOf(expected.foreground.at(utime));

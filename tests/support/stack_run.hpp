@@ -12,6 +12,7 @@
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
+#include "redbee/geometry/row_major.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/process_health_t.hpp"
 #include "redbee/visual_homography_t.hpp"
@@ -103,8 +104,7 @@ class StackRun {
 };
 
 inline double groundError(const fused_homography_t& fused, const Eigen::Matrix3d& truth) {
-  return meanTransferError(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fused.H), truth,
-                           fused.width, fused.height);
+  return meanTransferError(Eigen::Map<const RowMajor3d>(fused.H), truth, fused.width, fused.height);
 }
 
 }  // namespace redbee::test

@@ -8,6 +8,7 @@
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/camera_model.hpp"
+#include "redbee/geometry/row_major.hpp"
 
 namespace redbee {
 namespace {
@@ -192,8 +193,7 @@ std::string verdictJson(const CalibrationResult& result, const CalibrationSubjec
     entry["sigma"] = report.sigma;
     entry["nominal"] = report.nominal;
   }
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = result.values.estimated.R_CI;
-  json["R_CI"] = std::vector<double>(R.data(), R.data() + 9);
+  json["R_CI"] = rowByRow(result.values.estimated.R_CI);
   const calibration::Excitation& excitation = result.excitation;
   json["excitation"]["rotation_rad_s"] =
       std::vector<double>(excitation.rotation.data(), excitation.rotation.data() + 3);
