@@ -6,6 +6,7 @@
 #include "processes/common_options.hpp"
 #include "processes/redbee/commands/command.hpp"
 #include "redbee/files/progress.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/importers/import_asl.hpp"
 #include "redbee/importers/import_gopro.hpp"
 #include "redbee/importers/import_video.hpp"
@@ -21,7 +22,7 @@ void printSummary(const ImportSummary& summary, const std::filesystem::path& log
   for (const std::string& warning : summary.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   std::printf("%s: %lld frames in %.3f s, %lld IMU samples (%.1f Hz), %lld altitudes\n", log.c_str(),
               static_cast<long long>(summary.frames),
-              static_cast<double>(summary.last_utime - summary.first_utime) * 1e-6,
+              seconds(fromUtime(summary.last_utime - summary.first_utime)),
               static_cast<long long>(summary.imu_samples), summary.imu_rate_hz,
               static_cast<long long>(summary.altitudes));
   std::printf(exists ? "%s: exists and is left as it is\n"

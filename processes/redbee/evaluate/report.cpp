@@ -14,6 +14,7 @@
 #include "processes/redbee/pages/page.hpp"
 #include "redbee/bus/build_version.hpp"
 #include "redbee/files/atomic_file.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/results/run_folder.hpp"
 
 namespace redbee {
@@ -68,9 +69,9 @@ std::vector<std::string> overlays(const ReportOptions& options, int64_t frames) 
         if (number++ % period != period / 2) return;
         std::vector<uint8_t> jpeg;
         cv::imencode(".jpg", drawn, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
-        figures.push_back(jpegFigure(
-            {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()},
-            fmt::format("frame {}, {:.2f} s", number, static_cast<double>(utime - first_utime) * 1e-6)));
+        figures.push_back(
+            jpegFigure({reinterpret_cast<const char*>(jpeg.data()), jpeg.size()},
+                       fmt::format("frame {}, {:.2f} s", number, seconds(fromUtime(utime - first_utime)))));
       });
   return figures;
 }
