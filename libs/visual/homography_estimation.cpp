@@ -6,15 +6,19 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "redbee/geometry/chi_square.hpp"
 #include "redbee/visual/plane_refinement.hpp"
 #include "redbee/visual/scaled_pairs.hpp"
 
 namespace redbee {
 namespace {
 
-/// Chi-square quantiles: 2 degrees of freedom at 99 %, 8 at 99.99 %.
-constexpr double kPointGate = 9.21;
-constexpr double kPlaneGate = 31.83;
+constexpr double kPointProbability = 0.99;    // chi-square gate of one pair, 2 degrees of freedom
+constexpr double kPlaneProbability = 0.9999;  // of the plane against its prediction, 8 degrees of freedom
+/// Standard deviation of a prediction's entries, in units of the tracking noise, below which none is
+/// accepted: a prediction more certain than tracking itself would decide the result by the selection of
+/// points.
+constexpr double kPriorFloor = 0.1;
 
 void requireValid(const PointTracks& tracks, int width, int height, const RansacParameters& parameters) {
   if (tracks.previous.size() != tracks.current.size())
@@ -44,6 +48,7 @@ std::optional<HomographyEstimate> estimateAmong(const ScaledPairs& pairs, const 
 /// Pairs that a plane within the prior's uncertainty could explain.
 std::vector<uint8_t> flagNear(const ScaledPairs& pairs, const PlanePrior& prior, double threshold,
                               double sigma) {
+  static const double gate = chiSquareQuantile(kPointProbability, 2);
   std::vector<uint8_t> near(pairs.size(), 0);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Eigen::Vector2d a = pairs.previous(i);
@@ -56,7 +61,7 @@ std::vector<uint8_t> flagNear(const ScaledPairs& pairs, const PlanePrior& prior,
     const Eigen::Matrix<double, 2, 8> J = transferJacobian(prior.H, a);
     const Eigen::Matrix2d S =
         J * prior.covariance * J.transpose() + sigma * sigma * Eigen::Matrix2d::Identity();
-    near[i] = residual.dot(S.ldlt().solve(residual)) <= kPointGate ? 1 : 0;
+    near[i] = residual.dot(S.ldlt().solve(residual)) <= gate ? 1 : 0;
   }
   return near;
 }
@@ -79,8 +84,7 @@ std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& trac
   const ImageScaling scaling(width, height);
   const ScaledPairs pairs(tracks, scaling);
   const double sigma = kTypicalSigmaPx / scaling.unit_px;
-  // A prediction more certain than tracking itself would decide the result by the selection of points.
-  const Matrix8d floor = Matrix8d::Identity() * std::pow(0.1 * sigma, 2);
+  const Matrix8d floor = Matrix8d::Identity() * std::pow(kPriorFloor * sigma, 2);
   const PlanePrior prior(scaling.scale(prediction), prediction_covariance + floor);
   if (!prior.isUsable()) return std::nullopt;
 
@@ -92,7 +96,8 @@ std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& trac
   if (!estimate) return std::nullopt;
   const Matrix8d S = prior.covariance + estimate->covariance;
   const Vector8d innovation = toVector(scaling.scale(estimate->H)) - toVector(prior.H);
-  if (!(innovation.dot(S.ldlt().solve(innovation)) <= kPlaneGate)) return std::nullopt;
+  static const double gate = chiSquareQuantile(kPlaneProbability, 8);
+  if (!(innovation.dot(S.ldlt().solve(innovation)) <= gate)) return std::nullopt;
   return estimate;
 }
 
