@@ -1,5 +1,7 @@
 #include "processes/redbee/pages/table.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "processes/redbee/pages/html.hpp"
@@ -53,8 +55,8 @@ std::string htmlRow(const Table& table, const Row& row, const std::string& eleme
   for (size_t i = 0; i < row.size(); ++i) {
     std::string style = isText(table, i) ? "text" : "";
     if (row[i].tone != Tone::kNeutral) style += std::string(style.empty() ? "" : " ") + styleOf(row[i].tone);
-    html += "<" + element + (style.empty() ? "" : " class=\"" + style + "\"") + ">" +
-            escapeHtml(row[i].text) + "</" + element + ">";
+    const std::string attribute = style.empty() ? "" : " class=\"" + style + "\"";
+    html += fmt::format("<{}{}>{}</{}>", element, attribute, escapeHtml(row[i].text), element);
   }
   return html + "</tr>\n";
 }
