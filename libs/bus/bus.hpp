@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "redbee/bus/codec.hpp"
+#include "redbee/bus/subscription.hpp"
 
 namespace redbee {
 
@@ -20,10 +21,10 @@ class Bus {
   virtual ~Bus() = default;
   virtual void publish(const std::string& channel, const std::vector<uint8_t>& data) = 0;
   /// `channel` is a name, not a pattern. `capacity`: messages that wait for the handler before the newest is
-  /// dropped.
-  virtual void subscribe(const std::string& channel, int capacity, Handler handler) = 0;
+  /// dropped. The handler is called until the subscription ends.
+  virtual Subscription subscribe(const std::string& channel, int capacity, Handler handler) = 0;
   /// Waits up to `timeout` for a message, then hands out all that are waiting. Number of messages handed out;
-  /// 0 after the timeout or a signal. Nothing that a handler throws gets through.
+  /// 0 after the timeout or a signal. No exception of a handler passes.
   virtual int handle(std::chrono::milliseconds timeout) = 0;
   /// Exceptions thrown by handlers so far: each was logged and cost its message.
   virtual int64_t handlerFailures() const { return 0; }
@@ -35,17 +36,18 @@ class Bus {
 
   /// Hands out messages that decode; calls `damaged` (if any) for those that do not.
   template <typename Message>
-  void subscribe(const std::string& channel, int capacity, std::function<void(const Message&)> handler,
-                 std::function<void()> damaged) {
-    subscribe(channel, capacity,
-              [handler = std::move(handler), damaged = std::move(damaged)](const uint8_t* data, int size) {
-                Message message;
-                if (decodeMessage(data, size, message)) {
-                  handler(message);
-                } else if (damaged) {
-                  damaged();
-                }
-              });
+  Subscription subscribe(const std::string& channel, int capacity,
+                         std::function<void(const Message&)> handler, std::function<void()> damaged = {}) {
+    return subscribe(
+        channel, capacity,
+        [handler = std::move(handler), damaged = std::move(damaged)](const uint8_t* data, int size) {
+          Message message;
+          if (decodeMessage(data, size, message)) {
+            handler(message);
+          } else if (damaged) {
+            damaged();
+          }
+        });
   }
 };
 

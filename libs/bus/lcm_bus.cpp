@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
+#include <list>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -25,10 +27,12 @@ struct LcmDeleter {
   void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
 };
 
-struct Subscription {
+struct Entry {
   std::string channel;
   Bus::Handler handler;
   int64_t* failures;
+  lcm_subscription_t* subscription = nullptr;
+  bool ended = false;
 };
 
 bool isInProcess(const std::string& url) { return url.rfind("memq://", 0) == 0; }
@@ -51,13 +55,14 @@ void checkChannel(const std::string& channel) {
 
 /// Handlers' exceptions end here: in LCM's C code they would abort the process.
 void dispatch(const lcm_recv_buf_t* received, const char*, void* user) noexcept {
-  auto& subscription = *static_cast<Subscription*>(user);
+  auto& entry = *static_cast<Entry*>(user);
+  if (entry.ended) return;
   const auto fail = [&](const char* what) {
-    ++*subscription.failures;
-    spdlog::error("{}: handler failed: {}", subscription.channel, what);
+    ++*entry.failures;
+    spdlog::error("{}: handler failed: {}", entry.channel, what);
   };
   try {
-    subscription.handler(static_cast<const uint8_t*>(received->data), static_cast<int>(received->data_size));
+    entry.handler(static_cast<const uint8_t*>(received->data), static_cast<int>(received->data_size));
   } catch (const std::exception& error) {
     fail(error.what());
   } catch (...) {
@@ -81,14 +86,19 @@ class LcmBus : public Bus {
     if (!sent && ++publish_failures_ == 1) spdlog::error("{}: LCM cannot send", channel);
   }
 
-  void subscribe(const std::string& channel, int capacity, Handler handler) override {
+  Subscription subscribe(const std::string& channel, int capacity, Handler handler) override {
     checkChannel(channel);
-    subscriptions_.push_back(
-        std::make_unique<Subscription>(Subscription{channel, std::move(handler), &handler_failures_}));
-    lcm_subscription_t* subscription =
-        lcm_subscribe(lcm_.get(), escapePattern(channel).c_str(), &dispatch, subscriptions_.back().get());
-    if (subscription == nullptr) throw std::runtime_error(channel + ": LCM cannot subscribe");
-    lcm_subscription_set_queue_capacity(subscription, capacity);
+    entries_.push_back({channel, std::move(handler), &handler_failures_});
+    const auto entry = std::prev(entries_.end());
+    entry->subscription = lcm_subscribe(lcm_.get(), escapePattern(channel).c_str(), &dispatch, &*entry);
+    if (entry->subscription == nullptr) {
+      entries_.erase(entry);
+      throw std::runtime_error(channel + ": LCM cannot subscribe");
+    }
+    lcm_subscription_set_queue_capacity(entry->subscription, capacity);
+    return Subscription([this, entry, alive = std::weak_ptr<bool>(alive_)] {
+      if (!alive.expired()) end(entry);
+    });
   }
 
   int handle(std::chrono::milliseconds timeout) override {
@@ -105,14 +115,34 @@ class LcmBus : public Bus {
 
  private:
   bool handleOne(std::chrono::milliseconds timeout) {
+    handling_ = true;
     const int result = lcm_handle_timeout(lcm_.get(), static_cast<int>(timeout.count()));
+    handling_ = false;
+    eraseEnded();
     if (result < 0 && errno != EINTR) {
       throw std::runtime_error(std::string("LCM cannot receive: ") + std::strerror(errno));
     }
     return result > 0;
   }
 
-  std::vector<std::unique_ptr<Subscription>> subscriptions_;  ///< outlives lcm_, which points into it
+  /// LCM unsubscribes nothing inside a handler: what ends there is erased after it.
+  void end(std::list<Entry>::iterator entry) {
+    entry->ended = true;
+    has_ended_ = true;
+    if (!handling_) eraseEnded();
+  }
+  void eraseEnded() {
+    if (!std::exchange(has_ended_, false)) return;
+    for (auto entry = entries_.begin(); entry != entries_.end();) {
+      if (entry->ended) lcm_unsubscribe(lcm_.get(), entry->subscription);
+      entry = entry->ended ? entries_.erase(entry) : std::next(entry);
+    }
+  }
+
+  std::list<Entry> entries_;  ///< outlives lcm_, which points into it
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  bool handling_ = false;
+  bool has_ended_ = false;
   int64_t handler_failures_ = 0;
   int64_t publish_failures_ = 0;
   std::unique_ptr<lcm_t, LcmDeleter> lcm_;

@@ -12,6 +12,7 @@
 #include "redbee/fusion/homography_fusion.hpp"
 #include "redbee/geometry/camera.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/visual/front_plane_estimator.hpp"
 #include "redbee/visual/visual_homography.hpp"
 
 namespace redbee {

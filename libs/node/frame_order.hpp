@@ -1,4 +1,4 @@
-// The order of frames in time, as every node judges it: one rule, so that all of them agree.
+// The order of frames in time: one rule for all nodes, so that they agree.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ enum class FrameDecision { kNext, kDiscard, kRestart };
 
 /// A frame that is not newer than the last one came late or twice and is left out, unless time itself was set
 /// back: then the frames go on from an earlier time, and after `kRestartAfter` of them in a row, each newer
-/// than the one before, they are believed.
+/// than the one before, they are accepted.
 class FrameOrder {
  public:
   static constexpr int kRestartAfter = 5;

@@ -8,8 +8,8 @@
 
 namespace redbee {
 
-/// The latest time that messages have told of. Frames are believed (FrameOrder has judged them); any other
-/// sensor's time only while it lies near theirs, so that a damaged time, or a clock that is off by hours,
+/// The latest time in any message. Frames are trusted (FrameOrder has classified them); any other sensor's
+/// time only while it lies near theirs, so that a damaged time, or a clock that is off by hours,
 /// does not end every wait from then on.
 class MessageClock {
  public:
@@ -23,7 +23,7 @@ class MessageClock {
   void noteOther(int64_t utime) {
     if (isNear(utime)) other_ = other_ ? std::max(*other_, utime) : utime;
   }
-  /// Time was set back: what was known is forgotten.
+  /// Time was set back: forgets all times.
   void restart() { *this = {}; }
   /// us; 0 before the first frame.
   int64_t now() const { return std::max(frame_.value_or(0), other_.value_or(frame_.value_or(0))); }

@@ -11,10 +11,10 @@
 
 namespace redbee {
 
-/// Messages of one channel by frame time. A frame's companion is waited for while its publisher is believed
+/// Messages of one channel by frame time. A frame's companion is waited for while its publisher is considered
 /// alive: until a later message of the channel shows that it was lost, or message time has moved on by
-/// `patience_us`. Who has been waited for in vain is not waited for again until it speaks. So the answer
-/// depends on the messages alone while none is lost, and a dead publisher costs one wait.
+/// `patience_us`. A publisher that timed out is considered dead until its next message. So the result depends
+/// on the messages alone while none is lost, and a dead publisher costs one wait.
 template <typename Message>
 class MessageSynchronizer {
  public:
@@ -53,7 +53,7 @@ class MessageSynchronizer {
   const std::map<int64_t, Message>& messages() const { return messages_; }
   void eraseThrough(int64_t utime) { messages_.erase(messages_.begin(), messages_.upper_bound(utime)); }
   void clear() { messages_.clear(); }
-  /// Companions that were waited for in vain.
+  /// Companions that timed out.
   int64_t timedOut() const { return timed_out_; }
 
  private:

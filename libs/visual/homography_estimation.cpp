@@ -16,9 +16,7 @@ namespace {
 constexpr double kPointGate = 9.21;
 constexpr double kPlaneGate = 31.83;
 
-void requireValid(const PointTracks& tracks, int width, int height, const RansacParameters& parameters) {
-  if (tracks.previous.size() != tracks.current.size())
-    throw std::invalid_argument("tracks of unequal length");
+void requireValid(int width, int height, const RansacParameters& parameters) {
   if (width < 2 || height < 2) throw std::invalid_argument("an image of no size");
   if (!(parameters.inlier_px > 0) || parameters.max_iterations < 1) {
     throw std::invalid_argument("RANSAC's threshold and iterations must be positive");
@@ -31,14 +29,6 @@ ScaledPairs chosenOf(const ScaledPairs& pairs, const std::vector<uint8_t>& chose
     if (chosen[i]) some.append(pairs.ax[i], pairs.ay[i], pairs.bx[i], pairs.by[i]);
   }
   return some;
-}
-
-std::optional<HomographyEstimate> estimateAmong(const ScaledPairs& pairs, const std::vector<uint8_t>& allowed,
-                                                const ImageScaling& scaling, cv::Size image,
-                                                const RansacParameters& parameters) {
-  const auto best = Ransac(chosenOf(pairs, allowed), scaling.unit_px, parameters, nullptr).run();
-  if (!best) return std::nullopt;
-  return refinePlane(pairs, allowed, *best, image, parameters, Selection::kFollowsFit);
 }
 
 /// Pairs that a plane within the prior's uncertainty could explain.
@@ -65,17 +55,26 @@ std::vector<uint8_t> flagNear(const ScaledPairs& pairs, const PlanePrior& prior,
 
 std::optional<HomographyEstimate> estimateHomography(const PointTracks& tracks, int width, int height,
                                                      const RansacParameters& parameters) {
-  requireValid(tracks, width, height, parameters);
+  return estimateHomographyAmong(tracks, std::vector<uint8_t>(tracks.previous.size(), 1), width, height,
+                                 parameters);
+}
+
+std::optional<HomographyEstimate> estimateHomographyAmong(const PointTracks& tracks,
+                                                          const std::vector<uint8_t>& chosen, int width,
+                                                          int height, const RansacParameters& parameters) {
+  requireValid(width, height, parameters);
   const ImageScaling scaling(width, height);
   const ScaledPairs pairs(tracks, scaling);
-  return estimateAmong(pairs, std::vector<uint8_t>(pairs.size(), 1), scaling, {width, height}, parameters);
+  const auto best = Ransac(chosenOf(pairs, chosen), scaling.unit_px, parameters, nullptr).run();
+  if (!best) return std::nullopt;
+  return refinePlane(pairs, chosen, *best, {width, height}, parameters, Selection::kFollowsFit);
 }
 
 std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& tracks, int width, int height,
                                                          const Eigen::Matrix3d& prediction,
                                                          const Matrix8d& prediction_covariance,
                                                          const RansacParameters& parameters) {
-  requireValid(tracks, width, height, parameters);
+  requireValid(width, height, parameters);
   const ImageScaling scaling(width, height);
   const ScaledPairs pairs(tracks, scaling);
   const double sigma = kTypicalSigmaPx / scaling.unit_px;
@@ -94,36 +93,6 @@ std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& trac
   const Vector8d innovation = toVector(scaling.scale(estimate->H)) - toVector(prior.H);
   if (!(innovation.dot(S.ldlt().solve(innovation)) <= kPlaneGate)) return std::nullopt;
   return estimate;
-}
-
-FrontPlaneParameters::FrontPlaneParameters() {
-  ransac.min_inliers = 40;
-  ransac.min_inlier_ratio = 0.3;
-  ransac.min_spread = 0.05;
-}
-
-std::optional<HomographyEstimate> estimateFrontPlane(const PointTracks& tracks, const Eigen::Matrix3d& ground,
-                                                     int width, int height,
-                                                     const FrontPlaneParameters& parameters) {
-  requireValid(tracks, width, height, parameters.ransac);
-  const ImageScaling scaling(width, height);
-  const ScaledPairs pairs(tracks, scaling);
-  std::vector<uint8_t> unexplained;
-  flagWithin(pairs, scaling.scale(ground), parameters.ground_px / scaling.unit_px, unexplained);
-  for (uint8_t& flag : unexplained) flag = flag ? 0 : 1;
-  auto front = estimateAmong(pairs, unexplained, scaling, {width, height}, parameters.ransac);
-  if (!front) return std::nullopt;
-
-  std::vector<double> separations;
-  for (std::size_t i = 0; i < front->inlier.size(); ++i) {
-    if (!front->inlier[i]) continue;
-    const Eigen::Vector2d p(tracks.previous[i].x, tracks.previous[i].y);
-    separations.push_back((transfer(front->H, p) - transfer(ground, p)).norm());
-  }
-  const auto middle = separations.begin() + static_cast<std::ptrdiff_t>(separations.size() / 2);
-  std::nth_element(separations.begin(), middle, separations.end());
-  if (*middle < parameters.min_separation_px) return std::nullopt;
-  return front;
 }
 
 }  // namespace redbee

@@ -27,6 +27,11 @@ struct HomographyEstimate {
 std::optional<HomographyEstimate> estimateHomography(const PointTracks& tracks, int width, int height,
                                                      const RansacParameters& parameters);
 
+/// The same among the tracks that are flagged with 1 in `chosen` (one flag per track).
+std::optional<HomographyEstimate> estimateHomographyAmong(const PointTracks& tracks,
+                                                          const std::vector<uint8_t>& chosen, int width,
+                                                          int height, const RansacParameters& parameters);
+
 /// The plane nearest to a predicted one: candidates are the points that agree with `prediction` within its
 /// own uncertainty (scaled covariance) plus inlier_px; RANSAC selects the plane among them (libs/README.md,
 /// "Visual homography"). Inlier flags refer to all tracks.
@@ -34,18 +39,5 @@ std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& trac
                                                          const Eigen::Matrix3d& prediction,
                                                          const Matrix8d& prediction_covariance,
                                                          const RansacParameters& parameters);
-
-/// The front plane (libs/README.md): RANSAC over the points that the ground homography does not explain.
-struct FrontPlaneParameters {
-  double ground_px = 1.5;  ///< px: a point within this of the ground homography belongs to the ground
-  RansacParameters ransac;
-  double min_separation_px =
-      0.5;  ///< px: a front plane whose motion differs less from the ground's, where its points are, is none
-  FrontPlaneParameters();  ///< stricter minima of inlier ratio and spread than the ground's: the rest is
-                           ///< mostly outliers
-};
-std::optional<HomographyEstimate> estimateFrontPlane(const PointTracks& tracks, const Eigen::Matrix3d& ground,
-                                                     int width, int height,
-                                                     const FrontPlaneParameters& parameters);
 
 }  // namespace redbee

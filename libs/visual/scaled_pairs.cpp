@@ -1,8 +1,12 @@
 #include "redbee/visual/scaled_pairs.hpp"
 
+#include <stdexcept>
+
 namespace redbee {
 
 ScaledPairs::ScaledPairs(const PointTracks& tracks, const ImageScaling& scaling) {
+  if (tracks.previous.size() != tracks.current.size())
+    throw std::invalid_argument("tracks of unequal length");
   const auto scaleX = [&](float x) { return static_cast<float>(scaling.T(0, 0) * x + scaling.T(0, 2)); };
   const auto scaleY = [&](float y) { return static_cast<float>(scaling.T(1, 1) * y + scaling.T(1, 2)); };
   for (auto* values : {&ax, &ay, &bx, &by}) values->reserve(tracks.previous.size());

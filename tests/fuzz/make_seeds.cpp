@@ -78,10 +78,11 @@ std::vector<Event> outputs(const std::vector<Event>& events) {
   std::vector<Event> output;
   const char* const names[] = {"INERTIAL_HOMOGRAPHY", "VISUAL_HOMOGRAPHY", "FUSED_HOMOGRAPHY", "FOREGROUND",
                                "DETECTIONS",          "PROCESS_HEALTH",    "FILTER_SNAPSHOT"};
+  std::vector<Subscription> subscriptions;
   for (size_t i = 0; i < std::size(names); ++i) {
-    bus->subscribe(names[i], 64, [&output, i, &names](const uint8_t* data, int size) {
+    subscriptions.push_back(bus->subscribe(names[i], 64, [&output, i, &names](const uint8_t* data, int size) {
       output.push_back({0, static_cast<uint8_t>(3 + i), names[i], Bytes(data, data + size)});
-    });
+    }));
   }
   InProcessStack stack(*bus, smallVehicle());
   for (const Event& event : events) {

@@ -25,7 +25,7 @@ class RecordingBus : public Bus {
     ASSERT_TRUE(decodeMessage(data.data(), static_cast<int>(data.size()), message));
     health.push_back(message);
   }
-  void subscribe(const std::string&, int, Handler) override {}
+  Subscription subscribe(const std::string&, int, Handler) override { return {}; }
   int handle(std::chrono::milliseconds) override { return 0; }
   int64_t handlerFailures() const override { return failures; }
 

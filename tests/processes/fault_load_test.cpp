@@ -50,8 +50,9 @@ TEST(LoadFault, ASlowSubscriberSkipsAndHoldsNobodyUp) {
   const auto bus = makeLcmBus("memq://");
   StackOutput output;
   const auto keep = [](auto& into) { return [&into](const auto& m) { into[m.utime] = m; }; };
-  bus->subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(output.fused), nullptr);
-  bus->subscribe<foreground_t>("FOREGROUND", 64, keep(output.foreground), nullptr);
+  const Subscription fused = bus->subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(output.fused));
+  const Subscription foreground =
+      bus->subscribe<foreground_t>("FOREGROUND", 64, keep(output.foreground));
   const Nodes quick = motionNodes(*bus, flight.configuration);
   const auto segmentation = makeNode(kMotionSegmentation, *bus, flight.configuration);
   for (const SensorMessage& sent : flight.messages) {

@@ -31,9 +31,9 @@ RunResult flyWith(const StackFlight& flight, const std::map<int, const ProcessDe
   const auto bus = makeLcmBus("memq://");
   RunResult result;
   int frame = -1;
-  result.output.subscribe(*bus);
-  bus->subscribe<foreground_t>(
-      "FOREGROUND", 64, [&](const foreground_t& m) { result.published_at[m.utime] = frame; }, nullptr);
+  const std::vector<Subscription> output = result.output.subscribe(*bus);
+  const Subscription times = bus->subscribe<foreground_t>(
+      "FOREGROUND", 64, [&](const foreground_t& m) { result.published_at[m.utime] = frame; });
   KillableStack stack(*bus, flight.configuration);
   for (const SensorMessage& sent : flight.messages) {
     if (sent.channel == "CAMERA") {
@@ -174,8 +174,8 @@ TEST(RestartedTracker, WhatCannotBeReadOrWrittenEndsNoFlight) {
 TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
   const auto bus = makeLcmBus("memq://");
   std::map<int64_t, int8_t> status;
-  bus->subscribe<foreground_t>(
-      "FOREGROUND", 64, [&](const foreground_t& m) { status[m.utime] = m.status; }, nullptr);
+  const Subscription subscription = bus->subscribe<foreground_t>(
+      "FOREGROUND", 64, [&](const foreground_t& m) { status[m.utime] = m.status; });
   MotionSegmentationNode node(*bus, walk().configuration);
   const auto publish = [&](int k, int64_t utime_previous, int64_t utime_anchor) {
     fused_homography_t fused{};

@@ -21,7 +21,7 @@ TEST(WarmStart, ARestartedProcessKnowsWhatTheFlightHasLearned) {
     FaultInjection dropped;
     dropped.drop_warm_start = true;
     const RunResult warm = run(flight);
-    EXPECT_NE(warm.log.find("goes on from the kept state"), std::string::npos) << warm.log;
+    EXPECT_NE(warm.log.find("warm start from the filter snapshot"), std::string::npos) << warm.log;
     before = before + errorsFrom(flight, warm, kKilledAt - 25);
     with = with + errorsFrom(flight, warm, kBackAt + 1);
     without = without + errorsFrom(flight, run(flight, dropped), kBackAt + 1);
@@ -55,7 +55,7 @@ TEST(WarmStart, ServesForSecondsAndNoLonger) {
   FaultInjection faults;
   faults.restarted_at = kKilledAt + 40;
   const RunResult after_less_than_two = run(flight, faults);
-  EXPECT_NE(after_less_than_two.log.find("goes on from"), std::string::npos) << after_less_than_two.log;
+  EXPECT_NE(after_less_than_two.log.find("warm start from"), std::string::npos) << after_less_than_two.log;
   print("1.7 s later", errorsFrom(flight, after_less_than_two, faults.restarted_at + 1));
   faults.restarted_at = kKilledAt + 56;
   const RunResult after_more = run(flight, faults);

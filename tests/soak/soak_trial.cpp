@@ -73,8 +73,8 @@ bool isSteady(const std::vector<Point>& points) {
 bool soak(const Options& options) {
   const auto bus = makeLcmBus(options.url);
   Point newest;
-  bus->subscribe<process_health_t>(
-      "PROCESS_HEALTH", 64, [&](const process_health_t& m) { newest[m.process] = m; }, nullptr);
+  const Subscription subscription = bus->subscribe<process_health_t>(
+      "PROCESS_HEALTH", 64, [&](const process_health_t& m) { newest[m.process] = m; });
   const EndlessFlight flight;
   const double seconds = 60 * options.minutes;
   LivePlayer player(*bus, flight, (seconds + 5) * options.speed, options.speed);

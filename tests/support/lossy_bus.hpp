@@ -51,8 +51,8 @@ class LossyBus : public Bus {
     }
     releaseDue();
   }
-  void subscribe(const std::string& channel, int capacity, Handler handler) override {
-    bus_.subscribe(channel, capacity, std::move(handler));
+  Subscription subscribe(const std::string& channel, int capacity, Handler handler) override {
+    return bus_.subscribe(channel, capacity, std::move(handler));
   }
   int handle(std::chrono::milliseconds timeout) override { return bus_.handle(timeout); }
   int64_t handlerFailures() const override { return bus_.handlerFailures(); }

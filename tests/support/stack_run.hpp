@@ -63,15 +63,18 @@ struct StackOutput {
   std::map<std::string, process_health_t> health;
 
   /// Everything that is published on this bus from now on. This must not move meanwhile.
-  void subscribe(Bus& bus) {
+  /// Fills in the messages from `bus` until the subscriptions end.
+  std::vector<Subscription> subscribe(Bus& bus) {
     const auto keep = [](auto& into) { return [&into](const auto& m) { into[m.utime] = m; }; };
-    bus.subscribe<inertial_homography_t>("INERTIAL_HOMOGRAPHY", 64, keep(inertial), nullptr);
-    bus.subscribe<visual_homography_t>("VISUAL_HOMOGRAPHY", 64, keep(visual), nullptr);
-    bus.subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(fused), nullptr);
-    bus.subscribe<foreground_t>("FOREGROUND", 64, keep(foreground), nullptr);
-    bus.subscribe<detections_t>("DETECTIONS", 64, keep(detections), nullptr);
-    bus.subscribe<process_health_t>(
-        "PROCESS_HEALTH", 64, [this](const process_health_t& m) { health[m.process] = m; }, nullptr);
+    std::vector<Subscription> all;
+    all.push_back(bus.subscribe<inertial_homography_t>("INERTIAL_HOMOGRAPHY", 64, keep(inertial)));
+    all.push_back(bus.subscribe<visual_homography_t>("VISUAL_HOMOGRAPHY", 64, keep(visual)));
+    all.push_back(bus.subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(fused)));
+    all.push_back(bus.subscribe<foreground_t>("FOREGROUND", 64, keep(foreground)));
+    all.push_back(bus.subscribe<detections_t>("DETECTIONS", 64, keep(detections)));
+    all.push_back(bus.subscribe<process_health_t>(
+        "PROCESS_HEALTH", 64, [this](const process_health_t& m) { health[m.process] = m; }));
+    return all;
   }
 };
 
@@ -85,7 +88,7 @@ class StackRun {
   /// `before` is called with each message on its way in.
   StackOutput run(const std::function<void(const SensorMessage&)>& before = nullptr) {
     StackOutput output;
-    output.subscribe(bus_);
+    const std::vector<Subscription> subscriptions = output.subscribe(bus_);
     InProcessStack stack(bus_, flight_.configuration);
     for (const SensorMessage& sent : flight_.messages) {
       if (before) before(sent);

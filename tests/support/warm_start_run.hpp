@@ -15,11 +15,11 @@
 #include "processes/conversions.hpp"
 #include "processes/homography_fusion/node.hpp"
 #include "processes/imu_integration/node.hpp"
+#include "redbee/bus/bus.hpp"
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/visual_homography_t.hpp"
 #include "tests/support/consumer_imu.hpp"
-#include "tests/support/killable_stack.hpp"
 #include "tests/support/log_capture.hpp"
 #include "tests/support/noisy_homography.hpp"
 #include "tests/support/sensor_messages.hpp"
@@ -75,13 +75,12 @@ class WarmStartRun {
  public:
   WarmStartRun(const WarmStartFlight& flight, FaultInjection faults)
       : flight_(flight), faults_(std::move(faults)) {
-    bus_->subscribe<inertial_homography_t>(
-        "INERTIAL_HOMOGRAPHY", 64, [&](const inertial_homography_t& m) { result_.homographies[frame_] = m; },
-        nullptr);
-    bus_->subscribe<filter_snapshot_t>(
-        "FILTER_SNAPSHOT", 64, [&](const filter_snapshot_t& m) { result_.snapshots.push_back(m); }, nullptr);
-    bus_->subscribe<filter_snapshot_t>(
-        "WARM_START", 64, [&](const filter_snapshot_t&) { ++result_.offers; }, nullptr);
+    subscriptions_.push_back(bus_->subscribe<inertial_homography_t>(
+        "INERTIAL_HOMOGRAPHY", 64, [&](const inertial_homography_t& m) { result_.homographies[frame_] = m; }));
+    subscriptions_.push_back(bus_->subscribe<filter_snapshot_t>(
+        "FILTER_SNAPSHOT", 64, [&](const filter_snapshot_t& m) { result_.snapshots.push_back(m); }));
+    subscriptions_.push_back(bus_->subscribe<filter_snapshot_t>(
+        "WARM_START", 64, [&](const filter_snapshot_t&) { ++result_.offers; }));
   }
 
   RunResult run() {
@@ -99,13 +98,9 @@ class WarmStartRun {
 
  private:
   void start(const Configuration& configuration) {
-    connection_ = std::make_unique<Connection>(*bus_);
-    inertial_ = std::make_unique<ImuIntegrationNode>(*connection_, configuration);
+    inertial_ = std::make_unique<ImuIntegrationNode>(*bus_, configuration);
   }
-  void kill() {
-    connection_->cut = true;
-    dead_ = {std::move(connection_), std::move(inertial_)};  // the bus still points into it
-  }
+  void kill() { inertial_.reset(); }
   void restart() {
     Configuration configuration = flight_.configuration;
     if (faults_.drop_warm_start) configuration.channels.warm_start = "NOWHERE";
@@ -166,14 +161,13 @@ class WarmStartRun {
   FaultInjection faults_;
   std::unique_ptr<Bus> bus_ = makeLcmBus("memq://");
   std::unique_ptr<HomographyFusionNode> fusion_;
-  std::unique_ptr<Connection> connection_;
   std::unique_ptr<ImuIntegrationNode> inertial_;
-  Process dead_;
   std::mt19937 random_{7};
   int frame_ = 0;
   size_t next_sample_ = 0;
   size_t next_altitude_ = 0;
   RunResult result_;
+  std::vector<Subscription> subscriptions_;
 };
 
 inline RunResult run(const WarmStartFlight& flight, const FaultInjection& faults = {}) {

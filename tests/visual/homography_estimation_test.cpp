@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "redbee/visual/front_plane_estimator.hpp"
 #include "tests/support/textured_images.hpp"
 
 namespace redbee::test {
@@ -120,7 +121,7 @@ TEST(HomographyEstimation, PredictionThatContradictsThePointsFindsNothing) {
 
 TEST(FrontPlane, IsFoundBesideTheGroundAndNotWithoutOne) {
   const PointTracks two = toTracks(simulateTracks(ground(), wall(), 0.3, 0.25, 0.1, {}, 7));
-  const auto front = estimateFrontPlane(two, ground(), kWidth, kHeight, {});
+  const auto front = FrontPlaneEstimator(kWidth, kHeight, {}).estimate(two, ground());
   ASSERT_TRUE(front);
   int right = 0;
   for (std::size_t i = 0; i < front->inlier.size(); ++i)
@@ -130,7 +131,7 @@ TEST(FrontPlane, IsFoundBesideTheGroundAndNotWithoutOne) {
 
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const PointTracks one = toTracks(oneplane(0.25, 0.3, seed));
-    EXPECT_FALSE(estimateFrontPlane(one, ground(), kWidth, kHeight, {})) << "seed " << seed;
+    EXPECT_FALSE(FrontPlaneEstimator(kWidth, kHeight, {}).estimate(one, ground())) << "seed " << seed;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "redbee/simulation/scenarios.hpp"
+#include "redbee/visual/front_plane_estimator.hpp"
 #include "tests/support/textured_images.hpp"
 
 namespace redbee::test {
@@ -67,7 +68,7 @@ TEST(VisualHomography, SimulatedFlight) {
     if (k == 0) continue;
     ASSERT_EQ(found.status, VisualStatus::kGood) << "frame " << k;
     sum += meanTransferError(found.ground->H, flight.homography(k), kWidth, kHeight) / kFrames;
-    front_planes += estimateFrontPlane(found.tracks, found.ground->H, kWidth, kHeight, {}) ? 1 : 0;
+    front_planes += FrontPlaneEstimator(kWidth, kHeight, {}).estimate(found.tracks, found.ground->H) ? 1 : 0;
   }
   std::cout << "mean transfer error " << sum << " px; front planes " << front_planes << "\n";
   EXPECT_LT(sum, 0.1);

@@ -54,14 +54,14 @@ ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesy
     : run_(std::move(folder)) {
   run_.prepare();
   const auto damaged = [this] { ++damaged_; };
-  bus.subscribe<foreground_t>(
-      channels.foreground, kQueue, [this](const foreground_t& m) { takeForeground(m); }, damaged);
-  bus.subscribe<detections_t>(
-      channels.detections, kQueue, [this](const detections_t& m) { detections_[m.utime] = m; }, damaged);
-  bus.subscribe<fused_homography_t>(
-      channels.fused_homography, kQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged);
-  bus.subscribe<process_health_t>(
-      channels.health, kQueue, [this](const process_health_t& m) { health_[m.process] = m; }, damaged);
+  subscriptions_.push_back(bus.subscribe<foreground_t>(
+      channels.foreground, kQueue, [this](const foreground_t& m) { takeForeground(m); }, damaged));
+  subscriptions_.push_back(bus.subscribe<detections_t>(
+      channels.detections, kQueue, [this](const detections_t& m) { detections_[m.utime] = m; }, damaged));
+  subscriptions_.push_back(bus.subscribe<fused_homography_t>(
+      channels.fused_homography, kQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged));
+  subscriptions_.push_back(bus.subscribe<process_health_t>(
+      channels.health, kQueue, [this](const process_health_t& m) { health_[m.process] = m; }, damaged));
 }
 
 void ResultCollector::takeForeground(const foreground_t& message) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "processes/redbee/detect/process_usage.hpp"
 #include "redbee/bus/bus.hpp"
@@ -49,6 +50,7 @@ class ResultCollector {
   SequenceCounter fused_sequence_;
   int64_t damaged_ = 0;
   std::string first_failure_;  ///< of writing a map: thrown by writeTables(), since a handler must not throw
+  std::vector<Subscription> subscriptions_;
 };
 
 }  // namespace redbee

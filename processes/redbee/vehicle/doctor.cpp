@@ -55,7 +55,7 @@ Finding findMulticast(const std::string& url) {
     const auto sender = makeLcmBus(url);
     const auto receiver = makeLcmBus(url);
     bool received = false;
-    receiver->subscribe<altimeter_t>(
+    const Subscription subscription = receiver->subscribe<altimeter_t>(
         kProbeChannel, 4, [&](const altimeter_t&) { received = true; }, nullptr);
     altimeter_t probe{};
     handleUntil(*receiver, 0.05, [] { return false; });
@@ -82,8 +82,8 @@ std::vector<Finding> findSensors(const DoctorOptions& options) {
   int imu = 0;
   try {
     const auto bus = makeLcmBus(options.url);
-    bus->subscribe(options.camera_channel, 100, [&](const uint8_t*, int) { ++camera; });
-    bus->subscribe(options.imu_channel, 4000, [&](const uint8_t*, int) { ++imu; });
+    const Subscription camera_subscription = bus->subscribe(options.camera_channel, 100, [&](const uint8_t*, int) { ++camera; });
+    const Subscription imu_subscription = bus->subscribe(options.imu_channel, 4000, [&](const uint8_t*, int) { ++imu; });
     handleUntil(*bus, options.listen_s, [] { return false; });
   } catch (const std::exception& error) {
     return {{false, std::string("sensors: ") + error.what(), "see multicast"}};

@@ -21,12 +21,16 @@ constexpr int kMinColumns = 80;
 constexpr std::chrono::milliseconds kPoll{100};
 constexpr std::chrono::seconds kRefresh{1};
 
-std::unique_ptr<Bus> listen(const TopOptions& options, HealthBoard& board) {
+struct Receiver {
+  std::unique_ptr<Bus> bus;
+  Subscription subscription;
+};
+
+Receiver listen(const TopOptions& options, HealthBoard& board) {
   auto bus = makeLcmBus(options.url);
-  bus->subscribe<process_health_t>(
-      options.channel, kQueue, [&board](const process_health_t& m) { board.onHealth(m, Clock::now()); },
-      nullptr);
-  return bus;
+  auto subscription = bus->subscribe<process_health_t>(
+      options.channel, kQueue, [&board](const process_health_t& m) { board.onHealth(m, Clock::now()); });
+  return {std::move(bus), std::move(subscription)};
 }
 
 std::string headline(const HealthBoard& board, Clock::time_point now) {
@@ -102,20 +106,20 @@ class Screen {
 };
 
 void showOnce(const TopOptions& options, HealthBoard& board) {
-  const auto bus = listen(options, board);
+  const Receiver receiver = listen(options, board);
   const auto end = Clock::now() + std::chrono::duration<double>(options.listen_s);
-  while (Clock::now() < end) bus->handle(kPoll);
+  while (Clock::now() < end) receiver.bus->handle(kPoll);
   std::printf("%s\n", headline(board, Clock::now()).c_str());
   for (const BoardLine& line : board.table(Clock::now())) std::printf("%s\n", line.text.c_str());
 }
 
 void showUntilQuit(const TopOptions& options, HealthBoard& board) {
-  const auto bus = listen(options, board);  // before the screen: LCM's messages belong on a plain terminal
+  const Receiver receiver = listen(options, board);  // before the screen: LCM's messages belong on a plain terminal
   const std::atomic<bool>& stop = stopOnSignals();
   const Screen screen;
   auto next = Clock::now();
   while (!stop) {
-    const bool received = bus->handle(kPoll) > 0;
+    const bool received = receiver.bus->handle(kPoll) > 0;
     const int key = getch();
     if (key == 'q' || key == 'Q') return;
     if (!received && key == ERR && Clock::now() < next) continue;

@@ -82,7 +82,7 @@ void runWatch(const WatchOptions& options) {
   const std::string channel = loadConfiguration(options.configuration).channels.health;
   const auto bus = makeLcmBus(options.url);
   ProcessWatch watch;
-  bus->subscribe<process_health_t>(
+  const Subscription subscription = bus->subscribe<process_health_t>(
       channel, kQueue,
       [&](const process_health_t& health) { watch.onHealth(health, ProcessWatch::Clock::now()); }, nullptr);
   const std::atomic<bool>& stop = stopOnSignals();

@@ -1,0 +1,68 @@
+// A stage that works on images, each together with the message of the same frame from another stage.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "redbee/image_t.hpp"
+#include "redbee/node/stage.hpp"
+
+namespace redbee {
+
+/// Keeps at most `max_backlog` images: beyond it the oldest are skipped, so that a slow process stays with
+/// the present.
+template <typename Companion>
+class ImageStage : public Stage {
+ public:
+  /// Works on the images in order, up to the first whose companion is still worth waiting for.
+  void process() final {
+    while (!images_.empty() && !isPending(companions_, images_.front().content.utime, newest_utime_)) {
+      const Arrived<image_t> image = std::move(images_.front());
+      images_.pop_front();
+      workOn(image.content.utime, image.since, [&] { work(image.content); });
+    }
+  }
+
+ protected:
+  ImageStage(Bus& bus, const std::string& process, const std::string& configuration_hash,
+             const std::string& camera_channel, int max_backlog, MessageSynchronizer<Companion> companions)
+      : Stage(bus, process, configuration_hash),
+        max_backlog_(static_cast<size_t>(std::max(1, max_backlog))),
+        companions_(std::move(companions)) {
+    on<image_t>(camera_channel, [this](const image_t& image) { take(image); });
+  }
+
+  virtual void work(const image_t& image) = 0;
+  /// The camera's clock was set back: forgets what was learned.
+  virtual void reset() = 0;
+  MessageSynchronizer<Companion>& companions() { return companions_; }
+  const MessageSynchronizer<Companion>& companions() const { return companions_; }
+
+ private:
+  void take(const image_t& image) {
+    if (!acceptFrame(image.utime)) return;
+    newest_utime_ = std::max(newest_utime_, image.utime);
+    images_.push_back({image, {}});
+    while (images_.size() > max_backlog_) {
+      images_.pop_front();
+      health().noteSkipped();
+    }
+  }
+  void restart() final {
+    images_.clear();
+    newest_utime_ = std::numeric_limits<int64_t>::min();
+    companions_.clear();
+    reset();
+  }
+
+  size_t max_backlog_;
+  MessageSynchronizer<Companion> companions_;
+  std::deque<Arrived<image_t>> images_;
+  int64_t newest_utime_ = 0;
+};
+
+}  // namespace redbee

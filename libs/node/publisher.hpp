@@ -1,0 +1,45 @@
+// Publishes what a node found out about a frame.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "redbee/bus/bus.hpp"
+
+namespace redbee {
+
+template <typename Message, typename = void>
+struct HasSequence : std::false_type {};
+template <typename Message>
+struct HasSequence<Message, std::void_t<decltype(std::declval<Message&>().sequence)>> : std::true_type {};
+
+class Publisher {
+ public:
+  explicit Publisher(Bus& bus) : bus_(bus) {}
+
+  /// `utime`: of the frame that the messages from here on are about.
+  void beginFrame(int64_t utime) { utime_ = utime; }
+  /// Fills in the frame's time and, where the type has one, the sequence number; each channel counts for
+  /// itself.
+  template <typename Message>
+  void publish(const std::string& channel, Message message) {
+    message.utime = utime_;
+    if constexpr (HasSequence<Message>::value) message.sequence = next_sequence_[channel]++;
+    bus_.publish(channel, message);
+  }
+  /// A message that is not about the frame.
+  template <typename Message>
+  void publishAsIs(const std::string& channel, const Message& message) {
+    bus_.publish(channel, message);
+  }
+
+ private:
+  Bus& bus_;
+  int64_t utime_ = 0;
+  std::map<std::string, int32_t> next_sequence_;
+};
+
+}  // namespace redbee

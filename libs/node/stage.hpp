@@ -1,0 +1,113 @@
+// What the nodes of all stages have in common: subscriptions that end with the node, sequence numbers, order of
+// the frames, time-outs and health.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "redbee/altimeter_t.hpp"
+#include "redbee/ins_t.hpp"
+#include "redbee/node/frame_order.hpp"
+#include "redbee/node/message_synchronizer.hpp"
+#include "redbee/node/node.hpp"
+#include "redbee/node/publisher.hpp"
+#include "redbee/node/work_timer.hpp"
+
+namespace redbee {
+
+/// Messages that wait for their handler before the newest is dropped: some seconds of each kind.
+template <typename Message>
+inline constexpr int kQueueLength = 64;
+template <>
+inline constexpr int kQueueLength<ins_t> = 4000;
+template <>
+inline constexpr int kQueueLength<altimeter_t> = 4000;
+
+/// A stage subscribes in its constructor with on(), and does the work on each frame inside workOn().
+class Stage : public Node {
+ public:
+  HealthMonitor& health() final { return health_; }
+  void finish() final;
+
+ protected:
+  /// `process`: its name in PROCESS_HEALTH.
+  Stage(Bus& bus, const std::string& process, const std::string& configuration_hash);
+
+  /// `handler` gets each message that decodes. It may return whether the message is plausible. A message that
+  /// does not decode, or is not plausible, is counted as damaged; a hole in the sequence numbers, where the
+  /// type has them, as lost.
+  template <typename Message, typename Handler>
+  void on(const std::string& channel, Handler handler);
+
+  /// Whether to work on a frame that arrived with this time: late and doubled ones are skipped. Calls restart()
+  /// first where the camera's clock was set back.
+  bool acceptFrame(int64_t utime);
+  FrameOrder& frameOrder() { return order_; }
+  /// The camera's clock was set back: drops what waits and forgets what was learned.
+  virtual void restart() = 0;
+
+  /// Whether the message for the frame at `utime` is still worth waiting for; never after the last message.
+  /// Counts time-outs. `newest_utime`: the latest message time that the node has seen on any channel.
+  template <typename Message>
+  bool isPending(MessageSynchronizer<Message>& messages, int64_t utime, int64_t newest_utime);
+  /// No message will come any more: process() works off what is left.
+  bool isFinishing() const { return finishing_; }
+
+  /// Calls `work` for one frame and notes in the health what it took. `arrival`: since the frame was received.
+  template <typename Work>
+  void workOn(int64_t utime, const WorkTimer& arrival, const Work& work);
+  /// Inside workOn(): from here on the frame's answer is known, and is only made into messages.
+  void noteAnswered() { timers_.cpu.answered(); }
+  /// Inside workOn(): a message about the frame.
+  template <typename Message>
+  void publish(const std::string& channel, Message message) {
+    publisher_.publish(channel, std::move(message));
+  }
+  Publisher& publisher() { return publisher_; }
+
+ private:
+  Bus& bus_;
+  HealthMonitor health_;
+  Publisher publisher_;
+  FrameOrder order_;
+  FrameTimers timers_;
+  bool finishing_ = false;
+  std::vector<Subscription> subscriptions_;
+};
+
+template <typename Message, typename Handler>
+void Stage::on(const std::string& channel, Handler handler) {
+  subscriptions_.push_back(bus_.subscribe<Message>(
+      channel, kQueueLength<Message>,
+      [this, channel, handler = std::move(handler)](const Message& message) {
+        if constexpr (HasSequence<Message>::value) health_.noteSequence(channel, message.sequence);
+        if constexpr (std::is_same_v<std::invoke_result_t<const Handler&, const Message&>, bool>) {
+          if (!handler(message)) health_.noteDamaged();
+        } else {
+          handler(message);
+        }
+      },
+      [this] { health_.noteDamaged(); }));
+}
+
+template <typename Message>
+bool Stage::isPending(MessageSynchronizer<Message>& messages, int64_t utime, int64_t newest_utime) {
+  if (finishing_) return false;
+  const int64_t before = messages.timedOut();
+  const auto status = messages.status(utime, newest_utime);
+  health_.noteLate(messages.timedOut() - before);
+  return status == MessageSynchronizer<Message>::Status::kPending;
+}
+
+template <typename Work>
+void Stage::workOn(int64_t utime, const WorkTimer& arrival, const Work& work) {
+  timers_ = {};
+  publisher_.beginFrame(utime);
+  work();
+  noteDone(health_, utime, arrival, timers_);
+}
+
+}  // namespace redbee

@@ -1,0 +1,38 @@
+// The front plane (libs/README.md): a second plane before the ground, such as a wall.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "redbee/visual/homography_estimation.hpp"
+#include "redbee/visual/point_tracker.hpp"
+#include "redbee/visual/ransac.hpp"
+
+namespace redbee {
+
+struct FrontPlaneParameters {
+  double ground_px = 1.5;  ///< px: a point within this of the ground homography belongs to the ground
+  RansacParameters ransac;
+  double min_separation_px =
+      0.5;  ///< px: a front plane whose motion differs less from the ground's, where its points are, is none
+  FrontPlaneParameters();  ///< stricter minima of inlier ratio and spread than the ground's: the rest is
+                           ///< mostly outliers
+};
+
+class FrontPlaneEstimator {
+ public:
+  /// `width`, `height`: of the image [px].
+  FrontPlaneEstimator(int width, int height, const FrontPlaneParameters& parameters)
+      : width_(width), height_(height), parameters_(parameters) {}
+
+  /// By RANSAC over the tracks that the ground's homography (previous to current, ideal pixels) does not
+  /// explain. Nothing where they show no plane that moves unlike the ground.
+  std::optional<HomographyEstimate> estimate(const PointTracks& tracks, const Eigen::Matrix3d& ground) const;
+
+ private:
+  int width_;
+  int height_;
+  FrontPlaneParameters parameters_;
+};
+
+}  // namespace redbee
