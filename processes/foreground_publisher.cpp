@@ -14,7 +14,6 @@ constexpr uchar kUnknown = 255;
 
 detections_t detectionsMessage(const SegmentationOutput& output) {
   detections_t message{};
-  message.utime = output.utime;
   message.status = static_cast<int8_t>(output.status);
   message.n = static_cast<int32_t>(output.detections.size());
   for (const Detection& detection : output.detections) {
@@ -64,9 +63,7 @@ void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, 
     for (Detection& detection : output.detections) detection.box = rawBox(camera_.camera(), detection.box);
   }
   foreground_t foreground{};
-  foreground.utime = output.utime;
   foreground.utime_previous = utime_previous;
-  foreground.sequence = sequence_;
   foreground.status = static_cast<int8_t>(output.status);
   foreground.width = output.mask.cols;
   foreground.height = output.mask.rows;
@@ -76,11 +73,9 @@ void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, 
   foreground.probability_size = static_cast<int32_t>(foreground.probability.size());
   foreground.mask_size = static_cast<int32_t>(foreground.mask.size());
   foreground.unknown_size = static_cast<int32_t>(foreground.unknown.size());
-  bus_.publish(configuration_.channels.foreground, foreground);
+  publisher_.publish(configuration_.channels.foreground, foreground);
 
-  detections_t detections = detectionsMessage(output);
-  detections.sequence = sequence_++;
-  bus_.publish(configuration_.channels.detections, detections);
+  publisher_.publish(configuration_.channels.detections, detectionsMessage(output));
   publishOverlay(image, output);
 }
 
@@ -93,7 +88,7 @@ void ForegroundPublisher::publishOverlay(const image_t& image, const Segmentatio
     status.utime = image.utime;
     status.message = output.status == SegmentationStatus::kGood ? "" : toString(output.status);
     const cv::Mat drawn = drawOverlay(*colour, output.mask, output.detections, status);
-    bus_.publish(configuration_.channels.overlay, jpegMessage(image.utime, drawn, kOverlayQuality));
+    publisher_.publish(configuration_.channels.overlay, jpegMessage(image.utime, drawn, kOverlayQuality));
   }
 }
 

@@ -1,20 +1,20 @@
-// What a detector says of a frame, as FOREGROUND, DETECTIONS and OVERLAY on the raw image's grid.
+// What a detector found in a frame, as FOREGROUND, DETECTIONS and OVERLAY on the raw image's grid.
 #pragma once
 
 #include <cstdint>
 
 #include "processes/rectified_camera.hpp"
-#include "redbee/bus/bus.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/detection/motion_segmenter.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/node/publisher.hpp"
 
 namespace redbee {
 
 class ForegroundPublisher {
  public:
-  ForegroundPublisher(Bus& bus, const Configuration& configuration, const RectifiedCamera& camera)
-      : bus_(bus), configuration_(configuration), camera_(camera) {}
+  ForegroundPublisher(Publisher& publisher, const Configuration& configuration, const RectifiedCamera& camera)
+      : publisher_(publisher), configuration_(configuration), camera_(camera) {}
 
   /// `image`: the frame as it came. `output`: on the ideal grid. One message of each kind, and an overlay
   /// every so often.
@@ -23,10 +23,9 @@ class ForegroundPublisher {
  private:
   void publishOverlay(const image_t& image, const SegmentationOutput& output);
 
-  Bus& bus_;
+  Publisher& publisher_;
   const Configuration& configuration_;
   const RectifiedCamera& camera_;
-  int32_t sequence_ = 0;
   int frames_since_overlay_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #include "redbee/node/stage.hpp"
 
-#include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -14,7 +14,7 @@ void Stage::finish() {
 }
 
 bool Stage::acceptFrame(int64_t utime) {
-  if (!isPlausibleTime(utime)) {
+  if (!isPlausibleTime(CameraTime(fromUtime(utime)))) {
     health_.noteDamaged();
     return false;
   }

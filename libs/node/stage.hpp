@@ -1,5 +1,5 @@
-// What the nodes of all stages have in common: subscriptions that end with the node, sequence numbers, order of
-// the frames, time-outs and health.
+// What the nodes of all stages have in common: subscriptions that end with the node, sequence numbers, order
+// of the frames, time-outs and health.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +42,8 @@ class Stage : public Node {
   template <typename Message, typename Handler>
   void on(const std::string& channel, Handler handler);
 
-  /// Whether to work on a frame that arrived with this time: late and doubled ones are skipped. Calls restart()
-  /// first where the camera's clock was set back.
+  /// Whether to work on a frame that arrived with this time: late and doubled ones are skipped. Calls
+  /// restart() first where the camera's clock was set back.
   bool acceptFrame(int64_t utime);
   FrameOrder& frameOrder() { return order_; }
   /// The camera's clock was set back: drops what waits and forgets what was learned.
@@ -56,7 +56,8 @@ class Stage : public Node {
   /// No message will come any more: process() works off what is left.
   bool isFinishing() const { return finishing_; }
 
-  /// Calls `work` for one frame and notes in the health what it took. `arrival`: since the frame was received.
+  /// Calls `work` for one frame and notes in the health what it took. `arrival`: since the frame was
+  /// received.
   template <typename Work>
   void workOn(int64_t utime, const WorkTimer& arrival, const Work& work);
   /// Inside workOn(): from here on the frame's answer is known, and is only made into messages.

@@ -12,54 +12,50 @@
 #include "redbee/fusion/homography_fusion.hpp"
 #include "redbee/inertial/calibration_monitor.hpp"
 #include "redbee/inertial_homography_t.hpp"
-#include "redbee/node/frame_order.hpp"
 #include "redbee/node/message_clock.hpp"
 #include "redbee/node/message_synchronizer.hpp"
-#include "redbee/node/node.hpp"
-#include "redbee/node/work_timer.hpp"
+#include "redbee/node/stage.hpp"
+#include "redbee/visual/front_plane_estimator.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {
 
-/// One message per frame that either source has spoken of, in order of time.
-class HomographyFusionNode : public Node {
+/// One message per frame that either source has reported, in order of time.
+class HomographyFusionNode : public Stage {
  public:
   HomographyFusionNode(Bus& bus, const Configuration& configuration);
   void process() override;
-  void finish() override;
-  HealthMonitor& health() override { return health_; }
 
  private:
-  void takeInertial(const inertial_homography_t& message);
-  void takeState(const filter_snapshot_t& message) { kept_ = message; }
-  void takeVisual(const visual_homography_t& message);
+  bool takeInertial(const inertial_homography_t& message);
+  bool takeVisual(const visual_homography_t& message);
   void expect(int64_t utime);
-  bool ready(int64_t utime);
-  void fuse(int64_t utime, const WorkTimer& since_arrival);
-  fused_homography_t messageOf(const FusedHomography& fused);
-  /// What the fusion had: the camera's motion, vision's points and homography, the second plane among them.
-  void addSources(fused_homography_t& message, const FusedHomography& fused,
-                  const inertial_homography_t* inertial, const visual_homography_t* visual) const;
-  /// To an inertial process that begins: it may have taken the place of one that died. Whether it believes
-  /// what it is told is its own affair.
+  bool isReadyFor(int64_t utime);
+  void fuse(int64_t utime);
+  fused_homography_t messageOf(const FusedHomography& fused) const;
+  /// Compares the two sources' homographies of one pair of frames: whether the calibration fits the flight.
+  void validateCalibration(const FusedHomography& fused, const InertialInput& inertial,
+                           const VisualInput& visual);
+  /// Vision's own homography, rejected by the fusion or not: the inertial filter validates it for itself, or
+  /// a diverged filter would never be corrected.
+  void addObservation(fused_homography_t& message, const VisualInput& visual) const;
+  static void addFrontPlane(fused_homography_t& message, const HomographyEstimate& front);
+  /// To an inertial process at its first frame: it may have replaced one that died. It validates the snapshot
+  /// for itself.
   void publishWarmStart();
-  void restart();
+  void restart() override;
 
-  Bus& bus_;
   Configuration configuration_;
-  HealthMonitor health_;
   CameraIntrinsics camera_;  ///< ideal
   HomographyFusion fusion_;
+  FrontPlaneEstimator front_plane_;
   CalibrationMonitor calibration_;
-  FrameOrder order_;
-  std::map<int64_t, WorkTimer> pending_;  ///< frames by time, each with its first word's arrival
+  std::map<int64_t, WorkTimer> pending_;  ///< frames by time, each since its first message arrived
   MessageSynchronizer<inertial_homography_t> inertial_;
   MessageSynchronizer<visual_homography_t> visual_;
-  std::optional<filter_snapshot_t> kept_;  ///< the newest of the inertial process
+  std::optional<filter_snapshot_t> snapshot_;  ///< the newest of the inertial process
   bool inertial_at_first_frame_ = false;
   MessageClock clock_;
-  bool finishing_ = false;
-  int32_t sequence_ = 0;
 };
 
 }  // namespace redbee

@@ -5,79 +5,62 @@
 #include <utility>
 
 #include "processes/conversions.hpp"
-#include "processes/note_calibration.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/geometry/time.hpp"
-#include "redbee/node/frame_intake.hpp"
-#include "redbee/node/work_timer.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr int kFrameQueue = 64;
-constexpr int kImuQueue = 4000;
 constexpr size_t kMaxPendingFrames = 256;
-/// Frames in a row that vision must have agreed at before what was learned is worth keeping: a new start
-/// would mend what it contradicts, and a process that dies again at once must not leave less than it found.
+/// Frames in a row at which vision must have agreed before a snapshot is published: what vision contradicts
+/// is better estimated again from the start, and a process that dies at once again must not spoil the last
+/// one.
 constexpr int kAgreedFrames = 12;
 
 }  // namespace
 
 ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configuration)
-    : bus_(bus),
+    : Stage(bus, programName(kImuIntegration), configurationHash(configuration)),
       configuration_(configuration),
       configuration_hash_(configurationHash(configuration)),
-      health_(programName(kImuIntegration), configuration_hash_),
       camera_(configuration.camera),
       filter_(camera_, configuration.inertial),
       feedback_(fromSeconds(configuration.waits.inertial_s).count(), true) {
-  const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
-  bus_.subscribe<image_t>(
-      channels.camera, kFrameQueue, [this](const image_t& m) { takeFrame(m); }, damaged);
-  bus_.subscribe<ins_t>(
-      channels.imu, kImuQueue, [this](const ins_t& m) { takeImu(m); }, damaged);
+  on<image_t>(channels.camera, [this](const image_t& m) { takeFrame(m); });
+  on<ins_t>(channels.imu, [this](const ins_t& m) { return takeImu(m); });
   if (configuration_.has_altimeter) {
-    bus_.subscribe<altimeter_t>(
-        channels.altimeter, kImuQueue, [this](const altimeter_t& m) { takeAltitude(m); }, damaged);
+    on<altimeter_t>(channels.altimeter, [this](const altimeter_t& m) {
+      return filter_.addAltitude({ImuTime(fromUtime(m.utime)), m.height, m.sigma});
+    });
   }
-  bus_.subscribe<fused_homography_t>(
-      channels.fused_homography, kFrameQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged);
-  bus_.subscribe<filter_snapshot_t>(
-      channels.warm_start, kFrameQueue, [this](const filter_snapshot_t& m) { takeWarmStart(m); }, damaged);
+  on<fused_homography_t>(channels.fused_homography,
+                         [this](const fused_homography_t& m) { return takeFused(m); });
+  on<filter_snapshot_t>(channels.warm_start, [this](const filter_snapshot_t& m) { warm_start_ = m; });
 }
 
 void ImuIntegrationNode::takeFrame(const image_t& message) {
-  if (!acceptFrame(order_, health_, message.utime, [this] { restart(); })) return;
+  if (!acceptFrame(message.utime)) return;
   clock_.noteFrame(message.utime);
   pending_.push_back({message.utime, {}});
   if (pending_.size() > kMaxPendingFrames) {
     pending_.pop_front();
-    health_.noteSkipped();
+    health().noteSkipped();
   }
 }
 
-void ImuIntegrationNode::takeImu(const ins_t& message) {
+bool ImuIntegrationNode::takeImu(const ins_t& message) {
   clock_.noteOther(message.utime);
-  if (!filter_.addImu({ImuTime(fromUtime(message.utime)), vector3(message.gyro), vector3(message.accel)})) {
-    health_.noteDamaged();
-    return;
-  }
-  imu_alive_ = true;
+  const bool plausible =
+      filter_.addImu({ImuTime(fromUtime(message.utime)), vector3(message.gyro), vector3(message.accel)});
+  if (plausible) imu_alive_ = true;
+  return plausible;
 }
 
-void ImuIntegrationNode::takeAltitude(const altimeter_t& message) {
-  if (!filter_.addAltitude({ImuTime(fromUtime(message.utime)), message.height, message.sigma}))
-    health_.noteDamaged();
-}
-
-void ImuIntegrationNode::takeFused(const fused_homography_t& message) {
-  health_.noteSequence(configuration_.channels.fused_homography, message.sequence);
-  if (!plausibleTimes(message)) {
-    health_.noteDamaged();
-    return;
-  }
+bool ImuIntegrationNode::takeFused(const fused_homography_t& message) {
+  if (!plausibleTimes(message)) return false;
   feedback_.put(message.utime, message);
+  return true;
 }
 
 void ImuIntegrationNode::restart() {
@@ -88,33 +71,29 @@ void ImuIntegrationNode::restart() {
   last_frame_utime_.reset();
 }
 
-bool ImuIntegrationNode::readyFor(int64_t frame_utime) {
-  if (finishing_) return true;
+bool ImuIntegrationNode::isReadyFor(int64_t frame_utime) {
+  if (isFinishing()) return true;
   const int64_t patience = fromSeconds(configuration_.waits.inertial_s).count();
   if (imu_alive_ && !filter_.covers(CameraTime(fromUtime(frame_utime)))) {
     if (clock_.now() - frame_utime <= patience) return false;
     imu_alive_ = false;
   }
-  if (!last_frame_utime_) return true;
-  const int64_t before = feedback_.timedOut();
-  const auto answer = feedback_.status(*last_frame_utime_, clock_.now());
-  health_.noteLate(feedback_.timedOut() - before);
-  return answer != MessageSynchronizer<fused_homography_t>::Status::kPending;
+  return !last_frame_utime_ || !isPending(feedback_, *last_frame_utime_, clock_.now());
 }
 
 void ImuIntegrationNode::warmStart() {
-  const std::optional<filter_snapshot_t> kept = std::exchange(kept_, std::nullopt);
-  if (!kept || !filter_.isAtFirstFrame()) return;
-  if (kept->configuration != configuration_hash_) {
-    spdlog::warn("the kept state of {} us is of another configuration: ignored", kept->utime);
+  const std::optional<filter_snapshot_t> snapshot = std::exchange(warm_start_, std::nullopt);
+  if (!snapshot || !filter_.isAtFirstFrame()) return;
+  if (snapshot->configuration != configuration_hash_) {
+    spdlog::warn("the filter snapshot of {} us is of another configuration: ignored", snapshot->utime);
     return;
   }
-  const SnapshotCheck verdict = filter_.warmStart(snapshotOf(*kept));
-  if (verdict == SnapshotCheck::kAccepted) {
-    spdlog::info("goes on from the kept state of {} us: {:.2f} m above the ground", kept->utime,
-                 kept->height);
+  const SnapshotCheck check = filter_.warmStart(snapshotOf(*snapshot));
+  if (check == SnapshotCheck::kAccepted) {
+    spdlog::info("warm start from the filter snapshot of {} us: {:.2f} m above the ground", snapshot->utime,
+                 snapshot->height);
   } else {
-    spdlog::warn("the kept state of {} us is {}: ignored", kept->utime, toString(verdict));
+    spdlog::warn("the filter snapshot of {} us is {}: ignored", snapshot->utime, toString(check));
   }
 }
 
@@ -127,48 +106,35 @@ void ImuIntegrationNode::applyFeedback() {
                                           CameraTime(fromUtime(fused->utime)), matrix3(fused->H_observed),
                                           matrix8(fused->covariance_observed)};
   if (!observation.H.allFinite() || !observation.covariance.allFinite()) {
-    health_.noteDamaged();
+    health().noteDamaged();
     return;
   }
   feedback_report_ = filter_.correct(observation);
-  if (!last_H_) return;
-  noteCalibration(calibration_, health_, feedback_report_.test_ratio, *last_H_, observation.H,
-                  camera_.ideal());
 }
 
 void ImuIntegrationNode::publishSnapshot() {
-  bus_.publish(configuration_.channels.filter_snapshot, messageOf(*filter_.snapshot(), configuration_hash_));
+  publisher().publishAsIs(configuration_.channels.filter_snapshot,
+                          messageOf(*filter_.snapshot(), configuration_hash_));
 }
 
 void ImuIntegrationNode::process() {
-  while (!pending_.empty() && readyFor(pending_.front().utime)) {
-    const Frame frame = pending_.front();
+  while (!pending_.empty() && isReadyFor(pending_.front().content)) {
+    const Arrived<int64_t> frame = pending_.front();
     pending_.pop_front();
-    integrate(frame);
+    workOn(frame.content, frame.since, [&] { integrate(frame.content); });
   }
 }
 
-void ImuIntegrationNode::finish() {
-  finishing_ = true;
-  process();
-  finishing_ = false;
-}
-
-void ImuIntegrationNode::integrate(const Frame& frame) {
-  FrameTimers timers;
+void ImuIntegrationNode::integrate(int64_t utime) {
   warmStart();
   applyFeedback();
   agreed_in_a_row_ = feedback_report_.applied ? agreed_in_a_row_ + 1 : 0;
   if (last_frame_utime_) feedback_.eraseThrough(*last_frame_utime_);
-  const InertialHomography result = filter_.advanceTo(CameraTime(fromUtime(frame.utime)));
-  last_frame_utime_ = frame.utime;
-  last_H_ = result.valid ? std::optional<Eigen::Matrix3d>(result.H) : std::nullopt;
-  timers.cpu.answered();
-
+  const InertialHomography result = filter_.advanceTo(CameraTime(fromUtime(utime)));
+  last_frame_utime_ = utime;
+  noteAnswered();
   inertial_homography_t message{};
-  message.utime = frame.utime;
   message.utime_previous = toUtime(result.time_previous);
-  message.sequence = sequence_++;
   message.status = static_cast<int8_t>(result.status);
   message.valid = result.valid ? 1 : 0;
   message.width = camera_.ideal().width;
@@ -188,13 +154,12 @@ void ImuIntegrationNode::integrate(const Frame& frame) {
     fill(message.accel_bias, state->accel_bias);
   }
   message.feedback_test_ratio = feedback_report_.test_ratio;
-  bus_.publish(configuration_.channels.inertial_homography, message);
+  publish(configuration_.channels.inertial_homography, message);
   if (result.valid && agreed_in_a_row_ >= kAgreedFrames) publishSnapshot();
-  noteDone(health_, frame.utime, frame.since_arrival, timers);
   if (result.valid && result.status == InertialStatus::kGood) {
-    health_.setState(HealthState::kGood, "");
+    health().setState(HealthState::kGood, "");
   } else {
-    health_.setState(HealthState::kDegraded, toString(result.status));
+    health().setState(HealthState::kDegraded, toString(result.status));
   }
 }
 

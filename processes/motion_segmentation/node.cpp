@@ -2,18 +2,16 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <utility>
 
 #include "processes/conversions.hpp"
-#include "processes/note_calibration.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/geometry/time.hpp"
-#include "redbee/node/work_timer.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr int kFrameQueue = 64;
 constexpr int8_t kVisualGood = 0;
 
 /// How much smaller a image may be decoded: the parallax segmentation shrinks it anyway.
@@ -31,68 +29,37 @@ int imageDownscale(const Configuration& configuration) {
 }  // namespace
 
 MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration)
-    : bus_(bus),
+    : ImageStage(bus, programName(kMotionSegmentation), configurationHash(configuration),
+                 configuration.channels.camera, configuration.waits.max_backlog,
+                 {fromSeconds(configuration.waits.segmentation_s).count(), true}),
       configuration_(configuration),
-      health_(programName(kMotionSegmentation), configurationHash(configuration)),
       camera_(configuration.camera, imageDownscale(configuration)),
-      publisher_(bus_, configuration_, camera_),
+      foreground_(publisher(), configuration_, camera_),
       segmenter_(configuration.segmentation),
-      images_(configuration.waits.max_backlog),
-      fused_(fromSeconds(configuration.waits.segmentation_s).count(), true),
       visual_(0, false) {
-  const auto damaged = [this] { health_.noteDamaged(); };
   const auto& channels = configuration_.channels;
-  bus_.subscribe<image_t>(
-      channels.camera, kFrameQueue,
-      [this](const image_t& m) { images_.take(m, health_, [this] { restart(); }); }, damaged);
-  bus_.subscribe<fused_homography_t>(
-      channels.fused_homography, kFrameQueue,
-      [this](const fused_homography_t& m) {
-        health_.noteSequence(configuration_.channels.fused_homography, m.sequence);
-        if (finiteHomography(m)) {
-          fused_.put(m.utime, m);
-          judgeCalibration(m);
-        } else {
-          health_.noteDamaged();
-        }
-      },
-      damaged);
-  bus_.subscribe<visual_homography_t>(
-      channels.visual_homography, kFrameQueue,
-      [this](const visual_homography_t& m) {
-        if (finiteHomography(m)) visual_.put(m.utime, m);
-      },
-      damaged);
+  on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) {
+    if (!finiteHomography(m)) return false;
+    companions().put(m.utime, m);
+    return true;
+  });
+  on<visual_homography_t>(channels.visual_homography, [this](const visual_homography_t& m) {
+    if (finiteHomography(m)) visual_.put(m.utime, m);
+  });
 }
 
-void MotionSegmentationNode::judgeCalibration(const fused_homography_t& fused) {
-  if (fused.has_innovation == 0 || fused.has_motion == 0 || fused.has_observation == 0) return;
-  const PlaneMotion motion{matrix3(fused.R), vector3(fused.t), vector3(fused.normal), fused.plane_distance};
-  noteCalibration(calibration_, health_, fused.test_ratio, planeHomography(camera_.camera().K(), motion),
-                  matrix3(fused.H_observed), camera_.camera().ideal());
-}
-
-void MotionSegmentationNode::restart() {
-  fused_.clear();
+void MotionSegmentationNode::reset() {
   visual_.clear();
   last_.reset();
 }
 
-void MotionSegmentationNode::process() {
-  images_.workOff(fused_, health_, [this](const Arrived<image_t>& frame) { segment(frame); });
-}
-
-void MotionSegmentationNode::finish() {
-  images_.workOffAll([this](const Arrived<image_t>& frame) { segment(frame); });
-}
-
-SegmentationInput MotionSegmentationNode::inputFor(const image_t& message) const {
+SegmentationInput MotionSegmentationNode::inputFor(const image_t& message,
+                                                   const fused_homography_t* fused) const {
   SegmentationInput input;
   input.utime = message.utime;
   input.utime_previous = last_ ? last_->utime : message.utime;
   input.K = camera_.camera().K();
   if (!last_) return input;
-  const fused_homography_t* fused = fused_.find(message.utime);
   if (fused == nullptr || fused->source == 0) {
     addVisual(input);
     return input;
@@ -122,28 +89,27 @@ void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
   input.tracks = tracksOf(*visual);
 }
 
-void MotionSegmentationNode::segment(const Arrived<image_t>& frame) {
-  FrameTimers timers;
-  const image_t& message = frame.content;
-  SegmentationInput input = inputFor(message);
+void MotionSegmentationNode::work(const image_t& message) {
+  const fused_homography_t* fused = companions().find(message.utime);
+  SegmentationInput input = inputFor(message, fused);
   decodeInto(input, message);
   const SegmentationOutput output = segmenter_.step(input);
-  timers.cpu.answered();
-  publish(message, input, output);
-  if (const fused_homography_t* fused = fused_.find(message.utime)) {
+  noteAnswered();
+  publishOutput(message, input, output);
+  noteState(output.status, fused != nullptr);
+  if (fused != nullptr) {
     last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->H_anchor)};
   } else {
     last_ = Last{message.utime, -1, 0, Eigen::Matrix3d::Identity()};
   }
-  fused_.eraseThrough(message.utime);
+  companions().eraseThrough(message.utime);
   visual_.eraseThrough(message.utime);
-  noteDone(health_, message.utime, frame.since, timers);
 }
 
 void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
   const bool wants_colour =
       configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
-  const IdealImage image = camera_.ideal(message, wants_colour, health_);
+  const IdealImage image = camera_.ideal(message, wants_colour, health());
   input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
   input.grey = image.grey;
   input.colour = image.colour;
@@ -151,16 +117,19 @@ void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t&
   input.grey = cv::Mat::zeros(input.size, CV_8U);
 }
 
-void MotionSegmentationNode::publish(const image_t& message, const SegmentationInput& input,
-                                     SegmentationOutput output) {
+void MotionSegmentationNode::publishOutput(const image_t& message, const SegmentationInput& input,
+                                           SegmentationOutput output) {
   for (Detection& detection : output.detections) detection.id = identities_.globalId(detection.id);
-  publisher_.publish(message, input.utime_previous, output);
-  if (output.status != SegmentationStatus::kGood) {
-    health_.setState(HealthState::kDegraded, toString(output.status));
-  } else if (fused_.find(output.utime) == nullptr) {
-    health_.setState(HealthState::kDegraded, "the fusion is away: homography from vision");
+  foreground_.publish(message, input.utime_previous, std::move(output));
+}
+
+void MotionSegmentationNode::noteState(SegmentationStatus status, bool has_fused) {
+  if (status != SegmentationStatus::kGood) {
+    health().setState(HealthState::kDegraded, toString(status));
+  } else if (!has_fused) {
+    health().setState(HealthState::kDegraded, "no fused homography: homography from vision");
   } else {
-    health_.setState(HealthState::kGood);
+    health().setState(HealthState::kGood);
   }
 }
 

@@ -11,21 +11,15 @@
 #include "redbee/detection/motion_segmenter.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
-#include "redbee/inertial/calibration_monitor.hpp"
-#include "redbee/node/image_queue.hpp"
-#include "redbee/node/message_synchronizer.hpp"
-#include "redbee/node/node.hpp"
+#include "redbee/node/image_stage.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {
 
 /// One message of each kind per frame. Maps and boxes are on the raw image's grid.
-class MotionSegmentationNode : public Node {
+class MotionSegmentationNode : public ImageStage<fused_homography_t> {
  public:
   MotionSegmentationNode(Bus& bus, const Configuration& configuration);
-  void process() override;
-  void finish() override;
-  HealthMonitor& health() override { return health_; }
   void keepStateIn(const std::filesystem::path& folder) override {
     identities_ = TrackIdStore(folder / "identities");
   }
@@ -39,27 +33,23 @@ class MotionSegmentationNode : public Node {
     Eigen::Matrix3d H_anchor;
   };
 
-  void segment(const Arrived<image_t>& frame);
-  SegmentationInput inputFor(const image_t& message) const;
+  void work(const image_t& message) override;
+  /// `fused`: of this frame; null where there is none.
+  SegmentationInput inputFor(const image_t& message, const fused_homography_t* fused) const;
   void addVisual(SegmentationInput& input) const;
   /// Black where there is no image of the camera's size.
   void decodeInto(SegmentationInput& input, const image_t& message);
-  void publish(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
-  void judgeCalibration(const fused_homography_t& fused);
-  void restart();
+  void publishOutput(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
+  void noteState(SegmentationStatus status, bool has_fused);
+  void reset() override;
 
-  Bus& bus_;
   Configuration configuration_;
-  HealthMonitor health_;
   RectifiedCamera camera_;
-  ForegroundPublisher publisher_;
+  ForegroundPublisher foreground_;
   MotionSegmenter segmenter_;
-  ImageQueue images_;
-  MessageSynchronizer<fused_homography_t> fused_;
   MessageSynchronizer<visual_homography_t> visual_;
   std::optional<Last> last_;
   TrackIdStore identities_;
-  CalibrationMonitor calibration_;
 };
 
 }  // namespace redbee

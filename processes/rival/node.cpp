@@ -1,16 +1,14 @@
 #include "processes/rival/node.hpp"
 
 #include <opencv2/core/eigen.hpp>
+#include <utility>
 
 #include "processes/conversions.hpp"
 #include "redbee/detection/rivals/graded_score.hpp"
 #include "redbee/geometry/time.hpp"
-#include "redbee/node/work_timer.hpp"
 
 namespace redbee {
 namespace {
-
-constexpr int kFrameQueue = 64;
 
 SegmentationStatus statusOf(RivalStatus status) {
   switch (status) {
@@ -35,58 +33,36 @@ Configuration withDecisionScore(Configuration configuration) {
 }  // namespace
 
 RivalNode::RivalNode(Bus& bus, const Configuration& configuration, const std::string& rival)
-    : bus_(bus),
+    : RivalNode(bus, configuration, rival, makeRival(rival)) {}
+
+RivalNode::RivalNode(Bus& bus, const Configuration& configuration, const std::string& name,
+                     std::unique_ptr<Rival> rival)
+    : ImageStage(bus, "rival-" + name, configurationHash(configuration), configuration.channels.camera,
+                 configuration.waits.max_backlog,
+                 {fromSeconds(configuration.waits.segmentation_s).count(),
+                  configuration.has_imu && rival->wantsMotion()}),
       configuration_(withDecisionScore(configuration)),
-      name_("rival-" + rival),
-      health_(name_, configurationHash(configuration)),
       camera_(configuration.camera),
-      publisher_(bus_, configuration_, camera_),
-      rival_(makeRival(rival)),
-      tracker_(configuration_.segmentation),
-      images_(configuration.waits.max_backlog),
-      inertial_(fromSeconds(configuration.waits.segmentation_s).count(),
-                configuration.has_imu && rival_->wantsMotion()) {
-  const auto damaged = [this] { health_.noteDamaged(); };
-  const auto& channels = configuration_.channels;
-  bus_.subscribe<image_t>(
-      channels.camera, kFrameQueue,
-      [this](const image_t& m) { images_.take(m, health_, [this] { restart(); }); }, damaged);
+      foreground_(publisher(), configuration_, camera_),
+      rival_(std::move(rival)),
+      tracker_(configuration_.segmentation) {
   if (!rival_->wantsMotion()) return;
-  bus_.subscribe<inertial_homography_t>(
-      channels.inertial_homography, kFrameQueue, [this](const inertial_homography_t& m) { takeInertial(m); },
-      damaged);
-}
-
-void RivalNode::takeInertial(const inertial_homography_t& message) {
-  health_.noteSequence(configuration_.channels.inertial_homography, message.sequence);
-  if (finiteHomography(message)) {
-    inertial_.put(message.utime, message);
-  } else {
-    health_.noteDamaged();
-  }
-}
-
-void RivalNode::restart() {
-  inertial_.clear();
-  last_utime_.reset();
-}
-
-void RivalNode::process() {
-  images_.workOff(inertial_, health_, [this](const Arrived<image_t>& frame) { work(frame); });
-}
-
-void RivalNode::finish() {
-  images_.workOffAll([this](const Arrived<image_t>& frame) { work(frame); });
+  on<inertial_homography_t>(configuration_.channels.inertial_homography,
+                            [this](const inertial_homography_t& m) {
+                              if (!finiteHomography(m)) return false;
+                              companions().put(m.utime, m);
+                              return true;
+                            });
 }
 
 RivalInput RivalNode::inputFor(const image_t& message) {
   RivalInput input;
   input.utime = message.utime;
   input.K = camera_.camera().K();
-  const IdealImage image = camera_.ideal(message, rival_->wantsColour(), health_);
+  const IdealImage image = camera_.ideal(message, rival_->wantsColour(), health());
   input.grey = image.grey;
   input.colour = image.colour;
-  const inertial_homography_t* inertial = inertial_.find(message.utime);
+  const inertial_homography_t* inertial = companions().find(message.utime);
   if (inertial != nullptr && inertial->valid != 0 && last_utime_ &&
       inertial->utime_previous == *last_utime_) {
     input.motion = PlaneMotion{matrix3(inertial->R), vector3(inertial->t), vector3(inertial->normal),
@@ -119,17 +95,14 @@ SegmentationOutput RivalNode::detect(const RivalInput& input) {
   return output;
 }
 
-void RivalNode::work(const Arrived<image_t>& frame) {
-  FrameTimers timers;
-  const int64_t utime = frame.content.utime;
-  const SegmentationOutput output = detect(inputFor(frame.content));
-  timers.cpu.answered();
-  publisher_.publish(frame.content, last_utime_.value_or(utime), output);
-  last_utime_ = utime;
-  inertial_.eraseThrough(utime);
+void RivalNode::work(const image_t& message) {
+  const SegmentationOutput output = detect(inputFor(message));
+  noteAnswered();
+  foreground_.publish(message, last_utime_.value_or(message.utime), output);
+  last_utime_ = message.utime;
+  companions().eraseThrough(message.utime);
   const bool good = output.status == SegmentationStatus::kGood;
-  health_.setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(output.status));
-  noteDone(health_, utime, frame.since, timers);
+  health().setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(output.status));
 }
 
 }  // namespace redbee

@@ -51,8 +51,7 @@ TEST(LoadFault, ASlowSubscriberSkipsAndHoldsNobodyUp) {
   StackOutput output;
   const auto keep = [](auto& into) { return [&into](const auto& m) { into[m.utime] = m; }; };
   const Subscription fused = bus->subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, keep(output.fused));
-  const Subscription foreground =
-      bus->subscribe<foreground_t>("FOREGROUND", 64, keep(output.foreground));
+  const Subscription foreground = bus->subscribe<foreground_t>("FOREGROUND", 64, keep(output.foreground));
   const Nodes quick = motionNodes(*bus, flight.configuration);
   const auto segmentation = makeNode(kMotionSegmentation, *bus, flight.configuration);
   for (const SensorMessage& sent : flight.messages) {

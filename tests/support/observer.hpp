@@ -35,12 +35,12 @@ class Observer {
   using Clock = std::chrono::steady_clock;
 
   Observer(Bus& bus, const EndlessFlight& flight) : flight_(flight) {
-    subscriptions_.push_back(bus.subscribe<foreground_t>(
-        "FOREGROUND", 64, [this](const foreground_t& m) { take(m); }));
-    subscriptions_.push_back(bus.subscribe<detections_t>(
-        "DETECTIONS", 64, [this](const detections_t& m) { take(m); }));
-    subscriptions_.push_back(bus.subscribe<process_health_t>(
-        "PROCESS_HEALTH", 256, [this](const process_health_t& m) { take(m); }));
+    subscriptions_.push_back(
+        bus.subscribe<foreground_t>("FOREGROUND", 64, [this](const foreground_t& m) { take(m); }));
+    subscriptions_.push_back(
+        bus.subscribe<detections_t>("DETECTIONS", 64, [this](const detections_t& m) { take(m); }));
+    subscriptions_.push_back(bus.subscribe<process_health_t>("PROCESS_HEALTH", 256,
+                                                             [this](const process_health_t& m) { take(m); }));
   }
 
   const std::map<int64_t, FrameResult>& frames() const { return frames_; }

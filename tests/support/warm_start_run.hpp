@@ -76,7 +76,8 @@ class WarmStartRun {
   WarmStartRun(const WarmStartFlight& flight, FaultInjection faults)
       : flight_(flight), faults_(std::move(faults)) {
     subscriptions_.push_back(bus_->subscribe<inertial_homography_t>(
-        "INERTIAL_HOMOGRAPHY", 64, [&](const inertial_homography_t& m) { result_.homographies[frame_] = m; }));
+        "INERTIAL_HOMOGRAPHY", 64,
+        [&](const inertial_homography_t& m) { result_.homographies[frame_] = m; }));
     subscriptions_.push_back(bus_->subscribe<filter_snapshot_t>(
         "FILTER_SNAPSHOT", 64, [&](const filter_snapshot_t& m) { result_.snapshots.push_back(m); }));
     subscriptions_.push_back(bus_->subscribe<filter_snapshot_t>(

@@ -82,8 +82,10 @@ std::vector<Finding> findSensors(const DoctorOptions& options) {
   int imu = 0;
   try {
     const auto bus = makeLcmBus(options.url);
-    const Subscription camera_subscription = bus->subscribe(options.camera_channel, 100, [&](const uint8_t*, int) { ++camera; });
-    const Subscription imu_subscription = bus->subscribe(options.imu_channel, 4000, [&](const uint8_t*, int) { ++imu; });
+    const Subscription camera_subscription =
+        bus->subscribe(options.camera_channel, 100, [&](const uint8_t*, int) { ++camera; });
+    const Subscription imu_subscription =
+        bus->subscribe(options.imu_channel, 4000, [&](const uint8_t*, int) { ++imu; });
     handleUntil(*bus, options.listen_s, [] { return false; });
   } catch (const std::exception& error) {
     return {{false, std::string("sensors: ") + error.what(), "see multicast"}};

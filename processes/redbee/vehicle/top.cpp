@@ -114,7 +114,8 @@ void showOnce(const TopOptions& options, HealthBoard& board) {
 }
 
 void showUntilQuit(const TopOptions& options, HealthBoard& board) {
-  const Receiver receiver = listen(options, board);  // before the screen: LCM's messages belong on a plain terminal
+  const Receiver receiver =
+      listen(options, board);  // before the screen: LCM's messages belong on a plain terminal
   const std::atomic<bool>& stop = stopOnSignals();
   const Screen screen;
   auto next = Clock::now();

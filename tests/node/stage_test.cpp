@@ -1,0 +1,118 @@
+#include "redbee/node/stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "redbee/detections_t.hpp"
+#include "redbee/image_t.hpp"
+#include "redbee/node/image_stage.hpp"
+
+namespace redbee::test {
+namespace {
+
+constexpr int64_t kPeriod = 40'000;
+
+/// For each image one DETECTIONS message, with the ALTIMETER message of the same time.
+class EchoStage : public ImageStage<altimeter_t> {
+ public:
+  explicit EchoStage(Bus& bus) : ImageStage(bus, "echo", "hash", "CAMERA", 3, {100'000, true}) {
+    on<altimeter_t>("ALTIMETER", [this](const altimeter_t& m) {
+      if (m.height < 0) return false;
+      companions().put(m.utime, m);
+      return true;
+    });
+  }
+  int resets = 0;
+  std::vector<double> heights;  ///< -1 where a frame had no altitude
+
+ private:
+  void work(const image_t& image) override {
+    const altimeter_t* altitude = companions().find(image.utime);
+    heights.push_back(altitude != nullptr ? altitude->height : -1);
+    noteAnswered();
+    publish("DETECTIONS", detections_t{});
+    companions().eraseThrough(image.utime);
+  }
+  void reset() override { ++resets; }
+};
+
+class StageTest : public testing::Test {
+ protected:
+  void publishImage(int64_t k) {
+    image_t image{};
+    image.utime = (k + 1000) * kPeriod;
+    bus_->publish("CAMERA", image);
+  }
+  void publishAltitude(int64_t k, double height) {
+    bus_->publish("ALTIMETER", altimeter_t{(k + 1000) * kPeriod, height, 0.1});
+  }
+  void settle() {
+    do {
+      if (stage_) stage_->process();
+    } while (bus_->handle(std::chrono::milliseconds(0)) > 0);
+  }
+
+  std::unique_ptr<Bus> bus_ = makeLcmBus("memq://");
+  std::unique_ptr<EchoStage> stage_ = std::make_unique<EchoStage>(*bus_);
+  std::vector<detections_t> published_;
+  Subscription subscription_ = bus_->subscribe<detections_t>(
+      "DETECTIONS", 64, [this](const detections_t& m) { published_.push_back(m); });
+};
+
+TEST_F(StageTest, FillsInTimeAndSequenceOfWhatItPublishes) {
+  for (int k = 0; k < 3; ++k) {
+    publishAltitude(k, 1 + k);
+    publishImage(k);
+    settle();
+  }
+  ASSERT_EQ(published_.size(), 3U);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(published_[static_cast<size_t>(k)].utime, (k + 1000) * kPeriod);
+    EXPECT_EQ(published_[static_cast<size_t>(k)].sequence, k);
+  }
+  EXPECT_EQ(stage_->heights, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(stage_->health().published(), 3);
+}
+
+TEST_F(StageTest, WaitsForACompanionUntilTheLastMessage) {
+  publishImage(0);
+  settle();
+  EXPECT_TRUE(published_.empty());
+  for (int k = 1; k <= 3; ++k) publishImage(k);
+  settle();
+  EXPECT_EQ(stage_->health().skipped(), 1) << "of more than three images the oldest is skipped";
+  stage_->finish();
+  EXPECT_EQ(stage_->heights, (std::vector<double>{-1, -1, -1}))
+      << "after the last message nothing is waited for";
+  EXPECT_EQ(stage_->health().late(), 0);
+}
+
+TEST_F(StageTest, CountsWhatIsDamagedOrImplausible) {
+  bus_->publish("ALTIMETER", std::vector<uint8_t>{1, 2, 3});
+  publishAltitude(0, -1);
+  settle();
+  EXPECT_EQ(stage_->health().damaged(), 2);
+}
+
+TEST_F(StageTest, ForgetsWhatWaitsWhereTheCamerasClockWasSetBack) {
+  publishImage(500);
+  settle();
+  publishImage(0);
+  publishAltitude(0, 7);
+  settle();
+  EXPECT_EQ(stage_->resets, 1);
+  EXPECT_EQ(stage_->heights, std::vector<double>{7});
+}
+
+TEST_F(StageTest, ReceivesNothingAfterItsEnd) {
+  publishAltitude(0, 1);
+  publishImage(0);
+  stage_.reset();
+  settle();
+  EXPECT_TRUE(published_.empty());
+}
+
+}  // namespace
+}  // namespace redbee::test
