@@ -74,7 +74,7 @@ bool roughPose(const Camera& camera, const std::vector<Eigen::Vector2d>& ideal, 
 std::optional<TargetPose> estimateTargetPose(const Camera& camera, const TargetView& given) {
   if (given.pixels.size() != given.corners.size()) return std::nullopt;
   TargetView view;  // as given, without the corners that the camera model refuses
-  view.utime = given.utime;
+  view.time = given.time;
   std::vector<Eigen::Vector2d> ideal;
   for (size_t i = 0; i < given.pixels.size(); ++i) {
     const auto pixel = camera.undistort(given.pixels[i]);
