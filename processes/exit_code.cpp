@@ -21,7 +21,7 @@ int fail(int code, const std::string& line) {
 }  // namespace
 
 int exitCodeOf(const CLI::App& app, const std::function<void()>& work) {
-  const std::string program = app.get_name();
+  const std::string& program = app.get_name();
   try {
     work();
     return 0;

@@ -31,18 +31,18 @@ std::string list(const std::vector<double>& values) {
   return text;
 }
 
-Tone toneOf(calibration::Verdict verdict) {
+TextStyle styleFor(calibration::Verdict verdict) {
   switch (verdict) {
     case calibration::Verdict::kFound:
-      return Tone::kGood;
+      return TextStyle::kGood;
     case calibration::Verdict::kWeak:
-      return Tone::kWeak;
+      return TextStyle::kWeak;
     case calibration::Verdict::kRefused:
-      return Tone::kBad;
+      return TextStyle::kBad;
     case calibration::Verdict::kNotApplicable:
-      return Tone::kNeutral;
+      return TextStyle::kPlain;
   }
-  return Tone::kNeutral;
+  return TextStyle::kPlain;
 }
 
 Table parameterTable(const CalibrationResult& result) {
@@ -51,7 +51,7 @@ Table parameterTable(const CalibrationResult& result) {
   table.text_columns = {0, 1, 2, 3, 4, 5, 6};
   for (const ParameterReport& report : result.parameters) {
     table.rows.push_back({report.name, list(report.value), list(report.sigma), list(report.nominal),
-                          report.unit, Cell(toString(report.verdict), toneOf(report.verdict)),
+                          report.unit, Cell(toString(report.verdict), styleFor(report.verdict)),
                           report.explanation});
   }
   table.notes = {
@@ -216,7 +216,8 @@ std::string calibrationReport(const CalibrationInput& input, const CalibrationRe
   const Diagnostics& diagnostics = result.diagnostics;
   Page page(std::string("REDBEE ") + releaseVersion() + ": calibration of " + subject.vehicle);
   page.addParagraph("From " + subject.source);
-  for (const std::string& warning : result.warnings) page.addParagraph("Warning: " + warning, Tone::kWeak);
+  for (const std::string& warning : result.warnings)
+    page.addParagraph("Warning: " + warning, TextStyle::kWeak);
   page.addHeading("Verdicts");
   page.addTable(parameterTable(result));
   page.addHeading("The recording");

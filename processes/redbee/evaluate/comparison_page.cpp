@@ -48,6 +48,7 @@ std::vector<std::string> figuresIn(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   std::vector<std::string> figures;
+  figures.reserve(files.size());
   for (const fs::path& file : files) figures.push_back(jpegFigure(contentOf(file), captionOf(file)));
   return figures;
 }

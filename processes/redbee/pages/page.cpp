@@ -38,8 +38,8 @@ void Page::addSubheading(const std::string& text, const std::string& small_text)
   body_ += element("h3", escapeHtml(text) + small);
 }
 
-void Page::addParagraph(const std::string& text, Tone tone) {
-  body_ += element("p", escapeHtml(text), styleOf(tone));
+void Page::addParagraph(const std::string& text, TextStyle style) {
+  body_ += element("p", escapeHtml(text), classOf(style));
 }
 
 void Page::addList(const std::vector<std::string>& items) {

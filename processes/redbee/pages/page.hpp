@@ -17,7 +17,7 @@ class Page {
 
   void addHeading(const std::string& text);
   void addSubheading(const std::string& text, const std::string& small_text = "");
-  void addParagraph(const std::string& text, Tone tone = Tone::kNeutral);
+  void addParagraph(const std::string& text, TextStyle style = TextStyle::kPlain);
   void addList(const std::vector<std::string>& items);
   void addTable(const Table& table) { body_ += asHtml(table); }
   /// Figures, see jpegFigure(), with so many in a row: 2 or 4.

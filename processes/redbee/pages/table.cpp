@@ -1,5 +1,7 @@
 #include "processes/redbee/pages/table.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "processes/redbee/pages/html.hpp"
@@ -51,27 +53,28 @@ std::string withoutTrailingBlanks(const std::string& line) {
 std::string htmlRow(const Table& table, const Row& row, const std::string& element) {
   std::string html = "<tr>";
   for (size_t i = 0; i < row.size(); ++i) {
-    std::string style = isText(table, i) ? "text" : "";
-    if (row[i].tone != Tone::kNeutral) style += std::string(style.empty() ? "" : " ") + styleOf(row[i].tone);
-    html += "<" + element + (style.empty() ? "" : " class=\"" + style + "\"") + ">" +
-            escapeHtml(row[i].text) + "</" + element + ">";
+    std::string classes = isText(table, i) ? "text" : "";
+    if (row[i].style != TextStyle::kPlain)
+      classes += std::string(classes.empty() ? "" : " ") + classOf(row[i].style);
+    const std::string attribute = classes.empty() ? "" : " class=\"" + classes + "\"";
+    html += fmt::format("<{}{}>{}</{}>", element, attribute, escapeHtml(row[i].text), element);
   }
   return html + "</tr>\n";
 }
 
 }  // namespace
 
-const char* styleOf(Tone tone) {
-  switch (tone) {
-    case Tone::kNeutral:
+const char* classOf(TextStyle style) {
+  switch (style) {
+    case TextStyle::kPlain:
       return "";
-    case Tone::kNote:
+    case TextStyle::kNote:
       return "note";
-    case Tone::kGood:
+    case TextStyle::kGood:
       return "good";
-    case Tone::kWeak:
+    case TextStyle::kWeak:
       return "weak";
-    case Tone::kBad:
+    case TextStyle::kBad:
       return "bad";
   }
   return "";

@@ -8,18 +8,18 @@
 namespace redbee {
 
 /// Colours of what is shown, where there are colours.
-enum class Tone { kNeutral, kNote, kGood, kWeak, kBad };
+enum class TextStyle { kPlain, kNote, kGood, kWeak, kBad };
 /// Class of an HTML element; empty: none.
-const char* styleOf(Tone tone);
+const char* classOf(TextStyle style);
 
 struct Cell {
   Cell(std::string cell_text,
-       Tone cell_tone = Tone::kNeutral)  // NOLINT(google-explicit-constructor): a text is a cell
-      : text(std::move(cell_text)), tone(cell_tone) {}
+       TextStyle cell_style = TextStyle::kPlain)  // NOLINT(google-explicit-constructor): a text is a cell
+      : text(std::move(cell_text)), style(cell_style) {}
   Cell(const char* cell_text) : text(cell_text) {}  // NOLINT(google-explicit-constructor)
 
   std::string text;
-  Tone tone = Tone::kNeutral;
+  TextStyle style = TextStyle::kPlain;
 };
 
 /// Every row has as many cells as there are columns.

@@ -1,5 +1,7 @@
 #include "processes/redbee/vehicle/doctor.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -33,9 +35,7 @@ bool onPath(const std::string& program) {
 }
 
 Finding sensorFinding(const std::string& channel, int count, double seconds) {
-  char rate[96];
-  std::snprintf(rate, sizeof rate, "%s: %.1f messages a second", channel.c_str(), count / seconds);
-  if (count > 0) return {true, rate, ""};
+  if (count > 0) return {true, fmt::format("{}: {:.1f} messages per second", channel, count / seconds), ""};
   return {false, channel + ": no messages",
           "start the driver that publishes " + channel +
               " (or lcm-logplayer with a recorded flight) on the same URL"};

@@ -1,7 +1,8 @@
 #include "processes/redbee/vehicle/health_board.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 #include "redbee/configuration/process_table.hpp"
@@ -10,30 +11,25 @@
 namespace redbee {
 namespace {
 
+/// Process, state, process id and eight figures.
+constexpr const char* kRow = "{:<19.19} {:<9.9}{:>7} {:>5} {:>5} {:>5} {:>5} {:>4} {:>4} {:>4} {:>4}";
+
 std::string shortName(const std::string& process) {
   const std::string prefix = "redbee-";
   return process.rfind(prefix, 0) == 0 ? process.substr(prefix.size()) : process;
 }
 
-template <typename... Arguments>
-std::string formatted(const char* format, Arguments... arguments) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, arguments...);
-  return text;
-}
-
 /// At most four characters, whatever the count.
 std::string brief(int64_t count) {
-  const auto number = static_cast<long long>(count);
-  if (number < 10000) return std::to_string(number);
-  if (number < 1000000) return formatted("%lldk", number / 1000);
-  return formatted("%lldM", std::min(number / 1000000, 999LL));
+  if (count < 10000) return std::to_string(count);
+  if (count < 1000000) return fmt::format("{}k", count / 1000);
+  return fmt::format("{}M", std::min(count / 1000000, int64_t{999}));
 }
 
 /// At most five characters.
 std::string brief(double value) {
-  if (value < 1000) return formatted("%.1f", value);
-  return value < 99999 ? formatted("%.0f", value) : ">99 s";
+  if (value < 1000) return fmt::format("{:.1f}", value);
+  return value < 99999 ? fmt::format("{:.0f}", value) : ">99 s";
 }
 
 long long secondsBetween(HealthBoard::Time from, HealthBoard::Time to) {
@@ -105,10 +101,9 @@ BoardLine HealthBoard::row(const Entry& entry, Time now) {
   const bool silent = isSilent(entry, now);
   const std::string shown = silent ? "silent" : toString(state);
   // A space separates a column from the next even where it is full.
-  return {formatted("%-19.19s %-9.9s%7d %5s %5s %5s %5s %4s %4s %4s %4s", shortName(h.process).c_str(),
-                    shown.c_str(), h.pid, brief(h.rate_in).c_str(), brief(h.rate_out).c_str(),
-                    brief(h.latency_median).c_str(), brief(h.latency_p99).c_str(), brief(h.skipped).c_str(),
-                    brief(h.lost).c_str(), brief(h.damaged).c_str(), brief(h.resident >> 20).c_str()),
+  return {fmt::format(kRow, shortName(h.process), shown, h.pid, brief(h.rate_in), brief(h.rate_out),
+                      brief(h.latency_median), brief(h.latency_p99), brief(h.skipped), brief(h.lost),
+                      brief(h.damaged), brief(h.resident >> 20)),
           silent ? Tone::kBad : toneOf(state)};
 }
 
@@ -120,7 +115,7 @@ void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
     const std::string who = shortName(name) + ": ";
     if (isSilent(entry, now)) {
       lines.push_back(
-          {who + formatted("silent since %lld s", secondsBetween(entry.received, now)), Tone::kBad});
+          {who + fmt::format("silent since {} s", secondsBetween(entry.received, now)), Tone::kBad});
     }
     if (!entry.last.message.empty()) {
       lines.push_back({who + entry.last.message, toneOf(static_cast<HealthState>(entry.last.state))});
@@ -129,12 +124,11 @@ void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
       lines.push_back({who + "calibration: " + entry.last.calibration, Tone::kWarning});
     }
     if (entry.last.late > 0) {
-      lines.push_back(
-          {who + formatted("%lld inputs timed out", static_cast<long long>(entry.last.late)), Tone::kPlain});
+      lines.push_back({who + fmt::format("{} inputs timed out", entry.last.late), Tone::kPlain});
     }
     if (entry.restarts > 0) {
-      lines.push_back({who + formatted("restarts seen: %d, the last %lld s ago", entry.restarts,
-                                       secondsBetween(entry.restarted, now)),
+      lines.push_back({who + fmt::format("restarts seen: {}, the last {} s ago", entry.restarts,
+                                         secondsBetween(entry.restarted, now)),
                        Tone::kPlain});
     }
   }
@@ -160,13 +154,13 @@ void HealthBoard::appendBuilds(std::vector<BoardLine>& lines) const {
 
 std::vector<BoardLine> HealthBoard::table(Time now, int columns) const {
   std::vector<BoardLine> lines;
-  lines.push_back({formatted("%-19s %-9s%7s %5s %5s %5s %5s %4s %4s %4s %4s", "PROCESS", "STATE", "PID",
-                             "IN/s", "OUT/s", "MED", "P99ms", "SKIP", "LOST", "DMGD", "MiB"),
+  lines.push_back({fmt::format(kRow, "PROCESS", "STATE", "PID", "IN/s", "OUT/s", "MED", "P99ms", "SKIP",
+                               "LOST", "DMGD", "MiB"),
                    Tone::kHeading});
   for (const std::string& name : inOrderOfWork(entries_)) {
     const auto it = entries_.find(name);
     lines.push_back(it == entries_.end()
-                        ? BoardLine{formatted("%-19s no messages", shortName(name).c_str()), Tone::kBad}
+                        ? BoardLine{fmt::format("{:<19} no messages", shortName(name)), Tone::kBad}
                         : row(it->second, now));
   }
   lines.push_back({"", Tone::kPlain});

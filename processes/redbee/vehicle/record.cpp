@@ -1,5 +1,7 @@
 #include "processes/redbee/vehicle/record.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -45,9 +47,7 @@ double freeMegabytes(const std::filesystem::path& folder) {
 std::string shortageOfDisk(const RecordOptions& options) {
   const double free = freeMegabytes(options.out);
   if (free > options.min_free_mb) return "";
-  char text[96];
-  std::snprintf(text, sizeof text, "%.0f MB free, %.0f MB are kept free", free, options.min_free_mb);
-  return text;
+  return fmt::format("{:.0f} MB free, {:.0f} MB are kept free", free, options.min_free_mb);
 }
 
 class Recorder {

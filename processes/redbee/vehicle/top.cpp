@@ -1,6 +1,7 @@
 #include "processes/redbee/vehicle/top.hpp"
 
 #include <curses.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <chrono>
 #include <clocale>
@@ -37,10 +38,8 @@ std::string headline(const HealthBoard& board, Clock::time_point now) {
   const std::time_t wall = std::time(nullptr);
   std::tm parts{};
   localtime_r(&wall, &parts);
-  char text[96];
-  std::snprintf(text, sizeof text, "redbee top - %02d:%02d:%02d, %d processes, %d good", parts.tm_hour,
-                parts.tm_min, parts.tm_sec, board.processes(), board.good(now));
-  return text;
+  return fmt::format("redbee top - {:02}:{:02}:{:02}, {} processes, {} good", parts.tm_hour, parts.tm_min,
+                     parts.tm_sec, board.processes(), board.good(now));
 }
 
 /// Restores the terminal on destruction.

@@ -8,7 +8,7 @@ namespace {
 TEST(Page, NeedsNoOtherFileAndEscapesText) {
   Page page("a < b");
   page.addHeading("x & y");
-  page.addParagraph("careful", Tone::kWeak);
+  page.addParagraph("careful", TextStyle::kWeak);
   page.addList({"one", "two"});
   page.addTable({"", {"name", "value"}, {{"n", "1"}}, {}});
   page.addFigures({jpegFigure("jpeg", "frame 7")}, 2);

@@ -23,7 +23,7 @@ TEST(Table, SetsTextColumnsToTheLeft) {
 }
 
 TEST(Table, ColoursCellsInHtml) {
-  const Table table{"", {}, {{"found", Cell("yes", Tone::kGood)}}, {}};
+  const Table table{"", {}, {{"found", Cell("yes", TextStyle::kGood)}}, {}};
   EXPECT_NE(asHtml(table).find("<td class=\"good\">yes</td>"), std::string::npos);
   EXPECT_EQ(asText(table), "found  yes\n");
 }
