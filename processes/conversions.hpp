@@ -11,6 +11,7 @@
 #include "redbee/geometry/row_major.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
+#include "redbee/node/frame_time.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
@@ -63,7 +64,7 @@ inline filter_snapshot_t messageOf(const FilterSnapshot& known, const std::strin
 
 inline FilterSnapshot snapshotOf(const filter_snapshot_t& message) {
   FilterSnapshot known;
-  known.time = CameraTime(fromUtime(message.utime));
+  known.time = timeOf(message);
   known.height_m = message.height;
   known.height_sigma_m = message.height_sigma;
   known.up = vector3(message.up);
@@ -119,8 +120,7 @@ PointTracks tracksOf(const Message& message) {
 /// True where the message speaks of two frames at times that a clock can show.
 template <typename Message>
 bool plausibleTimes(const Message& message) {
-  return isPlausibleTime(CameraTime(fromUtime(message.utime))) &&
-         isPlausibleTime(CameraTime(fromUtime(message.utime_previous)));
+  return isPlausibleTime(timeOf(message)) && isPlausibleTime(previousTimeOf(message));
 }
 
 /// True where every number that a homography message promises is finite.

@@ -1,9 +1,9 @@
 // The order of frames in time: one rule for all nodes, so that they agree.
 #pragma once
 
-#include <cstdint>
-#include <limits>
 #include <optional>
+
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -15,33 +15,32 @@ enum class FrameDecision { kNext, kDiscard, kRestart };
 class FrameOrder {
  public:
   static constexpr int kRestartAfter = 5;
-  /// us: a frame this far in the past is a clock that was set back, at once.
-  static constexpr int64_t kSetBack = 2'000'000;
+  /// A frame this far in the past is a clock that was set back, at once.
+  static constexpr Duration kSetBack = std::chrono::seconds(2);
 
-  FrameDecision classify(int64_t utime) {
-    if (!last_ || utime > *last_) return accept(utime, FrameDecision::kNext);
-    in_a_row_ = utime > discarded_ ? in_a_row_ + 1 : 1;
-    discarded_ = utime;
-    if (in_a_row_ >= kRestartAfter || *last_ - utime > kSetBack)
-      return accept(utime, FrameDecision::kRestart);
+  FrameDecision classify(CameraTime time) {
+    if (!last_ || time > *last_) return accept(time, FrameDecision::kNext);
+    in_a_row_ = time > discarded_ ? in_a_row_ + 1 : 1;
+    discarded_ = time;
+    if (in_a_row_ >= kRestartAfter || *last_ - time > kSetBack) return accept(time, FrameDecision::kRestart);
     return FrameDecision::kDiscard;
   }
 
-  std::optional<int64_t> last() const { return last_; }
+  std::optional<CameraTime> last() const { return last_; }
 
  private:
-  static constexpr int64_t kNone = std::numeric_limits<int64_t>::max();
+  static constexpr CameraTime kNone = CameraTime::max();
 
-  FrameDecision accept(int64_t utime, FrameDecision decision) {
-    last_ = utime;
+  FrameDecision accept(CameraTime time, FrameDecision decision) {
+    last_ = time;
     discarded_ = kNone;
     in_a_row_ = 0;
     return decision;
   }
 
-  std::optional<int64_t> last_;
+  std::optional<CameraTime> last_;
   /// The last one left out since a frame was accepted.
-  int64_t discarded_ = kNone;
+  CameraTime discarded_ = kNone;
   int in_a_row_ = 0;
 };
 

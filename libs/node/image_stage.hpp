@@ -2,9 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <deque>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -20,10 +18,10 @@ class ImageStage : public Stage {
  public:
   /// Works on the images in order, up to the first whose companion is still worth waiting for.
   void process() final {
-    while (!images_.empty() && !isPending(companions_, images_.front().content.utime, newest_utime_)) {
+    while (!images_.empty() && !isPending(companions_, timeOf(images_.front().content), newest_)) {
       const Arrived<image_t> image = std::move(images_.front());
       images_.pop_front();
-      workOn(image.content.utime, image.since, [&] { work(image.content); });
+      workOn(timeOf(image.content), image.since, [&] { work(image.content); });
     }
   }
 
@@ -44,8 +42,8 @@ class ImageStage : public Stage {
 
  private:
   void take(const image_t& image) {
-    if (!acceptFrame(image.utime)) return;
-    newest_utime_ = std::max(newest_utime_, image.utime);
+    if (!acceptFrame(timeOf(image))) return;
+    newest_ = std::max(newest_, timeOf(image));
     images_.push_back({image, {}});
     while (images_.size() > max_backlog_) {
       images_.pop_front();
@@ -54,7 +52,7 @@ class ImageStage : public Stage {
   }
   void restart() final {
     images_.clear();
-    newest_utime_ = std::numeric_limits<int64_t>::min();
+    newest_ = CameraTime::min();
     companions_.clear();
     reset();
   }
@@ -62,7 +60,7 @@ class ImageStage : public Stage {
   size_t max_backlog_;
   MessageSynchronizer<Companion> companions_;
   std::deque<Arrived<image_t>> images_;
-  int64_t newest_utime_ = 0;
+  CameraTime newest_{};
 };
 
 }  // namespace redbee

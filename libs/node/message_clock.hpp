@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
+
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -13,28 +14,37 @@ namespace redbee {
 /// does not end every wait from then on.
 class MessageClock {
  public:
-  /// us: how far another sensor may be from the frames.
-  static constexpr int64_t kNear = 2'000'000;
+  /// How far another sensor may be from the frames.
+  static constexpr Duration kNear = std::chrono::seconds(2);
 
-  void noteFrame(int64_t utime) {
-    frame_ = frame_ ? std::max(*frame_, utime) : utime;
+  void noteFrame(CameraTime time) {
+    frame_ = frame_ ? std::max(*frame_, time) : time;
     if (other_ && !isNear(*other_)) other_.reset();
   }
-  void noteOther(int64_t utime) {
-    if (isNear(utime)) other_ = other_ ? std::max(*other_, utime) : utime;
+  /// The time shift is milliseconds and does not matter here.
+  void noteOther(ImuTime reading) {
+    const CameraTime time = toCamera(reading, Duration(0));
+    if (isNear(time)) other_ = other_ ? std::max(*other_, time) : time;
   }
   /// Time was set back: forgets all times.
   void restart() { *this = {}; }
-  /// us; 0 before the first frame.
-  int64_t now() const { return std::max(frame_.value_or(0), other_.value_or(frame_.value_or(0))); }
-
- private:
-  bool isNear(int64_t utime) const {
-    return frame_ && std::abs(static_cast<double>(utime) - static_cast<double>(*frame_)) <= kNear;
+  /// The clock's beginning before the first frame.
+  CameraTime now() const {
+    const CameraTime frame = frame_.value_or(CameraTime());
+    return std::max(frame, other_.value_or(frame));
   }
 
-  std::optional<int64_t> frame_;
-  std::optional<int64_t> other_;
+ private:
+  bool isNear(CameraTime time) const {
+    return frame_ &&
+           std::abs(microseconds(time) - microseconds(*frame_)) <= static_cast<double>(kNear.count());
+  }
+
+  /// As a number whose differences cannot overflow.
+  static double microseconds(CameraTime time) { return static_cast<double>(toUtime(time)); }
+
+  std::optional<CameraTime> frame_;
+  std::optional<CameraTime> other_;
 };
 
 }  // namespace redbee

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "redbee/bus/bus.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -20,13 +21,13 @@ class Publisher {
  public:
   explicit Publisher(Bus& bus) : bus_(bus) {}
 
-  /// `utime`: of the frame that the messages from here on are about.
-  void beginFrame(int64_t utime) { utime_ = utime; }
+  /// `time`: of the frame that the messages from here on are about.
+  void beginFrame(CameraTime time) { time_ = time; }
   /// Fills in the frame's time and, where the type has one, the sequence number; each channel counts for
   /// itself.
   template <typename Message>
   void publish(const std::string& channel, Message message) {
-    message.utime = utime_;
+    message.utime = toUtime(time_);
     if constexpr (HasSequence<Message>::value) message.sequence = next_sequence_[channel]++;
     bus_.publish(channel, message);
   }
@@ -38,7 +39,7 @@ class Publisher {
 
  private:
   Bus& bus_;
-  int64_t utime_ = 0;
+  CameraTime time_{};
   std::map<std::string, int32_t> next_sequence_;
 };
 

@@ -1,7 +1,5 @@
 #include "redbee/node/stage.hpp"
 
-#include "redbee/geometry/time.hpp"
-
 namespace redbee {
 
 Stage::Stage(Bus& bus, const std::string& process, const std::string& configuration_hash)
@@ -13,13 +11,13 @@ void Stage::finish() {
   finishing_ = false;
 }
 
-bool Stage::acceptFrame(int64_t utime) {
-  if (!isPlausibleTime(CameraTime(fromUtime(utime)))) {
+bool Stage::acceptFrame(CameraTime time) {
+  if (!isPlausibleTime(time)) {
     health_.noteDamaged();
     return false;
   }
-  health_.noteInput(utime);
-  const FrameDecision decision = order_.classify(utime);
+  health_.noteInput(toUtime(time));
+  const FrameDecision decision = order_.classify(time);
   if (decision == FrameDecision::kDiscard) {
     health_.noteSkipped();
     return false;

@@ -11,6 +11,7 @@
 #include "redbee/altimeter_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/node/frame_order.hpp"
+#include "redbee/node/frame_time.hpp"
 #include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/node/publisher.hpp"
@@ -44,22 +45,22 @@ class Stage : public Node {
 
   /// Whether to work on a frame that arrived with this time: late and doubled ones are skipped. Calls
   /// restart() first where the camera's clock was set back.
-  bool acceptFrame(int64_t utime);
+  bool acceptFrame(CameraTime time);
   FrameOrder& frameOrder() { return order_; }
   /// The camera's clock was set back: drops what waits and forgets what was learned.
   virtual void restart() = 0;
 
-  /// Whether the message for the frame at `utime` is still worth waiting for; never after the last message.
-  /// Counts time-outs. `newest_utime`: the latest message time that the node has seen on any channel.
+  /// Whether the message for the frame at `time` is still worth waiting for; never after the last message.
+  /// Counts time-outs. `newest`: the latest message time that the node has seen on any channel.
   template <typename Message>
-  bool isPending(MessageSynchronizer<Message>& messages, int64_t utime, int64_t newest_utime);
+  bool isPending(MessageSynchronizer<Message>& messages, CameraTime time, CameraTime newest);
   /// No message will come any more: process() works off what is left.
   bool isFinishing() const { return finishing_; }
 
   /// Calls `work` for one frame and notes in the health what it took. `arrival`: since the frame was
   /// received.
   template <typename Work>
-  void workOn(int64_t utime, const WorkTimer& arrival, const Work& work);
+  void workOn(CameraTime time, const WorkTimer& arrival, const Work& work);
   /// Inside workOn(): from here on the frame's answer is known, and is only made into messages.
   void noteAnswered() { timers_.cpu.answered(); }
   /// Inside workOn(): a message about the frame.
@@ -95,20 +96,20 @@ void Stage::on(const std::string& channel, Handler handler) {
 }
 
 template <typename Message>
-bool Stage::isPending(MessageSynchronizer<Message>& messages, int64_t utime, int64_t newest_utime) {
+bool Stage::isPending(MessageSynchronizer<Message>& messages, CameraTime time, CameraTime newest) {
   if (finishing_) return false;
   const int64_t before = messages.timedOut();
-  const auto status = messages.status(utime, newest_utime);
+  const auto status = messages.status(time, newest);
   health_.noteLate(messages.timedOut() - before);
   return status == MessageSynchronizer<Message>::Status::kPending;
 }
 
 template <typename Work>
-void Stage::workOn(int64_t utime, const WorkTimer& arrival, const Work& work) {
+void Stage::workOn(CameraTime time, const WorkTimer& arrival, const Work& work) {
   timers_ = {};
-  publisher_.beginFrame(utime);
+  publisher_.beginFrame(time);
   work();
-  noteDone(health_, utime, arrival, timers_);
+  noteDone(health_, toUtime(time), arrival, timers_);
 }
 
 }  // namespace redbee

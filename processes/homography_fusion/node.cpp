@@ -15,8 +15,8 @@ constexpr int8_t kVisualGood = 0;
 constexpr auto kInertialInitialising = static_cast<int8_t>(InertialStatus::kInitialising);
 
 VisualInput inputOf(const visual_homography_t& visual) {
-  return {CameraTime(fromUtime(visual.utime_previous)), matrix3(visual.H), matrix8(visual.covariance),
-          visual.inliers, visual.outliers};
+  return {previousTimeOf(visual), matrix3(visual.H), matrix8(visual.covariance), visual.inliers,
+          visual.outliers};
 }
 
 }  // namespace
@@ -27,8 +27,8 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
       camera_(idealCamera(configuration.camera)),
       fusion_(camera_.width, camera_.height, configuration.fusion),
       front_plane_(camera_.width, camera_.height, configuration.front),
-      inertial_(fromSeconds(configuration.waits.fusion_s).count(), configuration.has_imu),
-      visual_(fromSeconds(configuration.waits.fusion_s).count(), true) {
+      inertial_(fromSeconds(configuration.waits.fusion_s), configuration.has_imu),
+      visual_(fromSeconds(configuration.waits.fusion_s), true) {
   const auto& channels = configuration_.channels;
   on<inertial_homography_t>(channels.inertial_homography,
                             [this](const inertial_homography_t& m) { return takeInertial(m); });
@@ -36,7 +36,7 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
   on<visual_homography_t>(channels.visual_homography,
                           [this](const visual_homography_t& m) { return takeVisual(m); });
   if (configuration_.has_imu) {
-    on<ins_t>(channels.imu, [this](const ins_t& m) { clock_.noteOther(m.utime); });
+    on<ins_t>(channels.imu, [this](const ins_t& m) { clock_.noteOther(ImuTime(fromUtime(m.utime))); });
   }
 }
 
@@ -45,29 +45,29 @@ bool HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
   if (message.valid == 0 && message.status == kInertialInitialising) {
     inertial_at_first_frame_ = true;
   }
-  expect(message.utime);
-  inertial_.put(message.utime, message);
+  expect(timeOf(message));
+  inertial_.put(timeOf(message), message);
   return true;
 }
 
 bool HomographyFusionNode::takeVisual(const visual_homography_t& message) {
   const bool is_good = message.status == kVisualGood;
   if (!plausibleTimes(message) || (!finiteHomography(message) && is_good)) return false;
-  expect(message.utime);
-  visual_.put(message.utime, message);
+  expect(timeOf(message));
+  visual_.put(timeOf(message), message);
   return true;
 }
 
-void HomographyFusionNode::expect(int64_t utime) {
-  if (pending_.count(utime) > 0) return;
-  const bool is_companion_of_last = frameOrder().last() == utime;
+void HomographyFusionNode::expect(CameraTime time) {
+  if (pending_.count(time) > 0) return;
+  const bool is_companion_of_last = frameOrder().last() == time;
   if (is_companion_of_last) return;  // arrived after its frame had timed out
-  const int64_t newest_frame =
-      pending_.empty() ? frameOrder().last().value_or(utime) : pending_.rbegin()->first;
-  if (newest_frame - utime > FrameOrder::kSetBack) restart();
-  clock_.noteFrame(utime);
-  health().noteInput(utime);
-  pending_.emplace(utime, WorkTimer());
+  const CameraTime newest_frame =
+      pending_.empty() ? frameOrder().last().value_or(time) : pending_.rbegin()->first;
+  if (newest_frame - time > FrameOrder::kSetBack) restart();
+  clock_.noteFrame(time);
+  health().noteInput(toUtime(time));
+  pending_.emplace(time, WorkTimer());
   if (pending_.size() > kMaxPending) {
     pending_.erase(pending_.begin());
     health().noteSkipped();
@@ -89,18 +89,18 @@ void HomographyFusionNode::publishWarmStart() {
   inertial_at_first_frame_ = false;
 }
 
-bool HomographyFusionNode::isReadyFor(int64_t utime) {
-  const bool waits_for_inertial = isPending(inertial_, utime, clock_.now());
-  const bool waits_for_visual = isPending(visual_, utime, clock_.now());
+bool HomographyFusionNode::isReadyFor(CameraTime time) {
+  const bool waits_for_inertial = isPending(inertial_, time, clock_.now());
+  const bool waits_for_visual = isPending(visual_, time, clock_.now());
   return !waits_for_inertial && !waits_for_visual;
 }
 
 void HomographyFusionNode::process() {
   publishWarmStart();  // before its first frame is answered, which it waits for
   while (!pending_.empty() && isReadyFor(pending_.begin()->first)) {
-    const auto [utime, arrival] = *pending_.begin();
+    const auto [time, arrival] = *pending_.begin();
     pending_.erase(pending_.begin());
-    const FrameDecision decision = frameOrder().classify(utime);
+    const FrameDecision decision = frameOrder().classify(time);
     if (decision == FrameDecision::kDiscard) {
       health().noteSkipped();
       continue;
@@ -108,25 +108,25 @@ void HomographyFusionNode::process() {
     if (decision == FrameDecision::kRestart) {
       fusion_ = HomographyFusion(camera_.width, camera_.height, configuration_.fusion);
     }
-    workOn(utime, arrival, [this, at = utime] { fuse(at); });
+    workOn(time, arrival, [this, at = time] { fuse(at); });
   }
 }
 
-void HomographyFusionNode::fuse(int64_t utime) {
-  const inertial_homography_t* inertial = inertial_.find(utime);
-  const visual_homography_t* visual = visual_.find(utime);
+void HomographyFusionNode::fuse(CameraTime time) {
+  const inertial_homography_t* inertial = inertial_.find(time);
+  const visual_homography_t* visual = visual_.find(time);
   std::optional<InertialInput> inertial_input;
   if (inertial != nullptr && inertial->valid != 0) {
-    inertial_input = InertialInput{CameraTime(fromUtime(inertial->utime_previous)), matrix3(inertial->H),
-                                   matrix8(inertial->covariance)};
+    inertial_input =
+        InertialInput{previousTimeOf(*inertial), matrix3(inertial->H), matrix8(inertial->covariance)};
   }
   std::optional<VisualInput> visual_input;
   if (visual != nullptr && visual->status == kVisualGood) visual_input = inputOf(*visual);
-  const FusedHomography fused = fusion_.step(CameraTime(fromUtime(utime)), inertial_input, visual_input);
+  const FusedHomography fused = fusion_.step(time, inertial_input, visual_input);
   if (fused.has_innovation && inertial_input && visual_input) {
     validateCalibration(fused, *inertial_input, *visual_input);
   }
-  const bool same_step = visual != nullptr && visual->utime_previous == toUtime(fused.time_previous);
+  const bool same_step = visual != nullptr && previousTimeOf(*visual) == fused.time_previous;
   const PointTracks tracks = same_step ? tracksOf(*visual) : PointTracks{};
   std::optional<HomographyEstimate> front;
   if (same_step && fused.source != FusionSource::kNone) front = front_plane_.estimate(tracks, fused.H_step);
@@ -144,8 +144,8 @@ void HomographyFusionNode::fuse(int64_t utime) {
   if (front) addFrontPlane(message, *front);
   noteAnswered();
   publish(configuration_.channels.fused_homography, message);
-  inertial_.eraseThrough(utime);
-  visual_.eraseThrough(utime);
+  inertial_.eraseThrough(time);
+  visual_.eraseThrough(time);
   const bool good = fused.source == FusionSource::kFused ||
                     (!configuration_.has_imu && fused.source == FusionSource::kVisual);
   health().setState(good ? HealthState::kGood : HealthState::kDegraded,

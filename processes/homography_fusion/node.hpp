@@ -29,9 +29,9 @@ class HomographyFusionNode : public Stage {
  private:
   bool takeInertial(const inertial_homography_t& message);
   bool takeVisual(const visual_homography_t& message);
-  void expect(int64_t utime);
-  bool isReadyFor(int64_t utime);
-  void fuse(int64_t utime);
+  void expect(CameraTime time);
+  bool isReadyFor(CameraTime time);
+  void fuse(CameraTime time);
   fused_homography_t messageOf(const FusedHomography& fused) const;
   /// Compares the two sources' homographies of one pair of frames: whether the calibration fits the flight.
   void validateCalibration(const FusedHomography& fused, const InertialInput& inertial,
@@ -50,7 +50,7 @@ class HomographyFusionNode : public Stage {
   HomographyFusion fusion_;
   FrontPlaneEstimator front_plane_;
   CalibrationMonitor calibration_;
-  std::map<int64_t, WorkTimer> pending_;  ///< frames by time, each since its first message arrived
+  std::map<CameraTime, WorkTimer> pending_;  ///< frames by time, each since its first message arrived
   MessageSynchronizer<inertial_homography_t> inertial_;
   MessageSynchronizer<visual_homography_t> visual_;
   std::optional<filter_snapshot_t> snapshot_;  ///< the newest of the inertial process

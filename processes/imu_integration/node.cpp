@@ -25,7 +25,7 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
       configuration_hash_(configurationHash(configuration)),
       camera_(configuration.camera),
       filter_(camera_, configuration.inertial),
-      feedback_(fromSeconds(configuration.waits.inertial_s).count(), true) {
+      feedback_(fromSeconds(configuration.waits.inertial_s), true) {
   const auto& channels = configuration_.channels;
   on<image_t>(channels.camera, [this](const image_t& m) { takeFrame(m); });
   on<ins_t>(channels.imu, [this](const ins_t& m) { return takeImu(m); });
@@ -40,9 +40,9 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
 }
 
 void ImuIntegrationNode::takeFrame(const image_t& message) {
-  if (!acceptFrame(message.utime)) return;
-  clock_.noteFrame(message.utime);
-  pending_.push_back({message.utime, {}});
+  if (!acceptFrame(timeOf(message))) return;
+  clock_.noteFrame(timeOf(message));
+  pending_.push_back({timeOf(message), {}});
   if (pending_.size() > kMaxPendingFrames) {
     pending_.pop_front();
     health().noteSkipped();
@@ -50,16 +50,16 @@ void ImuIntegrationNode::takeFrame(const image_t& message) {
 }
 
 bool ImuIntegrationNode::takeImu(const ins_t& message) {
-  clock_.noteOther(message.utime);
-  const bool plausible =
-      filter_.addImu({ImuTime(fromUtime(message.utime)), vector3(message.gyro), vector3(message.accel)});
+  const ImuTime time(fromUtime(message.utime));
+  clock_.noteOther(time);
+  const bool plausible = filter_.addImu({time, vector3(message.gyro), vector3(message.accel)});
   if (plausible) imu_alive_ = true;
   return plausible;
 }
 
 bool ImuIntegrationNode::takeFused(const fused_homography_t& message) {
   if (!plausibleTimes(message)) return false;
-  feedback_.put(message.utime, message);
+  feedback_.put(timeOf(message), message);
   return true;
 }
 
@@ -68,17 +68,17 @@ void ImuIntegrationNode::restart() {
   feedback_.clear();
   filter_ = InertialFilter(camera_, configuration_.inertial);
   clock_.restart();
-  last_frame_utime_.reset();
+  last_frame_.reset();
 }
 
-bool ImuIntegrationNode::isReadyFor(int64_t frame_utime) {
+bool ImuIntegrationNode::isReadyFor(CameraTime frame) {
   if (isFinishing()) return true;
-  const int64_t patience = fromSeconds(configuration_.waits.inertial_s).count();
-  if (imu_alive_ && !filter_.covers(CameraTime(fromUtime(frame_utime)))) {
-    if (clock_.now() - frame_utime <= patience) return false;
+  const Duration patience = fromSeconds(configuration_.waits.inertial_s);
+  if (imu_alive_ && !filter_.covers(frame)) {
+    if (clock_.now() - frame <= patience) return false;
     imu_alive_ = false;
   }
-  return !last_frame_utime_ || !isPending(feedback_, *last_frame_utime_, clock_.now());
+  return !last_frame_ || !isPending(feedback_, *last_frame_, clock_.now());
 }
 
 void ImuIntegrationNode::warmStart() {
@@ -99,11 +99,10 @@ void ImuIntegrationNode::warmStart() {
 
 void ImuIntegrationNode::applyFeedback() {
   feedback_report_ = {};
-  if (!last_frame_utime_) return;
-  const fused_homography_t* fused = feedback_.find(*last_frame_utime_);
+  if (!last_frame_) return;
+  const fused_homography_t* fused = feedback_.find(*last_frame_);
   if (fused == nullptr || fused->has_observation == 0) return;
-  const HomographyObservation observation{CameraTime(fromUtime(fused->utime_previous)),
-                                          CameraTime(fromUtime(fused->utime)), matrix3(fused->H_observed),
+  const HomographyObservation observation{previousTimeOf(*fused), timeOf(*fused), matrix3(fused->H_observed),
                                           matrix8(fused->covariance_observed)};
   if (!observation.H.allFinite() || !observation.covariance.allFinite()) {
     health().noteDamaged();
@@ -119,19 +118,19 @@ void ImuIntegrationNode::publishSnapshot() {
 
 void ImuIntegrationNode::process() {
   while (!pending_.empty() && isReadyFor(pending_.front().content)) {
-    const Arrived<int64_t> frame = pending_.front();
+    const Arrived<CameraTime> frame = pending_.front();
     pending_.pop_front();
     workOn(frame.content, frame.since, [&] { integrate(frame.content); });
   }
 }
 
-void ImuIntegrationNode::integrate(int64_t utime) {
+void ImuIntegrationNode::integrate(CameraTime frame) {
   warmStart();
   applyFeedback();
   agreed_in_a_row_ = feedback_report_.applied ? agreed_in_a_row_ + 1 : 0;
-  if (last_frame_utime_) feedback_.eraseThrough(*last_frame_utime_);
-  const InertialHomography result = filter_.advanceTo(CameraTime(fromUtime(utime)));
-  last_frame_utime_ = utime;
+  if (last_frame_) feedback_.eraseThrough(*last_frame_);
+  const InertialHomography result = filter_.advanceTo(frame);
+  last_frame_ = frame;
   noteAnswered();
   inertial_homography_t message{};
   message.utime_previous = toUtime(result.time_previous);

@@ -33,21 +33,21 @@ class ImuIntegrationNode : public Stage {
   void takeFrame(const image_t& message);
   bool takeImu(const ins_t& message);
   bool takeFused(const fused_homography_t& message);
-  bool isReadyFor(int64_t frame_utime);
+  bool isReadyFor(CameraTime frame);
   void warmStart();
   void applyFeedback();
   void publishSnapshot();
-  void integrate(int64_t utime);
+  void integrate(CameraTime frame);
   void restart() override;
 
   Configuration configuration_;
   std::string configuration_hash_;
   Camera camera_;
   InertialFilter filter_;
-  std::deque<Arrived<int64_t>> pending_;  ///< times of frames
+  std::deque<Arrived<CameraTime>> pending_;  ///< times of frames
   MessageSynchronizer<fused_homography_t> feedback_;
   MessageClock clock_;
-  std::optional<int64_t> last_frame_utime_;
+  std::optional<CameraTime> last_frame_;
   std::optional<filter_snapshot_t> warm_start_;  ///< the latest offered
   CorrectionReport feedback_report_;             ///< of the last frame
   int agreed_in_a_row_ = 0;                      ///< frames at which vision's correction was accepted

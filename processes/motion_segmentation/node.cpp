@@ -31,20 +31,20 @@ int imageDownscale(const Configuration& configuration) {
 MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration)
     : ImageStage(bus, programName(kMotionSegmentation), configurationHash(configuration),
                  configuration.channels.camera, configuration.waits.max_backlog,
-                 {fromSeconds(configuration.waits.segmentation_s).count(), true}),
+                 {fromSeconds(configuration.waits.segmentation_s), true}),
       configuration_(configuration),
       camera_(configuration.camera, imageDownscale(configuration)),
       foreground_(publisher(), configuration_, camera_),
       segmenter_(configuration.segmentation),
-      visual_(0, false) {
+      visual_(Duration(0), false) {
   const auto& channels = configuration_.channels;
   on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) {
     if (!finiteHomography(m)) return false;
-    companions().put(m.utime, m);
+    companions().put(timeOf(m), m);
     return true;
   });
   on<visual_homography_t>(channels.visual_homography, [this](const visual_homography_t& m) {
-    if (finiteHomography(m)) visual_.put(m.utime, m);
+    if (finiteHomography(m)) visual_.put(timeOf(m), m);
   });
 }
 
@@ -83,14 +83,14 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message,
 /// While the fusion is away or knows nothing yet (its process was started again): vision's own homography
 /// keeps background and identities.
 void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
-  const visual_homography_t* visual = visual_.find(input.utime);
+  const visual_homography_t* visual = visual_.find(timeOf(input));
   if (visual == nullptr || visual->status != kVisualGood || visual->utime_previous != last_->utime) return;
   input.ground = matrix3(visual->H);
   input.tracks = tracksOf(*visual);
 }
 
 void MotionSegmentationNode::work(const image_t& message) {
-  const fused_homography_t* fused = companions().find(message.utime);
+  const fused_homography_t* fused = companions().find(timeOf(message));
   SegmentationInput input = inputFor(message, fused);
   decodeInto(input, message);
   const SegmentationOutput output = segmenter_.step(input);
@@ -102,8 +102,8 @@ void MotionSegmentationNode::work(const image_t& message) {
   } else {
     last_ = Last{message.utime, -1, 0, Eigen::Matrix3d::Identity()};
   }
-  companions().eraseThrough(message.utime);
-  visual_.eraseThrough(message.utime);
+  companions().eraseThrough(timeOf(message));
+  visual_.eraseThrough(timeOf(message));
 }
 
 void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {

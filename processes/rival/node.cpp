@@ -37,10 +37,10 @@ RivalNode::RivalNode(Bus& bus, const Configuration& configuration, const std::st
 
 RivalNode::RivalNode(Bus& bus, const Configuration& configuration, const std::string& name,
                      std::unique_ptr<Rival> rival)
-    : ImageStage(bus, "rival-" + name, configurationHash(configuration), configuration.channels.camera,
-                 configuration.waits.max_backlog,
-                 {fromSeconds(configuration.waits.segmentation_s).count(),
-                  configuration.has_imu && rival->wantsMotion()}),
+    : ImageStage(
+          bus, "rival-" + name, configurationHash(configuration), configuration.channels.camera,
+          configuration.waits.max_backlog,
+          {fromSeconds(configuration.waits.segmentation_s), configuration.has_imu && rival->wantsMotion()}),
       configuration_(withDecisionScore(configuration)),
       camera_(configuration.camera),
       foreground_(publisher(), configuration_, camera_),
@@ -50,7 +50,7 @@ RivalNode::RivalNode(Bus& bus, const Configuration& configuration, const std::st
   on<inertial_homography_t>(configuration_.channels.inertial_homography,
                             [this](const inertial_homography_t& m) {
                               if (!finiteHomography(m)) return false;
-                              companions().put(m.utime, m);
+                              companions().put(timeOf(m), m);
                               return true;
                             });
 }
@@ -62,7 +62,7 @@ RivalInput RivalNode::inputFor(const image_t& message) {
   const IdealImage image = camera_.ideal(message, rival_->wantsColour(), health());
   input.grey = image.grey;
   input.colour = image.colour;
-  const inertial_homography_t* inertial = companions().find(message.utime);
+  const inertial_homography_t* inertial = companions().find(timeOf(message));
   if (inertial != nullptr && inertial->valid != 0 && last_utime_ &&
       inertial->utime_previous == *last_utime_) {
     input.motion = PlaneMotion{matrix3(inertial->R), vector3(inertial->t), vector3(inertial->normal),
@@ -100,7 +100,7 @@ void RivalNode::work(const image_t& message) {
   noteAnswered();
   foreground_.publish(message, last_utime_.value_or(message.utime), output);
   last_utime_ = message.utime;
-  companions().eraseThrough(message.utime);
+  companions().eraseThrough(timeOf(message));
   const bool good = output.status == SegmentationStatus::kGood;
   health().setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(output.status));
 }

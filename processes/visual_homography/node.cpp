@@ -14,7 +14,7 @@ constexpr int8_t kImageDoesNotFit = 4;
 VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& configuration)
     : ImageStage(bus, programName(kVisualHomography), configurationHash(configuration),
                  configuration.channels.camera, configuration.waits.max_backlog,
-                 {fromSeconds(configuration.waits.visual_s).count(), configuration.has_imu}),
+                 {fromSeconds(configuration.waits.visual_s), configuration.has_imu}),
       configuration_(configuration),
       camera_(configuration.camera),
       rectifier_(camera_),
@@ -22,7 +22,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
   on<inertial_homography_t>(configuration_.channels.inertial_homography,
                             [this](const inertial_homography_t& m) {
                               const bool plausible = plausibleTimes(m) && finiteHomography(m);
-                              if (plausible) companions().put(m.utime, m);
+                              if (plausible) companions().put(timeOf(m), m);
                               return plausible;
                             });
 }
@@ -31,14 +31,14 @@ void VisualHomographyNode::reset() {
   estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unseen());
 }
 
-std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t utime) const {
+std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime time) const {
   const auto from = estimator_->previousTime();
   if (!from) return std::nullopt;
   const ImageScaling scaling(camera_.ideal().width, camera_.ideal().height);
   std::optional<HomographyPrediction> chain;
-  for (int64_t at = utime; at > toUtime(*from);) {
+  for (CameraTime at = time; at > *from;) {
     const inertial_homography_t* link = companions().find(at);
-    if (link == nullptr || link->valid == 0 || link->utime_previous >= at) return std::nullopt;
+    if (link == nullptr || link->valid == 0 || previousTimeOf(*link) >= at) return std::nullopt;
     const HomographyPrediction step{matrix3(link->H), matrix8(link->covariance)};
     if (!chain) {
       chain = step;
@@ -48,8 +48,8 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(int64_t uti
                           J.by_right * step.covariance * J.by_right.transpose();
       chain->H = normaliseHomography(chain->H * step.H);
     }
-    at = link->utime_previous;
-    if (at < toUtime(*from)) return std::nullopt;
+    at = previousTimeOf(*link);
+    if (at < *from) return std::nullopt;
   }
   return chain;
 }
@@ -60,20 +60,20 @@ void VisualHomographyNode::work(const image_t& message) {
     if (!grey) health().noteDamaged();
     return refuse(message);
   }
-  const CameraTime time(fromUtime(message.utime));
-  const auto predicted = prediction(message.utime);
+  const CameraTime time = timeOf(message);
+  const auto predicted = prediction(time);
   const VisualHomography result = estimator_->step(time, rectifier_.toIdeal(*grey), predicted);
   noteAnswered();
   publishResult(result);
   // After an image that nothing could be tracked in, the next one is tracked from an earlier frame: its
   // links are still needed.
-  companions().eraseThrough(toUtime(estimator_->previousTime().value_or(time)));
+  companions().eraseThrough(estimator_->previousTime().value_or(time));
 }
 
 void VisualHomographyNode::refuse(const image_t& image) {
   const CameraIntrinsics& camera = configuration_.camera;
   visual_homography_t message{};
-  message.utime_previous = toUtime(estimator_->previousTime().value_or(CameraTime(fromUtime(image.utime))));
+  message.utime_previous = toUtime(estimator_->previousTime().value_or(timeOf(image)));
   message.status = kImageDoesNotFit;
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;

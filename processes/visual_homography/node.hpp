@@ -23,7 +23,7 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
  private:
   /// The inertial messages from the frame that is tracked from up to this one, composed; nothing where one is
   /// missing.
-  std::optional<HomographyPrediction> prediction(int64_t utime) const;
+  std::optional<HomographyPrediction> prediction(CameraTime time) const;
   void work(const image_t& message) override;
   void refuse(const image_t& image);
   void publishResult(const VisualHomography& result);

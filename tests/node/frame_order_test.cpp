@@ -6,46 +6,48 @@ namespace redbee {
 namespace {
 
 using Verdict = FrameDecision;
-constexpr int64_t kPeriod = 41'667;
+constexpr Duration kPeriod(41'667);
+
+CameraTime at(Duration since_begin) { return CameraTime(since_begin); }
 
 TEST(FrameOrder, TakesFramesInOrderOfTime) {
   FrameOrder order;
-  for (int64_t k = 1; k < 5; ++k) EXPECT_EQ(order.classify(k * kPeriod), Verdict::kNext);
+  for (int64_t k = 1; k < 5; ++k) EXPECT_EQ(order.classify(at(k * kPeriod)), Verdict::kNext);
 }
 
 TEST(FrameOrder, LeavesOutWhatComesLateOrTwice) {
   FrameOrder order;
-  order.classify(3 * kPeriod);
-  EXPECT_EQ(order.classify(3 * kPeriod), Verdict::kDiscard);
-  EXPECT_EQ(order.classify(2 * kPeriod), Verdict::kDiscard);
-  EXPECT_EQ(order.classify(4 * kPeriod), Verdict::kNext);
-  EXPECT_EQ(order.last(), 4 * kPeriod);
+  order.classify(at(3 * kPeriod));
+  EXPECT_EQ(order.classify(at(3 * kPeriod)), Verdict::kDiscard);
+  EXPECT_EQ(order.classify(at(2 * kPeriod)), Verdict::kDiscard);
+  EXPECT_EQ(order.classify(at(4 * kPeriod)), Verdict::kNext);
+  EXPECT_EQ(order.last(), at(4 * kPeriod));
 }
 
 TEST(FrameOrder, FollowsAClockThatWasSetFarBackAtOnce) {
   FrameOrder order;
-  order.classify(3'600'000'000);
-  EXPECT_EQ(order.classify(5), Verdict::kRestart);
-  EXPECT_EQ(order.classify(5 + kPeriod), Verdict::kNext);
+  order.classify(at(std::chrono::hours(1)));
+  EXPECT_EQ(order.classify(at(Duration(5))), Verdict::kRestart);
+  EXPECT_EQ(order.classify(at(Duration(5) + kPeriod)), Verdict::kNext);
 }
 
 TEST(FrameOrder, FollowsAClockThatWasSetBackALittleAfterSomeFrames) {
   FrameOrder order;
-  order.classify(1'000'000);
-  int64_t utime = 500'000;
+  order.classify(at(std::chrono::seconds(1)));
+  CameraTime time = at(std::chrono::milliseconds(500));
   for (int i = 1; i < FrameOrder::kRestartAfter; ++i) {
-    EXPECT_EQ(order.classify(utime), Verdict::kDiscard);
-    utime += kPeriod;
+    EXPECT_EQ(order.classify(time), Verdict::kDiscard);
+    time += kPeriod;
   }
-  EXPECT_EQ(order.classify(utime), Verdict::kRestart);
-  EXPECT_EQ(order.classify(utime + kPeriod), Verdict::kNext);
+  EXPECT_EQ(order.classify(time), Verdict::kRestart);
+  EXPECT_EQ(order.classify(time + kPeriod), Verdict::kNext);
 }
 
 TEST(FrameOrder, StrayOldFramesBetweenGoodOnesNeverAddUp) {
   FrameOrder order;
   for (int64_t k = 10; k < 40; ++k) {
-    EXPECT_EQ(order.classify(k * kPeriod), Verdict::kNext);
-    EXPECT_EQ(order.classify((k - 5) * kPeriod), Verdict::kDiscard);
+    EXPECT_EQ(order.classify(at(k * kPeriod)), Verdict::kNext);
+    EXPECT_EQ(order.classify(at((k - 5) * kPeriod)), Verdict::kDiscard);
   }
 }
 

@@ -2,42 +2,43 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace redbee {
 namespace {
 
-constexpr int64_t kFrame = 1'700'000'000'000'000;
+using namespace std::chrono_literals;
+
+constexpr CameraTime kFrame(std::chrono::seconds(1'700'000'000));
+
+ImuTime sensor(Duration after_frame) { return toImu(kFrame, after_frame); }
 
 TEST(MessageClock, GoesWithFramesAndSensors) {
   MessageClock clock;
-  EXPECT_EQ(clock.now(), 0);
+  EXPECT_EQ(clock.now(), CameraTime());
   clock.noteFrame(kFrame);
-  clock.noteOther(kFrame + 100'000);
-  clock.noteOther(kFrame + 90'000);
-  EXPECT_EQ(clock.now(), kFrame + 100'000);
-  clock.noteFrame(kFrame + 200'000);
-  EXPECT_EQ(clock.now(), kFrame + 200'000);
+  clock.noteOther(sensor(100ms));
+  clock.noteOther(sensor(90ms));
+  EXPECT_EQ(clock.now(), kFrame + 100ms);
+  clock.noteFrame(kFrame + 200ms);
+  EXPECT_EQ(clock.now(), kFrame + 200ms);
 }
 
 TEST(MessageClock, IsNotPutOutByATimeThatIsFarOff) {
   MessageClock clock;
   clock.noteFrame(kFrame);
-  for (const int64_t stray : {std::numeric_limits<int64_t>::max(), std::numeric_limits<int64_t>::min(),
-                              kFrame + 3'600'000'000, kFrame - 3'600'000'000}) {
+  for (const ImuTime stray : {ImuTime::max(), ImuTime::min(), sensor(1h), sensor(-1h)}) {
     clock.noteOther(stray);
     EXPECT_EQ(clock.now(), kFrame);
   }
-  clock.noteOther(kFrame + 1);
-  EXPECT_EQ(clock.now(), kFrame + 1);
+  clock.noteOther(sensor(1us));
+  EXPECT_EQ(clock.now(), kFrame + 1us);
 }
 
 TEST(MessageClock, RestartsWhereTimeIsSetBack) {
   MessageClock clock;
   clock.noteFrame(kFrame);
   clock.restart();
-  clock.noteFrame(kFrame - 5'000'000);
-  EXPECT_EQ(clock.now(), kFrame - 5'000'000);
+  clock.noteFrame(kFrame - 5s);
+  EXPECT_EQ(clock.now(), kFrame - 5s);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <string>
 
 namespace redbee {
@@ -10,55 +9,57 @@ namespace {
 
 using Buffer = MessageSynchronizer<std::string>;
 using Status = Buffer::Status;
-constexpr int64_t kPatience = 250'000;
+constexpr Duration kPatience = std::chrono::milliseconds(250);
+
+CameraTime at(int64_t us) { return CameraTime(Duration(us)); }
 
 TEST(MessageSynchronizer, WaitsForALivePublisherUntilItsMessage) {
   Buffer buffer(kPatience, true);
-  EXPECT_EQ(buffer.status(100, 100), Status::kPending);
-  buffer.put(100, "here");
-  EXPECT_EQ(buffer.status(100, 100), Status::kReady);
-  EXPECT_EQ(*buffer.find(100), "here");
+  EXPECT_EQ(buffer.status(at(100), at(100)), Status::kPending);
+  buffer.put(at(100), "here");
+  EXPECT_EQ(buffer.status(at(100), at(100)), Status::kReady);
+  EXPECT_EQ(*buffer.find(at(100)), "here");
 }
 
 TEST(MessageSynchronizer, ALaterMessageShowsThatThisOneWasLost) {
   Buffer buffer(kPatience, true);
-  buffer.put(200, "later");
-  EXPECT_EQ(buffer.status(100, 200), Status::kTimedOut);
-  EXPECT_EQ(buffer.status(300, 300), Status::kPending)
+  buffer.put(at(200), "later");
+  EXPECT_EQ(buffer.status(at(100), at(200)), Status::kTimedOut);
+  EXPECT_EQ(buffer.status(at(300), at(300)), Status::kPending)
       << "the publisher is alive: the next one is waited for";
   EXPECT_EQ(buffer.timedOut(), 1);
 }
 
 TEST(MessageSynchronizer, ADeadPublisherCostsOneWait) {
   Buffer buffer(kPatience, true);
-  EXPECT_EQ(buffer.status(100, 100 + kPatience), Status::kPending);
-  EXPECT_EQ(buffer.status(100, 101 + kPatience), Status::kTimedOut);
-  EXPECT_EQ(buffer.status(200, 200), Status::kTimedOut) << "no second wait";
+  EXPECT_EQ(buffer.status(at(100), at(100) + kPatience), Status::kPending);
+  EXPECT_EQ(buffer.status(at(100), at(101) + kPatience), Status::kTimedOut);
+  EXPECT_EQ(buffer.status(at(200), at(200)), Status::kTimedOut) << "no second wait";
   EXPECT_EQ(buffer.timedOut(), 1);
-  buffer.put(300, "back");
-  EXPECT_EQ(buffer.status(400, 400), Status::kPending) << "it spoke again";
+  buffer.put(at(300), "back");
+  EXPECT_EQ(buffer.status(at(400), at(400)), Status::kPending) << "it spoke again";
 }
 
 TEST(MessageSynchronizer, AMessageFromFarAheadDoesNotOvertakeForEver) {
-  for (const int64_t stray : {int64_t{3'600'000'000}, std::numeric_limits<int64_t>::max()}) {
+  for (const CameraTime stray : {CameraTime(std::chrono::hours(1)), CameraTime::max()}) {
     Buffer buffer(kPatience, true);
     buffer.put(stray, "damaged");
-    buffer.put(100, "the next");
-    EXPECT_EQ(buffer.status(200, 200), Status::kPending);
+    buffer.put(at(100), "the next");
+    EXPECT_EQ(buffer.status(at(200), at(200)), Status::kPending);
   }
 }
 
 TEST(MessageSynchronizer, WhoIsNotExpectedIsNeverWaitedFor) {
   Buffer buffer(kPatience, false);
-  EXPECT_EQ(buffer.status(100, 100), Status::kTimedOut);
+  EXPECT_EQ(buffer.status(at(100), at(100)), Status::kTimedOut);
   EXPECT_EQ(buffer.timedOut(), 0);
 }
 
 TEST(MessageSynchronizer, HoldsNoMoreThanItsCapacity) {
   Buffer buffer(kPatience, true, 4);
-  for (int64_t utime = 0; utime < 100; ++utime) buffer.put(utime, "x");
+  for (int64_t k = 0; k < 100; ++k) buffer.put(at(k), "x");
   EXPECT_EQ(buffer.messages().size(), 4u);
-  EXPECT_NE(buffer.find(99), nullptr);
+  EXPECT_NE(buffer.find(at(99)), nullptr);
 }
 
 }  // namespace

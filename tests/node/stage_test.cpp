@@ -17,10 +17,11 @@ constexpr int64_t kPeriod = 40'000;
 /// For each image one DETECTIONS message, with the ALTIMETER message of the same time.
 class EchoStage : public ImageStage<altimeter_t> {
  public:
-  explicit EchoStage(Bus& bus) : ImageStage(bus, "echo", "hash", "CAMERA", 3, {100'000, true}) {
+  explicit EchoStage(Bus& bus)
+      : ImageStage(bus, "echo", "hash", "CAMERA", 3, {std::chrono::milliseconds(100), true}) {
     on<altimeter_t>("ALTIMETER", [this](const altimeter_t& m) {
       if (m.height < 0) return false;
-      companions().put(m.utime, m);
+      companions().put(timeOf(m), m);
       return true;
     });
   }
@@ -29,11 +30,11 @@ class EchoStage : public ImageStage<altimeter_t> {
 
  private:
   void work(const image_t& image) override {
-    const altimeter_t* altitude = companions().find(image.utime);
+    const altimeter_t* altitude = companions().find(timeOf(image));
     heights.push_back(altitude != nullptr ? altitude->height : -1);
     noteAnswered();
     publish("DETECTIONS", detections_t{});
-    companions().eraseThrough(image.utime);
+    companions().eraseThrough(timeOf(image));
   }
   void reset() override { ++resets; }
 };
