@@ -22,6 +22,26 @@ struct ImportChannels {
   std::string altimeter = "ALTIMETER";
 };
 
+enum class FrameFormat {
+  kMjpeg,    ///< colour, JPEG
+  kRawGrey,  ///< luma, uncompressed
+};
+
+/// What every import takes; an importer ignores what does not concern its recordings (importer.hpp).
+struct ImportOptions {
+  std::filesystem::path source;  ///< file or folder
+  std::filesystem::path log;     ///< to be written
+  ImportChannels channels;
+  FrameFormat format = FrameFormat::kMjpeg;  ///< of frames that are decoded
+  int jpeg_quality = 90;                     ///< of what is encoded here
+  int width = 0;   ///< px, the height keeps the aspect, both even; 0: as recorded. Video files only
+  double fps = 0;  ///< Hz, of a folder of images; a file has its own times
+  /// CSV with a header line that names its columns, in any order: t_s [s, on the video's clock], gx gy gz
+  /// [rad/s], ax ay az [m/s^2, specific force]. Other columns are ignored. The axes are the IMU's; the
+  /// vehicle's R_CI relates the camera to them.
+  std::optional<std::filesystem::path> imu;
+};
+
 /// What a recording states about its vehicle. The rest stays empty and is taken from the reference
 /// configuration.
 struct VehicleDescription {
@@ -46,14 +66,6 @@ struct ImportSummary {
   VehicleDescription vehicle;
   std::vector<std::string> warnings;  ///< one line each
 };
-
-/// The sections of a vehicle configuration that the recording states (vehicle, camera, plane, imu), as YAML
-/// without `include`: what it leaves out has the reference's values.
-std::string vehicleYaml(const VehicleDescription& vehicle);
-
-/// Writes vehicleYaml() beside the log: F.lcm gets F.yaml. The path written.
-std::filesystem::path writeVehicleConfiguration(const VehicleDescription& vehicle,
-                                                const std::filesystem::path& log);
 
 /// For a recording without lens data: the principal point in the middle and a focal length of 0.8 of the
 /// longer side (64 degrees from edge to edge, as drones and phones have), with a warning. Vision alone

@@ -5,6 +5,7 @@
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/importers/flight_merger.hpp"
+#include "redbee/importers/image_file.hpp"
 #include "redbee/importers/sensor_yaml.hpp"
 
 namespace redbee {
@@ -129,10 +130,9 @@ void checkAgainstCalibration(const fs::path& camera_folder, const image_t& first
   }
 }
 
-}  // namespace
-
-ImportSummary importAsl(const AslImportOptions& options, Progress& progress) {
-  const fs::path mav = findVehicleFolder(options.folder);
+ImportSummary importAsl(const ImportOptions& options, Progress& progress) {
+  const ImageOptions images{true, options.jpeg_quality};
+  const fs::path mav = findVehicleFolder(options.source);
   const fs::path list = mav / "cam0" / "data.csv";
   const std::vector<NamedFrame> frames = readFrameList(list);
   const bool has_imu = fs::is_directory(mav / "imu0");
@@ -148,7 +148,7 @@ ImportSummary importAsl(const AslImportOptions& options, Progress& progress) {
   FlightMerger merger(options.log, options.channels, imu, altitudes);
   OneResolution resolution;
   for (const NamedFrame& frame : frames) {
-    const image_t image = loadListed(list, frame, options.images);
+    const image_t image = loadListed(list, frame, images);
     resolution.check(list.parent_path() / "data" / frame.name, image);
     if (&frame == &frames.front()) {
       checkAgainstCalibration(mav / "cam0", image, summary.vehicle);
@@ -160,6 +160,18 @@ ImportSummary importAsl(const AslImportOptions& options, Progress& progress) {
   }
   merger.close(summary);
   return summary;
+}
+
+}  // namespace
+
+Importer aslImporter() {
+  Importer importer;
+  importer.name = "asl";
+  importer.description = "folder in EuRoC's layout (mav0/cam0, imu0, altimeter0)";
+  importer.source = "folder that holds mav0";
+  importer.defaults.jpeg_quality = 95;
+  importer.import = importAsl;
+  return importer;
 }
 
 }  // namespace redbee

@@ -27,24 +27,28 @@ Eigen::Matrix3d nominalMounting() {
   return R_CI;
 }
 
-}  // namespace
-
-ImportSummary importGopro(const GoproImportOptions& options, Progress& progress) {
-  VideoImportOptions video;
-  video.video = options.video;
-  video.log = options.log;
-  video.width = options.width;
-  video.format = options.format;
-  video.jpeg_quality = options.jpeg_quality;
-
+ImportSummary importGopro(const ImportOptions& options, Progress& progress) {
   ImportSummary summary;
-  summary.vehicle.name = options.video.stem().string();
+  summary.vehicle.name = options.source.stem().string();
   summary.vehicle.R_CI = nominalMounting();
-  FlightMerger merger(options.log, options.channels, readImu(options.video), {});
-  addVideoFrames(video, merger, summary, progress);
+  FlightMerger merger(options.log, options.channels, readImu(options.source), {});
+  addVideoFrames(options, merger, summary, progress);
   merger.close(summary);
   assumeIntrinsics(summary);
   return summary;
+}
+
+}  // namespace
+
+Importer goproImporter() {
+  Importer importer;
+  importer.name = "gopro";
+  importer.description = "MP4 of a GoPro with its motion track (GPMF)";
+  importer.source = "MP4 file";
+  importer.takes.width = true;
+  importer.defaults.width = 854;
+  importer.import = importGopro;
+  return importer;
 }
 
 }  // namespace redbee

@@ -9,6 +9,7 @@
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/importers/flight_merger.hpp"
+#include "redbee/importers/image_file.hpp"
 #include "redbee/importers/video_log.hpp"
 #include "redbee/importers/video_reader.hpp"
 
@@ -48,12 +49,12 @@ std::vector<fs::path> listImages(const fs::path& folder) {
   return files;
 }
 
-void addImages(const VideoImportOptions& options, FlightMerger& merger, ImportSummary& summary,
+void addImages(const ImportOptions& options, FlightMerger& merger, ImportSummary& summary,
                Progress& progress) {
   if (!std::isfinite(options.fps) || options.fps <= 0) {
-    throw InputError(options.video, "is a folder of images: a frame rate above 0 is needed");
+    throw InputError(options.source, "is a folder of images: a frame rate above 0 is needed");
   }
-  const std::vector<fs::path> files = listImages(options.video);
+  const std::vector<fs::path> files = listImages(options.source);
   OneResolution resolution;
   for (size_t i = 0; i < files.size(); ++i) {
     const int64_t utime = std::llround(1e6 * static_cast<double>(i) / options.fps);
@@ -92,9 +93,9 @@ std::vector<ImuSample> readImuCsv(const fs::path& file) {
   return samples;
 }
 
-void addVideoFrames(const VideoImportOptions& options, FlightMerger& merger, ImportSummary& summary,
+void addVideoFrames(const ImportOptions& options, FlightMerger& merger, ImportSummary& summary,
                     Progress& progress) {
-  VideoReader reader(options.video, {options.width, options.format == FrameFormat::kRawGrey});
+  VideoReader reader(options.source, {options.width, options.format == FrameFormat::kRawGrey});
   int64_t done = 0;
   while (const auto frame = reader.next()) {
     merger.addFrame(options.format == FrameFormat::kRawGrey
@@ -106,12 +107,14 @@ void addVideoFrames(const VideoImportOptions& options, FlightMerger& merger, Imp
   }
 }
 
-ImportSummary importVideo(const VideoImportOptions& options, Progress& progress) {
+namespace {
+
+ImportSummary importVideo(const ImportOptions& options, Progress& progress) {
   const std::vector<ImuSample> imu = options.imu ? readImuCsv(*options.imu) : std::vector<ImuSample>{};
   ImportSummary summary;
-  summary.vehicle.name = options.video.stem().string();
+  summary.vehicle.name = options.source.stem().string();
   FlightMerger merger(options.log, options.channels, imu, {});
-  if (fs::is_directory(options.video)) {
+  if (fs::is_directory(options.source)) {
     addImages(options, merger, summary, progress);
   } else {
     addVideoFrames(options, merger, summary, progress);
@@ -119,6 +122,18 @@ ImportSummary importVideo(const VideoImportOptions& options, Progress& progress)
   merger.close(summary);
   assumeIntrinsics(summary);
   return summary;
+}
+
+}  // namespace
+
+Importer videoImporter() {
+  Importer importer;
+  importer.name = "video";
+  importer.description = "any video, with or without an IMU recording";
+  importer.source = "video, or folder of images (with --fps)";
+  importer.takes = {true, true, true};
+  importer.import = importVideo;
+  return importer;
 }
 
 }  // namespace redbee

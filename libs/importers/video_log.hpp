@@ -7,7 +7,7 @@
 namespace redbee {
 
 /// Decodes the whole file into the merger and fills the summary's image size.
-void addVideoFrames(const VideoImportOptions& options, FlightMerger& merger, ImportSummary& summary,
+void addVideoFrames(const ImportOptions& options, FlightMerger& merger, ImportSummary& summary,
                     Progress& progress);
 
 }  // namespace redbee

@@ -30,13 +30,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (!contents[i].empty()) folder.write(names[i], contents[i]);
   }
   if (!has_image) return 0;
-  AslImportOptions options;
-  options.folder = folder / "mav0";
+  ImportOptions options;
+  options.source = folder / "mav0";
   options.log = folder / "flight.lcm";
   Progress progress("", "", true);
   try {
-    const ImportSummary summary = importAsl(options, progress);
-    vehicleYaml(summary.vehicle);
+    const ImportSummary summary = aslImporter().import(options, progress);
   } catch (const InputError&) {
   }
   return 0;

@@ -78,15 +78,16 @@ TEST_F(ImportAslFaults, BadInputIsReportedWithFileAndLine) {
 }
 
 TEST_F(ImportAslFaults, AnEmptyFolderIsRefused) {
-  AslImportOptions options;
-  options.folder = folder_ / "empty";
+  ImportOptions options;
+  options.source = folder_ / "empty";
   options.log = log();
-  fs::create_directories(options.folder);
+  fs::create_directories(options.source);
   Progress progress("importing", "frames", true);
-  EXPECT_NE(complaintOf([&] { importAsl(options, progress); }).find("holds neither mav0 nor cam0"),
+  EXPECT_NE(complaintOf([&] { aslImporter().import(options, progress); }).find("holds neither mav0 nor cam0"),
             std::string::npos);
-  options.folder = folder_ / "none";
-  EXPECT_NE(complaintOf([&] { importAsl(options, progress); }).find("no such folder"), std::string::npos);
+  options.source = folder_ / "none";
+  EXPECT_NE(complaintOf([&] { aslImporter().import(options, progress); }).find("no such folder"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "processes/redbee/vehicle/vehicle_file.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/image_t.hpp"
@@ -52,7 +53,7 @@ TEST_F(ImportAslTest, TheVehicleIsDescribed) {
   EXPECT_EQ(vehicle.noise->accel_noise_density, 3e-3);
   EXPECT_EQ(vehicle.start_height->height_m, 7);
 
-  const YAML::Node yaml = YAML::LoadFile(writeVehicleConfiguration(vehicle, log()).string());
+  const YAML::Node yaml = YAML::LoadFile(writeVehicleFile(vehicle, log()).string());
   EXPECT_EQ(yaml["camera"]["fy"].as<double>(), 51);
   EXPECT_EQ(yaml["camera"]["distortion"][3].as<double>(), 0.4);
   EXPECT_EQ(yaml["camera"]["R_CI"][6].as<double>(), 1);
@@ -61,11 +62,11 @@ TEST_F(ImportAslTest, TheVehicleIsDescribed) {
 }
 
 TEST_F(ImportAslTest, TheVehicleFolderItselfWillDo) {
-  AslImportOptions options;
-  options.folder = mav();
+  ImportOptions options;
+  options.source = mav();
   options.log = log();
   Progress progress("importing", "frames", true);
-  EXPECT_EQ(importAsl(options, progress).frames, 5);
+  EXPECT_EQ(aslImporter().import(options, progress).frames, 5);
 }
 
 TEST_F(ImportAslTest, WithoutImuAndAltimeterThereIsVisionOnly) {
@@ -112,11 +113,11 @@ TEST_P(RecordedAslTest, Imports) {
   const auto flight = sharedFlight(GetParam().flight);
   if (!flight) GTEST_SKIP() << "the recorded flights are not here (REDBEE_SHARED)";
   const ScratchFolder folder;
-  AslImportOptions options;
-  options.folder = *flight;
+  ImportOptions options;
+  options.source = *flight;
   options.log = folder / "f.lcm";
   Progress progress("importing", "frames", true);
-  const ImportSummary summary = importAsl(options, progress);
+  const ImportSummary summary = aslImporter().import(options, progress);
   EXPECT_EQ(summary.frames, GetParam().frames);
   EXPECT_NEAR(summary.imu_rate_hz, GetParam().imu_rate_hz, 1);
   EXPECT_EQ(summary.altitudes > 0, GetParam().altimeter);

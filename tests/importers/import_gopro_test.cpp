@@ -17,14 +17,14 @@ namespace {
 
 TEST(ImportGoproTest, AVideoWithoutMetadataIsRefused) {
   const ScratchFolder folder;
-  GoproImportOptions options;
-  options.video = folder / "v.mp4";
+  ImportOptions options;
+  options.source = folder / "v.mp4";
   options.log = folder / "v.lcm";
-  VideoWriter writer(options.video, {64, 64}, 25);
+  VideoWriter writer(options.source, {64, 64}, 25);
   for (int k = 0; k < 5; ++k) writer.write(texture(64, 64, k, 3));
   writer.close();
   Progress progress("importing", "frames", true);
-  EXPECT_NE(complaintOf([&] { importGopro(options, progress); }).find("v.mp4: has no GPMF track"),
+  EXPECT_NE(complaintOf([&] { goproImporter().import(options, progress); }).find("v.mp4: has no GPMF track"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(options.log));
 }
@@ -47,11 +47,11 @@ TEST(ImportGoproTest, AKarmaFlight) {
   const auto flight = sharedFlight("karma");
   if (!flight) GTEST_SKIP() << "the recorded flights are not here (REDBEE_SHARED)";
   const ScratchFolder folder;
-  GoproImportOptions options;
-  options.video = *flight / "karma.mp4";
+  ImportOptions options;
+  options.source = *flight / "karma.mp4";
   options.log = folder / "karma.lcm";
   Progress progress("importing", "frames", true);
-  const ImportSummary summary = importGopro(options, progress);
+  const ImportSummary summary = goproImporter().import(options, progress);
   std::cout << summary.frames << " frames, gyro " << summary.imu_rate_hz << " Hz, " << summary.imu_samples
             << " samples\n";
   EXPECT_EQ(summary.frames, 362);

@@ -2,6 +2,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "processes/redbee/vehicle/vehicle_file.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/image_t.hpp"
@@ -25,13 +26,13 @@ void makeVideo(const fs::path& path) {
 class ImportVideoTest : public testing::Test {
  protected:
   ImportVideoTest() {
-    options_.video = folder_ / "v.mp4";
+    options_.source = folder_ / "v.mp4";
     options_.log = folder_ / "v.lcm";
-    makeVideo(options_.video);
+    makeVideo(options_.source);
   }
   ImportSummary import() const {
     Progress progress("importing", "frames", true);
-    return importVideo(options_, progress);
+    return videoImporter().import(options_, progress);
   }
   std::string complaint() const {
     std::string line = complaintOf([&] { import(); });
@@ -40,7 +41,7 @@ class ImportVideoTest : public testing::Test {
     return line;
   }
   ScratchFolder folder_;
-  VideoImportOptions options_;
+  ImportOptions options_;
 };
 
 TEST_F(ImportVideoTest, FramesKeepTheirTimesAndAppearance) {
@@ -63,8 +64,7 @@ TEST_F(ImportVideoTest, FramesKeepTheirTimesAndAppearance) {
 
 TEST_F(ImportVideoTest, TheConfigurationBesideTheLogRunsOnVisionAlone) {
   const ImportSummary summary = import();
-  const Configuration configuration =
-      loadConfiguration(writeVehicleConfiguration(summary.vehicle, options_.log));
+  const Configuration configuration = loadConfiguration(writeVehicleFile(summary.vehicle, options_.log));
   EXPECT_FALSE(configuration.has_imu);
   EXPECT_EQ(configuration.camera.width, 96);
   EXPECT_DOUBLE_EQ(configuration.camera.cx, 47.5);
@@ -120,10 +120,10 @@ TEST_F(ImportVideoTest, BadImuFilesAreReportedWithTheirLine) {
 }
 
 TEST_F(ImportVideoTest, ATruncatedVideoNamesItsLastGoodFrame) {
-  const std::string whole = readText(options_.video);
+  const std::string whole = readText(options_.source);
   int named = 0;
   for (const double share : {0.95, 0.85, 0.8}) {
-    writeText(options_.video,
+    writeText(options_.source,
               whole.substr(0, static_cast<size_t>(share * static_cast<double>(whole.size()))));
     const std::string line = complaint();
     EXPECT_NE(line.find("v.mp4: "), std::string::npos) << line;
@@ -132,29 +132,29 @@ TEST_F(ImportVideoTest, ATruncatedVideoNamesItsLastGoodFrame) {
     std::cout << share << ": " << line << "\n";
   }
   EXPECT_EQ(named, 3);
-  writeText(options_.video, whole.substr(0, 200));
+  writeText(options_.source, whole.substr(0, 200));
   EXPECT_NE(complaint().find("v.mp4: "), std::string::npos);
 }
 
 TEST_F(ImportVideoTest, WhatIsNoVideoIsRefused) {
-  writeText(options_.video, "hello");
+  writeText(options_.source, "hello");
   EXPECT_NE(complaint().find("v.mp4: is no video"), std::string::npos);
-  writeText(options_.video, "");
+  writeText(options_.source, "");
   EXPECT_NE(complaint().find("v.mp4: "), std::string::npos);
-  fs::remove(options_.video);
+  fs::remove(options_.source);
   EXPECT_NE(complaint().find("v.mp4: no such file"), std::string::npos);
 }
 
 TEST_F(ImportVideoTest, AFolderOfImagesIsAVideoToo) {
-  options_.video = folder_ / "images";
-  fs::create_directories(options_.video);
+  options_.source = folder_ / "images";
+  fs::create_directories(options_.source);
   EXPECT_NE(complaintOf([&] {
               options_.fps = 10;
               import();
             }).find("holds no JPEG or PNG"),
             std::string::npos);
   for (int k = 0; k < 3; ++k) {
-    cv::imwrite((options_.video / ("0" + std::to_string(k) + ".jpg")).string(), texture(32, 32, k, 3));
+    cv::imwrite((options_.source / ("0" + std::to_string(k) + ".jpg")).string(), texture(32, 32, k, 3));
   }
   options_.fps = 0;
   EXPECT_NE(complaint().find("frame rate"), std::string::npos);

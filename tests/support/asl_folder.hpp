@@ -52,10 +52,10 @@ class AslFolder : public testing::Test {
   fs::path log() const { return folder_ / "out.lcm"; }
   ImportSummary import() const {
     Progress progress("importing", "frames", true);
-    AslImportOptions options;
-    options.folder = folder_.path();
+    ImportOptions options;
+    options.source = folder_.path();
     options.log = log();
-    return importAsl(options, progress);
+    return aslImporter().import(options, progress);
   }
   /// The complaint; fails where it holds more than one line or leaves a log behind.
   std::string complaint() const {

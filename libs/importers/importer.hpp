@@ -1,0 +1,31 @@
+// The table of importers. A new one is a file of its own and one line in importer.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "redbee/files/progress.hpp"
+#include "redbee/importers/import.hpp"
+
+namespace redbee {
+
+/// Which of the options an importer takes beside source and log; the tool offers no others.
+struct ImporterTakes {
+  bool width = false;
+  bool fps = false;
+  bool imu = false;
+};
+
+struct Importer {
+  std::string name;         ///< `redbee import NAME`
+  std::string description;  ///< one line of help
+  std::string source;       ///< what the source is, for the help
+  ImporterTakes takes;
+  ImportOptions defaults;
+  /// Throws InputError, and then there is no log.
+  ImportSummary (*import)(const ImportOptions& options, Progress& progress) = nullptr;
+};
+
+const std::vector<Importer>& importers();
+
+}  // namespace redbee

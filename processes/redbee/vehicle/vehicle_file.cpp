@@ -1,0 +1,73 @@
+#include "processes/redbee/vehicle/vehicle_file.hpp"
+
+#include <vector>
+
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/files/atomic_file.hpp"
+
+namespace redbee {
+namespace {
+
+using Keys = std::vector<std::string>;
+
+void append(Keys& keys, const Keys& more) { keys.insert(keys.end(), more.begin(), more.end()); }
+
+void setCamera(const VehicleDescription& vehicle, Configuration& configuration, Keys& keys) {
+  append(keys, {"camera.width", "camera.height"});
+  if (vehicle.intrinsics) {
+    configuration.camera = *vehicle.intrinsics;
+    append(keys, {"camera.fx", "camera.fy", "camera.cx", "camera.cy", "camera.model", "camera.distortion"});
+  }
+  configuration.camera.width = vehicle.width;
+  configuration.camera.height = vehicle.height;
+  InertialExtrinsics& extrinsics = configuration.inertial.extrinsics;
+  if (vehicle.R_CI) {
+    extrinsics.R_CI = *vehicle.R_CI;
+    append(keys, {"camera.R_CI"});
+  }
+  if (vehicle.p_IC) {
+    extrinsics.p_IC = *vehicle.p_IC;
+    append(keys, {"camera.p_IC"});
+  }
+}
+
+/// Without an IMU P_FG is lower: the direction of parallax is not known, and what runs out of the image is
+/// muted. Thresholds found on DAVIS and UAVDT; Gull2, where nothing moves, stays clean with them.
+void setThresholdsWithoutImu(Configuration& configuration, Keys& keys) {
+  configuration.segmentation.threshold = 0.25;
+  configuration.segmentation.extent_threshold = 0.12;
+  append(keys, {"segmentation.threshold", "segmentation.extent_threshold"});
+}
+
+}  // namespace
+
+std::string vehicleYaml(const VehicleDescription& vehicle) {
+  Configuration configuration;
+  Keys keys{"vehicle", "imu.present"};
+  configuration.vehicle = vehicle.name;
+  configuration.has_imu = vehicle.has_imu;
+  setCamera(vehicle, configuration, keys);
+  if (vehicle.start_height) {
+    configuration.inertial.extrinsics.start_height_m = vehicle.start_height->height_m;
+    configuration.inertial.extrinsics.start_height_sigma_m = vehicle.start_height->sigma_m;
+    append(keys, {"plane.height_m", "plane.height_sigma_m"});
+  }
+  if (vehicle.noise) {
+    configuration.inertial.noise = *vehicle.noise;
+    append(keys, {"imu.gyro_noise_density", "imu.accel_noise_density", "imu.gyro_random_walk",
+                  "imu.accel_random_walk"});
+  }
+  if (!vehicle.has_imu) setThresholdsWithoutImu(configuration, keys);
+  return emitYaml(configuration, keys);
+}
+
+std::filesystem::path writeVehicleFile(const VehicleDescription& vehicle, const std::filesystem::path& log) {
+  std::filesystem::path path = log;
+  path.replace_extension(".yaml");
+  writeAtomically(path,
+                  "# What the recording states about its vehicle; all else has the reference's values.\n" +
+                      vehicleYaml(vehicle));
+  return path;
+}
+
+}  // namespace redbee
