@@ -3,13 +3,13 @@
 namespace redbee {
 namespace {
 
-/// Of neighbouring pixels in a row: 1 where they have nothing to do with each other, a few hundredths in a
+/// Of neighbouring pixels in a row: 1 where they have nothing to do with each other, a few hundredths in an
 /// image of something.
 constexpr double kMaxRoughness = 0.7;
 
 /// Mean squared difference of neighbours over what it is for independent ones, twice the variance.
-double roughness(const cv::Mat& grey, double deviation) {
-  cv::Mat difference;
+double roughness(const cv::Mat1b& grey, double deviation) {
+  cv::Mat1b difference;
   cv::absdiff(grey.colRange(1, grey.cols), grey.colRange(0, grey.cols - 1), difference);
   const double squares = cv::norm(difference, cv::NORM_L2SQR);
   return squares / static_cast<double>(difference.total()) / (2 * deviation * deviation);
@@ -17,8 +17,11 @@ double roughness(const cv::Mat& grey, double deviation) {
 
 }  // namespace
 
-bool ImageCheck::accepts(const cv::Mat& grey) {
-  if (grey.empty()) return false;
+bool ImageCheck::accepts(const cv::Mat1b& grey) {
+  if (grey.empty()) {
+    previous_.release();
+    return false;
+  }
   const bool frozen = previous_.size() == grey.size() && cv::norm(previous_, grey, cv::NORM_INF) == 0;
   previous_ = grey.clone();
   cv::Scalar mean, deviation;

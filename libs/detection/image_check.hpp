@@ -3,22 +3,21 @@
 
 #include <opencv2/core.hpp>
 
-#include "redbee/detection/parameters.hpp"
-
 namespace redbee {
 
 class ImageCheck {
  public:
-  explicit ImageCheck(const SegmentationParameters& parameters) : min_contrast_(parameters.min_contrast) {}
+  /// `min_contrast`: grey levels, standard deviation below which an image is black or blank.
+  explicit ImageCheck(double min_contrast) : min_contrast_(min_contrast) {}
 
   void reset() { previous_.release(); }
-  /// 8-bit grey. False for an empty image, one with next to no contrast, one of pure noise, and one that
+  /// False for an empty image, one with next to no contrast, one of pure noise, and one that
   /// repeats the previous image to the bit, which a sensor's noise never does.
-  bool accepts(const cv::Mat& grey);
+  bool accepts(const cv::Mat1b& grey);
 
  private:
   double min_contrast_;
-  cv::Mat previous_;
+  cv::Mat1b previous_;
 };
 
 }  // namespace redbee

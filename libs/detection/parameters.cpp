@@ -2,14 +2,13 @@
 
 namespace redbee {
 
-SegmentationParameters paperSegmentation() {
-  SegmentationParameters parameters;
-  parameters.method = SegmentationMethod::kTwoPlanes;
-  parameters.use_refinement = true;
-  parameters.sample_grid_px = 16;  // and its tracks are as far apart
-  parameters.confirm_frames = 1;
-  parameters.threshold = 0.5;  // the paper names none
-  parameters.extent_threshold = parameters.threshold;
+DetectionParameters paperDetection() {
+  DetectionParameters parameters;
+  parameters.method = "two_planes";
+  parameters.refinement.enabled = true;
+  parameters.objects.confirm_frames = 1;
+  parameters.objects.threshold = 0.5;  // the paper names none
+  parameters.objects.extent_threshold = parameters.objects.threshold;
   return parameters;
 }
 

@@ -11,21 +11,21 @@ constexpr double kOutline = 0.02;
 
 /// Lets `level` spread from each pixel to the next of a row and from the row before, but nowhere above
 /// `limit`.
-void sweep(const cv::Mat& limit, cv::Mat& level, bool forth) {
+void sweep(const cv::Mat1f& limit, cv::Mat1f& level, bool forth) {
   const int step = forth ? 1 : -1;
   const int first_x = forth ? 1 : level.cols - 2, end_x = forth ? level.cols : -1;
   const int first_y = forth ? 1 : level.rows - 2, end_y = forth ? level.rows : -1;
   for (int y = first_y; y != end_y; y += step) {
-    const float* top = limit.ptr<float>(y);
-    const float* before = level.ptr<float>(y - step);
-    float* now = level.ptr<float>(y);
+    const float* top = limit[y];
+    const float* before = level[y - step];
+    float* now = level[y];
     for (int x = first_x; x != end_x; x += step) {
       now[x] = std::min(top[x], std::max({now[x], before[x], now[x - step]}));
     }
   }
 }
 
-void copyBorder(const cv::Mat& from, cv::Mat& to) {
+void copyBorder(const cv::Mat1f& from, cv::Mat1f& to) {
   from.row(0).copyTo(to.row(0));
   from.row(from.rows - 1).copyTo(to.row(to.rows - 1));
   from.col(0).copyTo(to.col(0));
@@ -34,30 +34,31 @@ void copyBorder(const cv::Mat& from, cv::Mat& to) {
 
 }  // namespace
 
-void reconstruct(const cv::Mat& limit, cv::Mat& level) {
+void reconstruct(const cv::Mat1f& limit, cv::Mat1f& level) {
   for (int i = 0; i < kSweeps; ++i) {
     for (const bool forth : {true, false}) sweep(limit, level, forth);
   }
 }
 
-cv::Mat fillHoles(const cv::Mat& map, int gap_px) {
+cv::Mat1f fillHoles(const cv::Mat1f& map, int gap_px) {
   const int side = (gap_px + 1) | 1;
-  cv::Mat closed;
+  cv::Mat1f closed;
   cv::morphologyEx(map, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
   // An outline lies within one component: each is a small image of its own.
-  cv::Mat labels, boxes, centroids;
+  cv::Mat1i labels, boxes;
+  cv::Mat1d centroids;
   const int components = cv::connectedComponentsWithStats(closed > kOutline, labels, boxes, centroids);
-  cv::Mat filled = map.clone();
+  cv::Mat1f filled = map.clone();
   for (int i = 1; i < components; ++i) {
-    const int* box = boxes.ptr<int>(i);
+    const int* box = boxes[i];
     const cv::Rect inside(box[cv::CC_STAT_LEFT], box[cv::CC_STAT_TOP], box[cv::CC_STAT_WIDTH],
                           box[cv::CC_STAT_HEIGHT]);
     if (std::min(inside.width, inside.height) < 3) continue;
-    const cv::Mat open = 1 - closed(inside);
-    cv::Mat outside = cv::Mat::zeros(open.size(), CV_32F);
+    const cv::Mat1f open = 1 - closed(inside);
+    cv::Mat1f outside = cv::Mat1f::zeros(open.size());
     copyBorder(open, outside);
     reconstruct(open, outside);
-    cv::Mat here = filled(inside);
+    cv::Mat1f here = filled(inside);
     cv::max(here, 1 - outside, here);
   }
   return filled;

@@ -5,26 +5,26 @@
 
 namespace redbee {
 
-cv::Mat guidedFilter(const cv::Mat& guide, const cv::Mat& map, int radius_px, double contrast) {
+cv::Mat1f guidedFilter(const cv::Mat& guide, const cv::Mat1f& map, int radius_px, double contrast) {
   // Slope and offset are smooth: a smaller image gives them as well.
   const int shrink = std::clamp(radius_px / 2, 1, 4);
   const cv::Size small((guide.cols + shrink - 1) / shrink, (guide.rows + shrink - 1) / shrink);
   const int side = 2 * std::max(1, radius_px / shrink) + 1;
-  const auto mean = [&](const cv::Mat& of) {
-    cv::Mat blurred;
+  const auto mean = [&](const cv::Mat1f& of) {
+    cv::Mat1f blurred;
     cv::blur(of, blurred, {side, side});
     return blurred;
   };
-  cv::Mat full_grey, grey, shrunk;
+  cv::Mat1f full_grey, grey, shrunk;
   guide.convertTo(full_grey, CV_32F);
   cv::resize(full_grey, grey, small, 0, 0, cv::INTER_AREA);
   cv::resize(map, shrunk, small, 0, 0, cv::INTER_AREA);
-  const cv::Mat mean_grey = mean(grey);
-  const cv::Mat mean_map = mean(shrunk);
-  const cv::Mat variance = mean(grey.mul(grey)) - mean_grey.mul(mean_grey);
-  const cv::Mat covariance = mean(grey.mul(shrunk)) - mean_grey.mul(mean_map);
-  cv::Mat slope = covariance / (variance + contrast * contrast);
-  cv::Mat offset = mean_map - slope.mul(mean_grey);
+  const cv::Mat1f mean_grey = mean(grey);
+  const cv::Mat1f mean_map = mean(shrunk);
+  const cv::Mat1f variance = mean(grey.mul(grey)) - mean_grey.mul(mean_grey);
+  const cv::Mat1f covariance = mean(grey.mul(shrunk)) - mean_grey.mul(mean_map);
+  cv::Mat1f slope = covariance / (variance + contrast * contrast);
+  cv::Mat1f offset = mean_map - slope.mul(mean_grey);
   cv::resize(mean(slope), slope, guide.size(), 0, 0, cv::INTER_LINEAR);
   cv::resize(mean(offset), offset, guide.size(), 0, 0, cv::INTER_LINEAR);
   return slope.mul(full_grey) + offset;

@@ -6,8 +6,8 @@
 
 namespace redbee {
 
-/// `map` (CV_32F) as a locally linear function of `guide` (CV_8U or CV_32F) over squares of 2 radius + 1: it
+/// `map` as a locally linear function of `guide` (CV_8U or CV_32F) over squares of 2 radius + 1: it
 /// fills even surfaces and stops at their edges. Contrast below `contrast` grey levels is no edge.
-cv::Mat guidedFilter(const cv::Mat& guide, const cv::Mat& map, int radius_px, double contrast);
+cv::Mat1f guidedFilter(const cv::Mat& guide, const cv::Mat1f& map, int radius_px, double contrast);
 
 }  // namespace redbee

@@ -9,7 +9,7 @@ namespace redbee {
 
 /// One level: pixel (x, y) of level l lies at (x, y) * 2^l of the image.
 struct PyramidLevel {
-  cv::Mat padded;  ///< 8-bit, margin on all sides (mirrored)
+  cv::Mat1b padded;  ///< margin on all sides (mirrored)
   int margin = 0;  ///< px
   int width = 0;   ///< px, without the margin
   int height = 0;  ///< px, without the margin
@@ -18,15 +18,15 @@ struct PyramidLevel {
   const uint8_t* at(int x, int y) const { return padded.ptr(y + margin) + x + margin; }
   cv::Size size() const { return {width, height}; }
   /// The level without its margin.
-  cv::Mat image() const { return padded(cv::Rect(margin, margin, width, height)); }
+  cv::Mat1b image() const { return padded(cv::Rect(margin, margin, width, height)); }
   std::size_t stride() const { return padded.step[0]; }
 };
 
 class Pyramid {
  public:
   Pyramid() = default;
-  /// `grey`: 8-bit, one channel. Levels whose shorter side would fall below `min_side` px are left out.
-  Pyramid(const cv::Mat& grey, int levels, int margin, int min_side);
+  /// Levels whose shorter side would fall below `min_side` px are left out.
+  Pyramid(const cv::Mat1b& grey, int levels, int margin, int min_side);
 
   bool empty() const { return levels_.empty(); }
   int size() const { return static_cast<int>(levels_.size()); }

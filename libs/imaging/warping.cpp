@@ -1,6 +1,7 @@
 #include "redbee/imaging/warping.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -10,15 +11,26 @@ cv::Matx33d toMatx(const Eigen::Matrix3d& H) {
   return {H(0, 0), H(0, 1), H(0, 2), H(1, 0), H(1, 1), H(1, 2), H(2, 0), H(2, 1), H(2, 2)};
 }
 
-cv::Mat carryMap(const cv::Mat& map, const Eigen::Matrix3d& H, int interpolation) {
+cv::Mat carryMap(const cv::Mat& map, const cv::Matx33d& H, int interpolation) {
   cv::Mat carried;
-  cv::warpPerspective(map, carried, toMatx(H), map.size(), interpolation, cv::BORDER_CONSTANT,
-                      cv::Scalar::all(0));
+  cv::warpPerspective(map, carried, H, map.size(), interpolation, cv::BORDER_CONSTANT, cv::Scalar::all(0));
   return carried;
 }
 
-cv::Mat overlapMask(const cv::Size& size, const Eigen::Matrix3d& H) {
-  return carryMap(cv::Mat(size, CV_8U, cv::Scalar(255)), H, cv::INTER_NEAREST);
+cv::Mat carryMap(const cv::Mat& map, const Eigen::Matrix3d& H, int interpolation) {
+  return carryMap(map, toMatx(H), interpolation);
+}
+
+cv::Mat1b overlapMask(const cv::Size& size, const cv::Matx33d& H) {
+  return carryMap(cv::Mat1b(size, 255), H, cv::INTER_NEAREST);
+}
+
+cv::Mat1b overlapMask(const cv::Size& size, const Eigen::Matrix3d& H) { return overlapMask(size, toMatx(H)); }
+
+cv::Mat1b outsidePrevious(const cv::Matx33d& H, cv::Size size) {
+  cv::Mat1b outside;
+  cv::dilate(overlapMask(size, H) == 0, outside, cv::Mat());
+  return outside;
 }
 
 bool isUsableHomography(const Eigen::Matrix3d& H) {
@@ -44,6 +56,13 @@ SceneMotion::SceneMotion(const Eigen::Matrix3d& ground_homography, const std::op
   far = K * motion->R_ba * K.inverse();
   // Ground is where m' R' K^-1 x > 0, a linear function of the current pixel x.
   horizon = motion->m_a.transpose() * motion->R_ba.transpose() * K.inverse();
+}
+
+SceneMotion::HorizonCut SceneMotion::cutAtHorizon(int y, int width) const {
+  const double at_left = horizon.y() * y + horizon.z();
+  if (horizon.x() == 0) return {width, at_left > 0};
+  const double crossing = std::clamp(std::ceil(-at_left / horizon.x()), 0.0, static_cast<double>(width));
+  return {static_cast<int>(crossing), horizon.x() < 0};
 }
 
 }  // namespace redbee

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 namespace redbee {
 namespace {
@@ -39,7 +38,7 @@ class RowCarrier {
                         from.x() < static_cast<float>(from_.model.cols - 1) &&
                         from.y() < static_cast<float>(from_.model.rows - 1);
     if (!inside) {
-      to_.age.at<uint8_t>(y, x) = 0;
+      to_.age(y, x) = 0;
       return;
     }
     const int column = static_cast<int>(from.x());
@@ -53,37 +52,24 @@ class RowCarrier {
     Pixel(to_.model.ptr<float>(y) + 4 * x) = upper + below * (lower - upper);
     const int near_row = row + (below > 0.5F ? 1 : 0);
     const int near_column = column + (right > 0.5F ? 1 : 0);
-    to_.age.ptr<uint8_t>(y)[x] = from_.age.ptr<uint8_t>(near_row)[near_column];
-    to_.speed.ptr<float>(y)[x] = from_.speed.ptr<float>(near_row)[near_column];
+    to_.age(y, x) = from_.age(near_row, near_column);
+    to_.speed(y, x) = from_.speed(near_row, near_column);
   }
 
   const BackgroundMaps& from_;
   BackgroundMaps& to_;
 };
 
-/// Where along row y the ground begins or ends, and whether the row begins with it.
-struct HorizonCut {
-  int at;
-  bool ground_first;
-};
-HorizonCut cutAtHorizon(const Eigen::RowVector3d& horizon, int y, int width) {
-  const double at_left = horizon.y() * y + horizon.z();
-  if (horizon.x() == 0) return {width, at_left > 0};
-  const double crossing = std::clamp(std::ceil(-at_left / horizon.x()), 0.0, static_cast<double>(width));
-  return {static_cast<int>(crossing), horizon.x() < 0};
-}
-
 }  // namespace
 
 BackgroundMaps carryBackground(const BackgroundMaps& maps, const SceneMotion& scene) {
   const Eigen::Matrix3f ground = scene.ground.inverse().cast<float>();
   const Eigen::Matrix3f far = scene.far.inverse().cast<float>();
-  BackgroundMaps carried{cv::Mat::zeros(maps.model.size(), maps.model.type()),
-                         cv::Mat::zeros(maps.speed.size(), maps.speed.type()),
-                         cv::Mat(maps.age.size(), maps.age.type())};
+  BackgroundMaps carried{cv::Mat4f::zeros(maps.model.size()), cv::Mat1f::zeros(maps.speed.size()),
+                         cv::Mat1b(maps.age.size())};
   RowCarrier carrier(maps, carried);
   for (int y = 0; y < maps.model.rows; ++y) {
-    const HorizonCut cut = cutAtHorizon(scene.horizon, y, maps.model.cols);
+    const SceneMotion::HorizonCut cut = scene.cutAtHorizon(y, maps.model.cols);
     carrier.carry(cut.ground_first ? ground : far, y, 0, cut.at);
     carrier.carry(cut.ground_first ? far : ground, y, cut.at, maps.model.cols);
   }

@@ -8,9 +8,9 @@
 namespace redbee {
 
 struct BackgroundMaps {
-  cv::Mat model;  ///< CV_32FC4, interpolated between pixels
-  cv::Mat speed;  ///< CV_32F, of the nearest pixel
-  cv::Mat age;    ///< CV_8U, of the nearest pixel; 0 outside of the previous view
+  cv::Mat4f model;  ///< interpolated between pixels
+  cv::Mat1f speed;  ///< of the nearest pixel
+  cv::Mat1b age;    ///< of the nearest pixel; 0 outside of the previous view
 };
 
 /// The maps warped into the current view: ground up to the horizon, infinitely far above it.

@@ -32,7 +32,7 @@ float meanSquare(const Eigen::Array4f& difference) {
 /// Squared slope of the mean colour about pixel (x, y), of one channel [grey levels^2 a px^2].
 class Slope {
  public:
-  Slope(const cv::Mat& model, int y)
+  Slope(const cv::Mat4f& model, int y)
       : here_(model.ptr<float>(y)),
         above_(model.ptr<float>(std::max(y - 1, 0))),
         below_(model.ptr<float>(std::min(y + 1, model.rows - 1))),
@@ -80,31 +80,31 @@ void CarriedBackground::carry(const SceneMotion& scene) {
 
 /// 0..1: that the modelled surface has moved away and a slower one is in its place.
 float CarriedBackground::movedAway(float learned_speed, const cv::Vec2f& speed) const {
-  if (!parameters_.use_surfaces) return 0;
-  const auto sigmas = static_cast<float>(parameters_.evidence_sigmas);
+  if (!parameters_.use_surface_reset) return 0;
+  const auto sigmas = static_cast<float>(evidence_sigmas_);
   const float slower = std::max(0.0F, learned_speed - speed[0]);
   const float gone = slower * slower;
   return gone / (gone + sigmas * sigmas * speed[1]);
 }
 
-cv::Mat CarriedBackground::appearanceDifference(const cv::Mat& image, const SurfaceSpeed& speed) const {
-  cv::Mat evidence = cv::Mat::zeros(image.size(), CV_32F);
+cv::Mat1f CarriedBackground::appearanceDifference(const cv::Mat4f& image, const SurfaceSpeed& speed) const {
+  cv::Mat1f evidence = cv::Mat1f::zeros(image.size());
   if (model_.empty()) return evidence;
-  const auto noise2 = static_cast<float>(parameters_.background_noise * parameters_.background_noise);
-  const double edge_px = parameters_.edge_doubt_px / std::max(parameters_.background_downscale, 1);
+  const auto noise2 = static_cast<float>(parameters_.noise * parameters_.noise);
+  const double edge_px = parameters_.edge_tolerance_px / std::max(parameters_.downscale, 1);
   const auto edge2 = static_cast<float>(edge_px * edge_px);
   std::optional<ShadowTest> shadows;
-  if (parameters_.use_shadow_test) shadows.emplace(image, model_, parameters_.shadow_noise);
+  if (shadow_.enabled) shadows.emplace(image, model_, shadow_.noise);
   const std::vector<float> none(static_cast<size_t>(image.cols), 0.0F);
   for (int y = 0; y < image.rows; ++y) {
     const std::vector<float>& shadow = shadows ? shadows->row(y) : none;
     const Slope slope(model_, y);
     const float* now = image.ptr<float>(y);
     const float* known = model_.ptr<float>(y);
-    const cv::Vec2f* is = speed.ptr<cv::Vec2f>(y);
-    const float* was = speed_.ptr<float>(y);
-    const uint8_t* age = age_.ptr(y);
-    float* to = evidence.ptr<float>(y);
+    const cv::Vec2f* is = speed[y];
+    const float* was = speed_[y];
+    const uint8_t* age = age_[y];
+    float* to = evidence[y];
     for (int x = 0; x < image.cols; ++x) {
       if (age[x] == 0) continue;
       const float d2 = meanSquare(ConstPixel(now + 4 * x) - ConstPixel(known + 4 * x));
@@ -116,22 +116,22 @@ cv::Mat CarriedBackground::appearanceDifference(const cv::Mat& image, const Surf
   return evidence;
 }
 
-void CarriedBackground::learn(const cv::Mat& image, const cv::Mat& moving, const SurfaceSpeed& speed,
+void CarriedBackground::learn(const cv::Mat4f& image, const cv::Mat1f& moving, const SurfaceSpeed& speed,
                               double elapsed_s) {
   if (model_.empty()) {
-    model_ = cv::Mat::zeros(image.size(), CV_32FC4);
-    speed_ = cv::Mat::zeros(image.size(), CV_32F);
-    age_ = cv::Mat::zeros(image.size(), CV_8U);
+    model_ = cv::Mat4f::zeros(image.size());
+    speed_ = cv::Mat1f::zeros(image.size());
+    age_ = cv::Mat1b::zeros(image.size());
   }
-  const auto mean_rates = ratesByAge(elapsed_s / parameters_.background_span_s);
+  const auto mean_rates = ratesByAge(elapsed_s / parameters_.span_s);
   const auto variance_rates = ratesByAge(elapsed_s / kVarianceSpan_s);
   for (int y = 0; y < image.rows; ++y) {
     const float* now = image.ptr<float>(y);
-    const float* moves = moving.ptr<float>(y);
-    const cv::Vec2f* is = speed.ptr<cv::Vec2f>(y);
-    float* was = speed_.ptr<float>(y);
+    const float* moves = moving[y];
+    const cv::Vec2f* is = speed[y];
+    float* was = speed_[y];
     float* known = model_.ptr<float>(y);
-    uint8_t* age = age_.ptr(y);
+    uint8_t* age = age_[y];
     for (int x = 0; x < image.cols; ++x) {
       if (movedAway(was[x], is[x]) > kSurelyMovedAway) age[x] = 0;
       const Eigen::Array4f difference = ConstPixel(now + 4 * x) - ConstPixel(known + 4 * x);

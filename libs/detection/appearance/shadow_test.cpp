@@ -28,7 +28,7 @@ void sumThree(const std::vector<float>& of, std::vector<float>& to) {
 
 }  // namespace
 
-ShadowTest::ShadowTest(const cv::Mat& image, const cv::Mat& background, double noise)
+ShadowTest::ShadowTest(const cv::Mat4f& image, const cv::Mat4f& background, double noise)
     : image_(image),
       background_(background),
       noise_variance_(static_cast<float>(noise * noise)),
@@ -54,7 +54,7 @@ void ShadowTest::add(int y) {
   sumThree(products_.bb, row.bb);
 }
 
-float ShadowTest::judge(float pp, float pb, float bb) const {
+float ShadowTest::score(float pp, float pb, float bb) const {
   const float scale = pb / std::max(bb, 1.0F);
   const float dark = std::clamp((scale - kDarkest) / kDarkestRamp, 0.0F, 1.0F);
   const float light = std::clamp((kLightest - scale) / kLightestRamp, 0.0F, 1.0F);
@@ -70,7 +70,7 @@ const std::vector<float>& ShadowTest::row(int y) {
   const Sums& here = rows_[y % kWindow];
   const Sums& below = rows_[std::min(y + 1, last) % kWindow];
   for (size_t x = 0; x < shadow_.size(); ++x) {
-    shadow_[x] = judge(above.pp[x] + here.pp[x] + below.pp[x], above.pb[x] + here.pb[x] + below.pb[x],
+    shadow_[x] = score(above.pp[x] + here.pp[x] + below.pp[x], above.pb[x] + here.pb[x] + below.pb[x],
                        above.bb[x] + here.bb[x] + below.bb[x]);
   }
   return shadow_;

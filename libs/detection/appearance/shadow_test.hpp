@@ -9,8 +9,9 @@ namespace redbee {
 
 class ShadowTest {
  public:
-  /// `noise`: grey levels, residual of a shadow after scaling.
-  ShadowTest(const cv::Mat& image, const cv::Mat& background, double noise);
+  /// Both blue, green, red, anything. They are not copied and must outlive the test. `noise`: grey levels, residual
+  /// of a shadow after scaling.
+  ShadowTest(const cv::Mat4f& image, const cv::Mat4f& background, double noise);
 
   /// For each pixel of row y: 0 no shadow, 1 certainly one. Rows must be requested in order, from 0.
   const std::vector<float>& row(int y);
@@ -21,10 +22,10 @@ class ShadowTest {
     std::vector<float> pp, pb, bb;
   };
   void add(int y);
-  float judge(float pp, float pb, float bb) const;
+  float score(float pp, float pb, float bb) const;
 
-  const cv::Mat& image_;
-  const cv::Mat& background_;
+  const cv::Mat4f& image_;
+  const cv::Mat4f& background_;
   float noise_variance_;
   int next_ = 0;
   Sums products_;

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kVelocityRate = 0.3;     // of the newest step in an object's velocity
 constexpr double kUnseenVelocity = 0.85;  // fraction of its velocity that a missed object keeps per frame
+constexpr double kReachInDiagonals = 0.75;  // of the larger box: how far apart a match may be
+constexpr double kReach_px = 4;             // and this much further; one more for each missed frame
 constexpr int kUnmatched = -1;
 constexpr double kFull = 255;  // P_FG of 1
 
@@ -27,17 +29,17 @@ cv::Rect boxAt(const cv::Rect& box, const Eigen::Vector2d& centre) {
 /// Distance of a component from an object: 0 on top of each other, above 1 no match. It is relative to the
 /// larger of the two boxes, and the gate opens with the number of missed frames.
 double misfit(const Eigen::Vector2d& centre, const cv::Rect& box, int missed, const Detection& component) {
-  const double reach = 0.75 * std::max(diagonal(box), diagonal(component.box)) + 4.0 + missed;
+  const double reach = kReachInDiagonals * std::max(diagonal(box), diagonal(component.box)) + kReach_px + missed;
   return (centre - centreOf(component.box)).norm() / reach;
 }
 
-cv::Mat disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
+cv::Mat1b disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
 
 /// What exceeds the lower threshold, opened and closed. Most images are empty but for a corner, so only the
 /// part around the foreground is worked on; `part` says which.
-cv::Mat foregroundPart(const cv::Mat& probability, const cv::Mat& unknown,
-                       const SegmentationParameters& parameters, cv::Rect& part) {
-  cv::Mat mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
+cv::Mat1b foregroundPart(const cv::Mat1b& probability, const cv::Mat1b& unknown,
+                       const ObjectParameters& parameters, cv::Rect& part) {
+  cv::Mat1b mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
   mask.setTo(0, unknown);
   const int reach = std::max(parameters.opening_px, parameters.closing_px);
   part = cv::boundingRect(mask);
@@ -54,24 +56,25 @@ cv::Mat foregroundPart(const cv::Mat& probability, const cv::Mat& unknown,
 
 }  // namespace
 
-ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& unknown,
-                                    const SegmentationParameters& parameters) {
+ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
+                                    const ObjectParameters& parameters) {
   ForegroundComponents found;
-  found.mask = cv::Mat::zeros(probability.size(), CV_8U);
+  found.mask = cv::Mat1b::zeros(probability.size());
   cv::Rect part;
-  const cv::Mat mask = foregroundPart(probability, unknown, parameters, part);
+  const cv::Mat1b mask = foregroundPart(probability, unknown, parameters, part);
   if (mask.empty()) return found;
-  cv::Mat labels, statistics, centroids;
+  cv::Mat1i labels, statistics;
+  cv::Mat1d centroids;
   const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8, CV_32S);
   for (int label = 1; label < count; ++label) {
-    const int* row = statistics.ptr<int>(label);
+    const int* row = statistics[label];
     if (row[cv::CC_STAT_AREA] < parameters.min_area_px) continue;
     Detection component;
     const cv::Rect in_part(row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
                            row[cv::CC_STAT_HEIGHT]);
     component.box = in_part + part.tl();
     component.area_px = row[cv::CC_STAT_AREA];
-    const cv::Mat own = labels(in_part) == label;
+    const cv::Mat1b own = labels(in_part) == label;
     double surest = 0;
     cv::minMaxLoc(probability(component.box), nullptr, &surest, nullptr, nullptr, own);
     if (surest <= kFull * parameters.threshold) continue;
@@ -133,34 +136,34 @@ void ObjectTracker::miss(Object& object) {
 void ObjectTracker::deleteLostTracks(const cv::Rect& view) {
   const auto lost = [&](const Object& object) {
     // An unconfirmed track is deleted at its first miss.
-    const int patience = object.told ? parameters_.max_missed_frames : 0;
+    const int patience = object.confirmed ? parameters_.max_missed_frames : 0;
     const bool in_view = (boxAt(object.last.box, object.centre) & view).area() > 0;
     return object.missed - object.blind > patience || !in_view;
   };
   objects_.erase(std::remove_if(objects_.begin(), objects_.end(), lost), objects_.end());
 }
 
-std::vector<Detection> ObjectTracker::tell(const cv::Rect& view) {
-  std::vector<Detection> told;
+std::vector<Detection> ObjectTracker::confirmedTracks(const cv::Rect& view) {
+  std::vector<Detection> confirmed;
   for (Object& object : objects_) {
     if (object.hits < parameters_.confirm_frames) continue;
-    if (!object.told) object.last.id = next_id_++;
-    object.told = true;
+    if (!object.confirmed) object.last.id = next_id_++;
+    object.confirmed = true;
     Detection detection = object.last;
     detection.seen = object.missed == 0;
     if (!detection.seen) detection.box = boxAt(object.last.box, object.centre) & view;
-    told.push_back(detection);
+    confirmed.push_back(detection);
   }
-  return told;
+  return confirmed;
 }
 
 std::vector<Detection> ObjectTracker::skip(cv::Size image) {
   for (Object& object : objects_) {
     miss(object);
-    if (object.told && object.blind < parameters_.max_missed_frames) ++object.blind;
+    if (object.confirmed && object.blind < parameters_.max_missed_frames) ++object.blind;
   }
   deleteLostTracks({{}, image});
-  return tell({{}, image});
+  return confirmedTracks({{}, image});
 }
 
 std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& components, cv::Size image) {
@@ -184,7 +187,7 @@ std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& compo
     object.last.id = 0;
     objects_.push_back(object);
   }
-  return tell({{}, image});
+  return confirmedTracks({{}, image});
 }
 
 }  // namespace redbee

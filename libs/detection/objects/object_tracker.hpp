@@ -17,20 +17,20 @@ struct Detection {
   bool seen = true;    ///< false: predicted by the tracker in a frame without a component
 };
 
-/// Two thresholds (hysteresis), opening, closing, and the components that are large enough. `mask` (CV_8U, 0
-/// or 255) holds exactly those. `probability`: CV_8U, P_FG * 255.
+/// Two thresholds (hysteresis), opening, closing, and the components that are large enough. `mask` (0 or
+/// 255) holds exactly those. `probability`: P_FG * 255.
 struct ForegroundComponents {
-  cv::Mat mask;
+  cv::Mat1b mask;
   std::vector<Detection> components;  ///< without identity
 };
-ForegroundComponents findComponents(const cv::Mat& probability, const cv::Mat& unknown,
-                                    const SegmentationParameters& parameters);
+ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
+                                    const ObjectParameters& parameters);
 
 /// Tracks objects over the ground: each has a velocity relative to it, which decays while the object is
 /// missed, for a missed object has most likely stopped.
 class ObjectTracker {
  public:
-  explicit ObjectTracker(const SegmentationParameters& parameters) : parameters_(parameters) {}
+  explicit ObjectTracker(const ObjectParameters& parameters) : parameters_(parameters) {}
 
   void reset() { objects_.clear(); }
   /// The camera moves by the ground homography (previous to current, pixels).
@@ -50,16 +50,16 @@ class ObjectTracker {
     int hits = 1;
     int missed = 0;  ///< frames in a row without a component
     int blind = 0;   ///< of these, frames that were skipped
-    bool told = false;
+    bool confirmed = false;
   };
 
   void associate(const std::vector<Detection>& components, std::vector<int>& component_of_object) const;
   void observe(Object& object, const Detection& component) const;
   static void miss(Object& object);
   void deleteLostTracks(const cv::Rect& view);
-  std::vector<Detection> tell(const cv::Rect& view);
+  std::vector<Detection> confirmedTracks(const cv::Rect& view);
 
-  SegmentationParameters parameters_;
+  ObjectParameters parameters_;
   std::vector<Object> objects_;
   int next_id_ = 1;
 };

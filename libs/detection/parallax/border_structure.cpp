@@ -13,22 +13,22 @@ constexpr double kShrink = 2;  // evidence is smooth: half its size will do
 constexpr int kLeastSide_px = 8;
 
 /// Levels that the line reaches over at least `stretch` pixels (its opening).
-cv::Mat wideLevels(const cv::Mat& line, int stretch) {
-  const cv::Mat bar = line.rows == 1 ? cv::Mat::ones(1, stretch, CV_8U) : cv::Mat::ones(stretch, 1, CV_8U);
-  cv::Mat opened;
+cv::Mat1f wideLevels(const cv::Mat1f& line, int stretch) {
+  const cv::Mat1b bar = line.rows == 1 ? cv::Mat1b::ones(1, stretch) : cv::Mat1b::ones(stretch, 1);
+  cv::Mat1f opened;
   cv::morphologyEx(line, opened, cv::MORPH_OPEN, bar, {-1, -1}, 1, cv::BORDER_REPLICATE);
   return opened;
 }
 
 /// The wide levels of the four sides, each one pixel inside.
-cv::Mat seeds(const cv::Mat& motion, int stretch) {
-  cv::Mat seeds = cv::Mat::zeros(motion.size(), CV_32F);
+cv::Mat1f seeds(const cv::Mat1f& motion, int stretch) {
+  cv::Mat1f seeds = cv::Mat1f::zeros(motion.size());
   const cv::Rect lines[] = {{0, 1, motion.cols, 1},
                             {0, motion.rows - 2, motion.cols, 1},
                             {1, 0, 1, motion.rows},
                             {motion.cols - 2, 0, 1, motion.rows}};
   for (const cv::Rect& line : lines) {
-    cv::Mat here = seeds(line);
+    cv::Mat1f here = seeds(line);
     cv::max(here, wideLevels(motion(line), stretch), here);
   }
   return seeds;
@@ -36,21 +36,22 @@ cv::Mat seeds(const cv::Mat& motion, int stretch) {
 
 }  // namespace
 
-cv::Mat fractionOfBorderStructure(const cv::Mat& motion, const cv::Mat& unseen, double stretch_px) {
-  cv::Mat small, hidden;
+cv::Mat1f fractionOfBorderStructure(const cv::Mat1f& motion, const cv::Mat1b& unknown, double stretch_px) {
+  cv::Mat1f small;
+  cv::Mat1b hidden;
   cv::resize(motion, small, {}, 1 / kShrink, 1 / kShrink, cv::INTER_AREA);
-  cv::resize(unseen, hidden, small.size(), 0, 0, cv::INTER_NEAREST);
-  const cv::Rect seen = cv::boundingRect(hidden == 0);
-  if (std::min(seen.width, seen.height) < kLeastSide_px) return cv::Mat::zeros(motion.size(), CV_32F);
-  const cv::Mat limit = small(seen);
+  cv::resize(unknown, hidden, small.size(), 0, 0, cv::INTER_NEAREST);
+  const cv::Rect known = cv::boundingRect(hidden == 0);
+  if (std::min(known.width, known.height) < kLeastSide_px) return cv::Mat1f::zeros(motion.size());
+  const cv::Mat1f limit = small(known);
   const int stretch = std::max(1, static_cast<int>(std::lround(stretch_px / kShrink)));
-  cv::Mat level = seeds(limit, stretch);
+  cv::Mat1f level = seeds(limit, stretch);
   reconstruct(limit, level);
-  cv::Mat whole = cv::Mat::zeros(small.size(), CV_32F);
-  level.copyTo(whole(seen));
+  cv::Mat1f whole = cv::Mat1f::zeros(small.size());
+  level.copyTo(whole(known));
   cv::resize(whole, whole, motion.size(), 0, 0, cv::INTER_LINEAR);
   constexpr double kNone = 1e-3;  // less evidence counts as none, and its fraction is 0
-  return cv::min(whole / (motion + kNone), 1);
+  return cv::Mat1f(cv::min(whole / (motion + kNone), 1));
 }
 
 }  // namespace redbee

@@ -1,6 +1,7 @@
 #include "redbee/detection/parallax/earlier_frames.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -9,25 +10,21 @@
 namespace redbee {
 namespace {
 
-PlaneMotion compose(const PlaneMotion& cb, const PlaneMotion& ba) {
-  return {cb.R_ba * ba.R_ba, cb.R_ba * ba.t_ba + cb.t_ba, ba.m_a, ba.h_a};
-}
-
 /// 255 above the horizon.
-cv::Mat aboveHorizon(cv::Size size, const Eigen::RowVector3d& horizon) {
-  cv::Mat above(size, CV_8U);
+cv::Mat1b aboveHorizon(cv::Size size, const SceneMotion& scene) {
+  cv::Mat1b above(size);
   for (int y = 0; y < size.height; ++y) {
-    const double at_left = horizon.y() * y + horizon.z();
-    uint8_t* row = above.ptr(y);
-    for (int x = 0; x < size.width; ++x) row[x] = horizon.x() * x + at_left > 0 ? 0 : 255;
+    const SceneMotion::HorizonCut cut = scene.cutAtHorizon(y, size.width);
+    std::fill_n(above[y], cut.at, uint8_t(cut.ground_first ? 0 : 255));
+    std::fill(above[y] + cut.at, above[y] + size.width, uint8_t(cut.ground_first ? 255 : 0));
   }
   return above;
 }
 
-void growUnseen(cv::Mat& unseen, int margin_px) {
-  cv::rectangle(unseen, cv::Rect({}, unseen.size()), cv::Scalar(255), 1);
+void growUnknown(cv::Mat1b& unknown, int margin_px) {
+  cv::rectangle(unknown, cv::Rect({}, unknown.size()), cv::Scalar(255), 1);
   const int side = 2 * margin_px + 1;
-  cv::dilate(unseen, unseen, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+  cv::dilate(unknown, unknown, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
 }
 
 }  // namespace
@@ -52,7 +49,7 @@ void EarlierFrames::carry(const Eigen::Matrix3d& ground, const std::optional<Pla
   }
 }
 
-void EarlierFrames::remember(int64_t utime, const cv::Mat& grey, double span_s) {
+void EarlierFrames::remember(int64_t utime, const cv::Mat1b& grey, double span_s) {
   while (!frames_.empty() && static_cast<double>(utime - frames_.front().utime) > span_s * 1e6) {
     frames_.pop_front();
   }
@@ -75,12 +72,12 @@ AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int
   const SceneMotion scene(frame.ground, frame.motion, K);
   AlignedImage aligned{carryMap(frame.grey, scene.ground, cv::INTER_LINEAR),
                        ~overlapMask(frame.grey.size(), scene.ground)};
-  const cv::Mat above = aboveHorizon(frame.grey.size(), scene.horizon);
+  const cv::Mat1b above = aboveHorizon(frame.grey.size(), scene);
   if (cv::countNonZero(above) > 0) {
     carryMap(frame.grey, scene.far, cv::INTER_LINEAR).copyTo(aligned.grey, above);
-    cv::Mat(~overlapMask(frame.grey.size(), scene.far)).copyTo(aligned.unseen, above);
+    cv::Mat1b(~overlapMask(frame.grey.size(), scene.far)).copyTo(aligned.unknown, above);
   }
-  growUnseen(aligned.unseen, margin_px);
+  growUnknown(aligned.unknown, margin_px);
   return aligned;
 }
 

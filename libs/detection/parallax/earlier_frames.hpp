@@ -12,7 +12,7 @@ namespace redbee {
 
 struct EarlierFrame {
   int64_t utime = 0;
-  cv::Mat grey;                                          ///< CV_8U
+  cv::Mat1b grey;
   Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  ///< this frame's pixels to the current frame's
   std::optional<PlaneMotion> motion;                     ///< from this frame to the current one
   std::optional<Eigen::Matrix3d> front;                  ///< like `ground`, of the front plane
@@ -25,8 +25,8 @@ class EarlierFrames {
   /// The camera moves (previous to current, pixels of the stored images).
   void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
              const std::optional<Eigen::Matrix3d>& front = std::nullopt);
-  /// Stores an image and erases those older than span_s.
-  void remember(int64_t utime, const cv::Mat& grey, double span_s);
+  /// Stores an image, which shares its memory, and erases those older than span_s.
+  void remember(int64_t utime, const cv::Mat1b& grey, double span_s);
   /// The frame whose age is nearest to age_s; null while there is none.
   const EarlierFrame* aged(int64_t now, double age_s) const;
   const EarlierFrame* newest() const { return frames_.empty() ? nullptr : &frames_.back(); }
@@ -38,9 +38,8 @@ class EarlierFrames {
 /// An earlier image warped into the current view, for a scene of ground up to the horizon and infinitely far
 /// above it.
 struct AlignedImage {
-  cv::Mat grey;    ///< CV_8U
-  cv::Mat unseen;  ///< CV_8U, 255 where the earlier image does not show the scene, or within margin_px of
-                   ///< that
+  cv::Mat1b grey;
+  cv::Mat1b unknown;  ///< 255 where the earlier image does not show the scene, or within margin_px of that
 };
 AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px);
 

@@ -11,15 +11,18 @@
 namespace redbee {
 namespace {
 
-constexpr double kUnknownVariance = 1e6;  // px^2, of the speed of what no earlier frame shows
+constexpr float kUnknownVariance = 1e6F;  // px^2, of the speed of what no earlier frame shows
 
 }  // namespace
 
-ForegroundEvidence::ForegroundEvidence(const SegmentationParameters& parameters)
-    : parameters_(parameters),
-      to_background_(downscaling(std::max(parameters.background_downscale, 1))),
-      motion_(parameters),
-      background_(parameters) {}
+ForegroundEvidence::ForegroundEvidence(const ParallaxParameters& parallax,
+                                       const AppearanceParameters& appearance, const ShadowParameters& shadow)
+    : parallax_(parallax),
+      appearance_(appearance),
+      downscale_(std::max(appearance.downscale, 1)),
+      to_background_(downscaling(downscale_)),
+      motion_(parallax),
+      background_(appearance, shadow, parallax.evidence_sigmas) {}
 
 void ForegroundEvidence::reset() {
   motion_.reset();
@@ -33,68 +36,69 @@ void ForegroundEvidence::carry(const Eigen::Matrix3d& ground, const std::optiona
   std::optional<PlaneMotion> consistent = motion;
   if (consistent) consistent->t_ba = translationFromHomography(K, ground, *motion);
   motion_.carry(ground, front, consistent);
-  if (!parameters_.use_appearance) return;
+  if (!appearance_.enabled) return;
   background_.carry(SceneMotion(normaliseHomography(to_background_ * ground * to_background_.inverse()),
                                 motion, to_background_ * K));
 }
 
-cv::Mat ForegroundEvidence::imageToCompare(const cv::Mat& grey, const cv::Mat& colour, cv::Size full) const {
-  cv::Mat image = colour;
+cv::Mat4f ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour,
+                                             cv::Size full) const {
+  cv::Mat3b image = colour;
   if (image.empty()) cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
-  cv::Mat small;
-  cv::resize(image, small, shrunkSize(full, std::max(parameters_.background_downscale, 1)), 0, 0,
-             cv::INTER_AREA);
+  cv::Mat3b small;
+  cv::resize(image, small, shrunkSize(full, downscale_), 0, 0, cv::INTER_AREA);
   // The noise of single pixels and of JPEG's blocks.
   constexpr double kSigmaPx = 0.6;
   cv::GaussianBlur(small, small, {3, 3}, kSigmaPx);
-  cv::cvtColor(small, small, cv::COLOR_BGR2BGRA);
-  small.convertTo(small, CV_32F);
-  return small;
+  cv::Mat4b with_fourth;
+  cv::cvtColor(small, with_fourth, cv::COLOR_BGR2BGRA);
+  cv::Mat4f compared;
+  with_fourth.convertTo(compared, CV_32F);
+  return compared;
 }
 
 /// Pixels of one region move together: each takes half of its evidence from similar pixels around it.
-void ForegroundEvidence::fillRegions(const cv::Mat& image, cv::Mat& foreground) const {
-  const double scale = std::max(parameters_.background_downscale, 1);
-  const int radius = std::max(1, static_cast<int>(std::lround(parameters_.region_radius_px / scale)));
-  cv::Mat grey;
+void ForegroundEvidence::fillRegions(const cv::Mat4f& image, cv::Mat1f& foreground) const {
+  const double scale = downscale_;
+  const int radius = std::max(1, static_cast<int>(std::lround(parallax_.region_radius_px / scale)));
+  cv::Mat1f grey;
   cv::cvtColor(image, grey, cv::COLOR_BGRA2GRAY);
-  foreground = 0.5 * (foreground + guidedFilter(grey, foreground, radius, parameters_.fill_contrast));
+  foreground = 0.5 * (foreground + guidedFilter(grey, foreground, radius, parallax_.fill_contrast));
   foreground = cv::min(cv::max(foreground, 0), 1);
 }
 
-ForegroundEvidence::Verdict ForegroundEvidence::learn(int64_t utime, const cv::Mat& grey,
-                                                      const cv::Mat& colour, const Eigen::Matrix3d& K,
-                                                      cv::Size full) {
+ForegroundMaps ForegroundEvidence::learn(int64_t utime, const cv::Mat1b& grey, const cv::Mat3b& colour,
+                                         const Eigen::Matrix3d& K, cv::Size full) {
   const double elapsed_s = static_cast<double>(utime - last_utime_) * 1e-6;
   last_utime_ = utime;
-  const cv::Mat motion = motion_.learn(utime, grey, K, full);
-  cv::Mat foreground;
-  if (!motion.empty()) foreground = motion / (motion + parameters_.motion_half);
-  if (parameters_.use_appearance) {
-    const cv::Mat image = imageToCompare(grey, colour, full);
-    cv::Mat moving = cv::Mat::zeros(image.size(), CV_32F);
-    SurfaceSpeed speed(image.size(), CV_32FC2, cv::Scalar(0, kUnknownVariance));
+  const cv::Mat1f motion = motion_.learn(utime, grey, K, full);
+  cv::Mat1f foreground;
+  if (!motion.empty()) foreground = motion / (motion + parallax_.motion_half);
+  if (appearance_.enabled) {
+    const cv::Mat4f image = imageToCompare(grey, colour, full);
+    cv::Mat1f moving = cv::Mat1f::zeros(image.size());
+    SurfaceSpeed speed(image.size(), cv::Vec2f(0, kUnknownVariance));
     if (!motion.empty()) {
       cv::resize(motion_.speed(), speed, image.size(), 0, 0, cv::INTER_LINEAR);
       cv::resize(foreground, foreground, image.size(), 0, 0, cv::INTER_LINEAR);
-      cv::Mat foreign = foreground.mul(background_.appearanceDifference(image, speed));
-      if (parameters_.use_hole_filling) {
-        const double gap_px = parameters_.outline_gap_px / std::max(parameters_.background_downscale, 1);
+      cv::Mat1f foreign = foreground.mul(background_.appearanceDifference(image, speed));
+      if (parallax_.use_hole_filling) {
+        const double gap_px = parallax_.outline_gap_px / downscale_;
         foreign = cv::min(fillHoles(foreign, static_cast<int>(std::lround(gap_px))), foreground);
       }
       foreground = foreign;
-      if (parameters_.region_radius_px > 0) fillRegions(image, foreground);
+      if (parallax_.region_radius_px > 0) fillRegions(image, foreground);
       // Half is enough: an object learned by mistake is missed for the background's whole span.
       moving = cv::min(2 * foreground, 1);
     }
     background_.learn(image, moving, speed, elapsed_s);
   }
-  Verdict verdict;
-  if (motion.empty()) return verdict;
-  cv::resize(motion_.unseen(), verdict.unseen, full, 0, 0, cv::INTER_NEAREST);
-  foreground.convertTo(verdict.foreground, CV_8U, 255);
-  cv::resize(verdict.foreground, verdict.foreground, full, 0, 0, cv::INTER_LINEAR);
-  return verdict;
+  ForegroundMaps maps;
+  if (motion.empty()) return maps;
+  cv::resize(motion_.unknown(), maps.unknown, full, 0, 0, cv::INTER_NEAREST);
+  foreground.convertTo(maps.foreground, CV_8U, 255);
+  cv::resize(maps.foreground, maps.foreground, full, 0, 0, cv::INTER_LINEAR);
+  return maps;
 }
 
 }  // namespace redbee

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "redbee/detection/appearance/carried_background.hpp"
+#include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parallax/parallax_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
 
@@ -15,27 +16,26 @@ namespace redbee {
 
 class ForegroundEvidence {
  public:
-  explicit ForegroundEvidence(const SegmentationParameters& parameters);
+  ForegroundEvidence(const ParallaxParameters& parallax, const AppearanceParameters& appearance,
+                     const ShadowParameters& shadow);
 
   void reset();
   /// The camera moves (previous to current; full-size pixels).
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
              const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K);
 
-  struct Verdict {
-    cv::Mat foreground;  ///< CV_8U, P_FG * 255, full size; empty where there is no earlier frame
-    cv::Mat unseen;      ///< CV_8U, 255 where no earlier frame shows the scene
-  };
-  /// `grey`: CV_8U, `colour`: CV_8UC3 of the same size, or empty where the camera has none. `full`: the full
-  /// size, which both may be smaller than.
-  Verdict learn(int64_t utime, const cv::Mat& grey, const cv::Mat& colour, const Eigen::Matrix3d& K,
-                cv::Size full);
+  /// Maps of the size `full`, empty where there is no earlier frame. `grey` may be smaller than that; `colour`: of
+  /// grey's size, or empty where the camera has none.
+  ForegroundMaps learn(int64_t utime, const cv::Mat1b& grey, const cv::Mat3b& colour,
+                       const Eigen::Matrix3d& K, cv::Size full);
 
  private:
-  void fillRegions(const cv::Mat& image, cv::Mat& foreground) const;
-  cv::Mat imageToCompare(const cv::Mat& grey, const cv::Mat& colour, cv::Size full) const;
+  void fillRegions(const cv::Mat4f& image, cv::Mat1f& foreground) const;
+  cv::Mat4f imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour, cv::Size full) const;
 
-  SegmentationParameters parameters_;
+  ParallaxParameters parallax_;
+  AppearanceParameters appearance_;
+  int downscale_;  ///< of the background
   Eigen::Matrix3d to_background_;  ///< full-size pixels to the background's
   ParallaxEvidence motion_;
   CarriedBackground background_;

@@ -24,7 +24,7 @@ int halvings(int from_downscale, int to_downscale) {
 
 }  // namespace
 
-cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const SegmentationParameters& parameters) {
+cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const ParallaxParameters& parameters) {
   constexpr int kIterations = 4;
   constexpr int kStride = 5;
   auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
@@ -34,7 +34,7 @@ cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const SegmentationParameters& paramet
   return dis;
 }
 
-ParallaxEvidence::ParallaxEvidence(const SegmentationParameters& parameters)
+ParallaxEvidence::ParallaxEvidence(const ParallaxParameters& parameters)
     : parameters_(parameters),
       scale_(std::max(parameters.work_downscale, 1)),
       work_(downscaling(scale_)),
@@ -45,7 +45,7 @@ void ParallaxEvidence::reset() {
   frames_.reset();
   travelling_.reset();
   fast_ = false;
-  unseen_.release();
+  unknown_.release();
   speed_.release();
 }
 
@@ -58,10 +58,10 @@ void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<
   frames_.carry(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
 }
 
-cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K, cv::Size full) {
-  cv::Mat small;
+cv::Mat1f ParallaxEvidence::learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full) {
+  cv::Mat1b small;
   cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
-  cv::Mat found;
+  cv::Mat1f found;
   const EarlierFrame* frame = frames_.aged(utime, fast_ ? 0 : parameters_.baseline_s);
   const EarlierFrame* newest = frames_.newest();
   if (frame != nullptr && newest != nullptr) {
@@ -69,33 +69,33 @@ cv::Mat ParallaxEvidence::learn(int64_t utime, const cv::Mat& grey, const Eigen:
         static_cast<double>(utime - frame->utime) / static_cast<double>(utime - newest->utime);
     found = evidence(*frame, small, work_ * K, frames);
   }
-  if (small.data == grey.data) small = grey.clone();
   frames_.remember(utime, small, parameters_.baseline_s);
   return found;
 }
 
-cv::Mat ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K,
+cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
                                    double frames) {
   const int margin = static_cast<int>(std::lround(kMarginPx / scale_));
   const AlignedImage reference = alignImage(frame, K, margin);
-  unseen_ = reference.unseen;
-  cv::Mat flow;
+  unknown_ = reference.unknown;
+  cv::Mat2f flow;
   dis_->calc(grey, reference.grey, flow);
   const bool two_planes = !frame.motion && frame.front;
   const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
                                              : ParallaxSegment(frame.motion, K, parameters_);
-  FrameEvidence now = judgeFlow(segment, grey, flow, frames);
-  fast_ = parameters_.use_short_baseline && holdsFastMovers(flow, now.off, frames);
-  now.off.setTo(cv::Scalar::all(0), unseen_);
-  travelling_.update(now, last_step_, unseen_);
+  FrameEvidence now = frameEvidence(segment, grey, flow, frames);
+  fast_ = parameters_.use_short_baseline && holdsFastMovers(flow, now.normalized_residual, frames);
+  now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
+  travelling_.update(now, last_step_, unknown_);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
-  cv::Mat motion = guidedFilter(grey, travelling_.motion(), radius, parameters_.fill_contrast);
+  cv::Mat1f motion = guidedFilter(grey, travelling_.motion(), radius, parameters_.fill_contrast);
   motion = cv::min(cv::max(motion, 0), 1);
   if (!frame.motion && parameters_.border_stretch > 0) muteBorderStructure(motion);
   return motion;
 }
 
-bool ParallaxEvidence::holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, double frames) const {
+bool ParallaxEvidence::holdsFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual,
+                                       double frames) const {
   // Within two frames half a patch of the flow a frame makes a whole one: as wide are the halos that the
   // flow then has where ground is covered and uncovered.
   constexpr double kFastPx = 8;  // full-size px a frame
@@ -103,60 +103,63 @@ bool ParallaxEvidence::holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, 
   constexpr int kStep = 8;
   constexpr double kFraction = 0.02;  // of the image
   const auto fast = static_cast<float>(kFastPx / scale_ * frames);
-  int seen = 0, fast_movers = 0;
+  int known = 0, fast_movers = 0;
   for (int y = kStep / 2; y < flow.rows; y += kStep) {
     for (int x = kStep / 2; x < flow.cols; x += kStep) {
-      if (unseen_.at<uint8_t>(y, x) != 0) continue;
-      ++seen;
-      const bool moves = cv::norm(off.at<cv::Vec2f>(y, x)) > kSureSigmas;
-      if (moves && cv::norm(flow.at<cv::Vec2f>(y, x)) > fast) ++fast_movers;
+      if (unknown_(y, x) != 0) continue;
+      ++known;
+      const bool moves = cv::norm(normalized_residual(y, x)) > kSureSigmas;
+      if (moves && cv::norm(flow(y, x)) > fast) ++fast_movers;
     }
   }
-  return fast_movers > kFraction * seen;
+  return fast_movers > kFraction * known;
 }
 
-void ParallaxEvidence::muteBorderStructure(cv::Mat& motion) const {
+void ParallaxEvidence::muteBorderStructure(cv::Mat1f& motion) const {
   // Squared, because what enters the image has not gathered all of its evidence at the border yet.
-  const cv::Mat inside =
-      1 - fractionOfBorderStructure(motion, unseen_, parameters_.border_stretch * motion.cols);
+  const cv::Mat1f inside =
+      1 - fractionOfBorderStructure(motion, unknown_, parameters_.border_stretch * motion.cols);
   motion = motion.mul(inside).mul(inside);
 }
 
-cv::Mat ParallaxEvidence::flowVariance(const cv::Mat& grey) const {
+cv::Mat1f ParallaxEvidence::flowVariance(const cv::Mat1b& grey) const {
   // At a quarter of the full size, about the flow's own grid. OpenCV's eigenvalue is that of the sum of
   // squared Sobel responses over kBlock^2 pixels, scaled by (kSobelGain / 2 * kBlock * 255)^-2.
   constexpr int kBlock = 5;
   constexpr double kSobelGain = 8;
   const double to_square_gradient = std::pow(kSobelGain / 2 * kBlock * 255 / (kBlock * kSobelGain), 2);
-  cv::Mat quarter, variance;
-  cv::resize(grey, quarter, {}, scale_ / 4, scale_ / 4, cv::INTER_AREA);
+  constexpr double kQuarter = 4;
+  constexpr double kNoGradient2 = 1e-3;  // keeps the variance of no texture finite
+  cv::Mat1b quarter;
+  cv::Mat1f variance;
+  cv::resize(grey, quarter, {}, scale_ / kQuarter, scale_ / kQuarter, cv::INTER_AREA);
   cv::cornerMinEigenVal(quarter, variance, kBlock);
-  const double noise2 = std::pow(parameters_.parallax_noise_px / scale_, 2);
+  const double noise2 = std::pow(parameters_.noise_px / scale_, 2);
   const double floor2 = parameters_.min_gradient * parameters_.min_gradient;
-  variance = noise2 + noise2 * floor2 / (variance * to_square_gradient + 1e-3);
+  variance = noise2 + noise2 * floor2 / (variance * to_square_gradient + kNoGradient2);
   cv::resize(variance, variance, grey.size(), 0, 0, cv::INTER_LINEAR);
   return variance;
 }
 
-FrameEvidence ParallaxEvidence::judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey,
-                                          const cv::Mat& flow, double frames) {
-  const cv::Mat variance = flowVariance(grey);
+FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey,
+                                              const cv::Mat2f& flow, double frames) {
+  const cv::Mat1f variance = flowVariance(grey);
   HomographyFlow error(flow.size());
   if (parameters_.use_registration) {
     const double expected = kExpectedErrorPx / scale_;
-    error = registrationError(flow, variance, unseen_, segment, static_cast<float>(expected));
+    error = registrationError(flow, variance, unknown_, segment, static_cast<float>(expected));
   }
-  FrameEvidence evidence{cv::Mat(flow.size(), CV_32FC2), flow * (1 / frames)};
-  speed_.create(flow.size(), CV_32FC2);
+  FrameEvidence evidence{cv::Mat2f(flow.size()), flow * (1 / frames)};
+  speed_.create(flow.size());
   for (int y = 0; y < flow.rows; ++y) {
-    const cv::Vec2f* back = flow.ptr<cv::Vec2f>(y);
-    const float* noise = variance.ptr<float>(y);
-    cv::Vec2f* off = evidence.off.ptr<cv::Vec2f>(y);
-    cv::Vec2f* speed = speed_.ptr<cv::Vec2f>(y);
+    const cv::Vec2f* back = flow[y];
+    const float* noise = variance[y];
+    cv::Vec2f* residual = evidence.normalized_residual[y];
+    cv::Vec2f* speed = speed_[y];
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const cv::Vec2f forth = -back[x] - error.at(pixel[0], pixel[1]);
-      off[x] = segment.judge(pixel + back[x], forth, noise[x]).normalized_residual;
+      residual[x] = segment.residual(pixel + back[x], forth, noise[x]).normalized_residual;
       speed[x] = {std::sqrt(forth.dot(forth)), noise[x]};
     }
   }

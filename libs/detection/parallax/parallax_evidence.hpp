@@ -22,37 +22,37 @@
 namespace redbee {
 
 /// Dense inverse-search flow for images of work_downscale, found at flow_downscale.
-cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const SegmentationParameters& parameters);
+cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const ParallaxParameters& parameters);
 
 class ParallaxEvidence {
  public:
-  explicit ParallaxEvidence(const SegmentationParameters& parameters);
+  explicit ParallaxEvidence(const ParallaxParameters& parameters);
 
   void reset();
   /// The camera moves (previous to current; full-size pixels).
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
              const std::optional<PlaneMotion>& motion);
-  /// Evidence of motion per pixel of the work, CV_32F 0..1; empty where there is no earlier frame. Stores the
-  /// image (CV_8U, `full` or smaller).
-  cv::Mat learn(int64_t utime, const cv::Mat& grey, const Eigen::Matrix3d& K, cv::Size full);
+  /// Evidence of motion per pixel of the work, 0..1; empty where there is no earlier frame. Stores the image
+  /// (`full` or smaller).
+  cv::Mat1f learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full);
 
   /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
-  const cv::Mat& unseen() const { return unseen_; }
-  /// Flow of the last learn(); the work's pixels (CV_32FC2, see SurfaceSpeed). Empty where there was no
+  const cv::Mat1b& unknown() const { return unknown_; }
+  /// Flow of the last learn(); the work's pixels (see SurfaceSpeed). Empty where there was no
   /// earlier frame.
-  const cv::Mat& speed() const { return speed_; }
+  const cv::Mat2f& speed() const { return speed_; }
 
  private:
-  cv::Mat evidence(const EarlierFrame& frame, const cv::Mat& grey, const Eigen::Matrix3d& K, double frames);
-  FrameEvidence judgeFlow(const ParallaxSegment& segment, const cv::Mat& grey, const cv::Mat& flow,
-                          double frames);
+  cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K, double frames);
+  FrameEvidence frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey, const cv::Mat2f& flow,
+                              double frames);
   /// Whether much of the image moves so fast that the previous frame is a better reference than an earlier
-  /// one. `off`: CV_32FC2, sigmas.
-  bool holdsFastMovers(const cv::Mat& flow, const cv::Mat& off, double frames) const;
-  void muteBorderStructure(cv::Mat& motion) const;
-  cv::Mat flowVariance(const cv::Mat& grey) const;
+  /// one.
+  bool holdsFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;
+  void muteBorderStructure(cv::Mat1f& motion) const;
+  cv::Mat1f flowVariance(const cv::Mat1b& grey) const;
 
-  SegmentationParameters parameters_;
+  ParallaxParameters parameters_;
   double scale_;          ///< full-size pixels to a pixel of the work
   Eigen::Matrix3d work_;  ///< full-size pixels to the work's
   cv::Ptr<cv::DISOpticalFlow> dis_;
@@ -60,8 +60,8 @@ class ParallaxEvidence {
   TravellingEvidence travelling_;
   Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< in the work's pixels
   bool fast_ = false;                                        ///< the last frame held fast movers
-  cv::Mat unseen_;
-  cv::Mat speed_;
+  cv::Mat1b unknown_;
+  cv::Mat2f speed_;
 };
 
 }  // namespace redbee

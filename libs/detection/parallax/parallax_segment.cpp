@@ -15,7 +15,7 @@ constexpr float kNoDirection = 1e-6F;
 }  // namespace
 
 ParallaxSegment::ParallaxSegment(const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K,
-                                 const SegmentationParameters& parameters)
+                                 const ParallaxParameters& parameters)
     : direction_variance_(static_cast<float>(parameters.direction_error * parameters.direction_error)) {
   if (!motion || !parameters.use_epipolar) return;
   const Eigen::Vector3f e =
@@ -24,7 +24,7 @@ ParallaxSegment::ParallaxSegment(const std::optional<PlaneMotion>& motion, const
 }
 
 ParallaxSegment::ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
-                                 const SegmentationParameters& parameters)
+                                 const ParallaxParameters& parameters)
     : direction_variance_(static_cast<float>(std::pow(kPlanesError * parameters.direction_error, 2))) {
   if (parameters.use_epipolar) to_front_ = cv::Matx33f(toMatx(front * ground.inverse()));
 }
@@ -48,7 +48,7 @@ ParallaxSegment::Ray ParallaxSegment::ray(const cv::Vec2f& ground) const {
 
 cv::Vec2f ParallaxSegment::direction(const cv::Vec2f& ground) const { return ray(ground).direction; }
 
-ParallaxSegment::Verdict ParallaxSegment::judge(const cv::Vec2f& ground, const cv::Vec2f& flow,
+ParallaxSegment::Residual ParallaxSegment::residual(const cv::Vec2f& ground, const cv::Vec2f& flow,
                                                 float noise_variance) const {
   const auto [direction, length] = ray(ground);
   if (length == 0) return {{0, 0}, flow * (1 / std::sqrt(noise_variance))};

@@ -19,20 +19,20 @@ namespace redbee {
 class ParallaxSegment {
  public:
   ParallaxSegment(const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K,
-                  const SegmentationParameters& parameters);
+                  const ParallaxParameters& parameters);
   /// Both homographies from the earlier frame to the current one. Their difference gives the direction less
   /// accurately than an IMU.
   ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
-                  const SegmentationParameters& parameters);
+                  const ParallaxParameters& parameters);
 
-  struct Verdict {
+  struct Residual {
     cv::Vec2f nearest;              ///< px: the point of the segment that is nearest to the flow
     cv::Vec2f normalized_residual;  ///< from there to the flow, over its standard deviation
     float squaredMahalanobis() const { return normalized_residual.dot(normalized_residual); }
   };
   /// `ground`: where the scene point would be in the current image if it lay on the ground [px]; `flow`:
   /// from there to where it is [px], of variance `noise_variance` [px^2].
-  Verdict judge(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
+  Residual residual(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
   /// Unit vector of the parallax at `ground`; 0 where there is none.
   cv::Vec2f direction(const cv::Vec2f& ground) const;
 

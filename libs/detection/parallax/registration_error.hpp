@@ -31,11 +31,11 @@ struct HomographyFlow {
 
 /// What a homography explains of the flow across the direction of parallax (where there is no parallax, of
 /// all of it), robustly over the image: static surfaces agree on it at any depth, moving objects do not.
-/// `flow`: CV_32FC2, px, from the current image to the earlier one that the ground's homography has aligned
-/// to it; `variance`: CV_32F, px^2, of the flow; `unseen`: CV_8U, not 0 where the flow is undefined;
+/// `flow`: px, from the current image to the earlier one that the ground's homography has aligned
+/// to it; `variance`: px^2, of the flow; `unknown`: not 0 where the flow is undefined;
 /// `expected_px`: how large an error is expected, a weak prior. The result points like the flow of `segment`,
 /// from the earlier image to the current one.
-HomographyFlow registrationError(const cv::Mat& flow, const cv::Mat& variance, const cv::Mat& unseen,
+HomographyFlow registrationError(const cv::Mat2f& flow, const cv::Mat1f& variance, const cv::Mat1b& unknown,
                                  const ParallaxSegment& segment, float expected_px);
 
 }  // namespace redbee

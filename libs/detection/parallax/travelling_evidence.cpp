@@ -9,14 +9,17 @@ namespace redbee {
 namespace {
 
 constexpr float kSmall = 1e-3F;
+constexpr int kNeighbourhood_px = 3;  // over which a residual is averaged before it is compared with the past
+// Evidence is kept whole while the residual is at least half of the propagated one: squared.
+constexpr float kKeptBelow = 4;
 
 /// Positions of the pixels in the previous image.
-cv::Mat previousPlaces(const cv::Mat& back_step, const Eigen::Matrix3d& ground) {
+cv::Mat2f previousPlaces(const cv::Mat2f& back_step, const Eigen::Matrix3d& ground) {
   const Eigen::Matrix3f back = ground.inverse().cast<float>();
-  cv::Mat places(back_step.size(), CV_32FC2);
+  cv::Mat2f places(back_step.size());
   for (int y = 0; y < places.rows; ++y) {
-    const cv::Vec2f* step = back_step.ptr<cv::Vec2f>(y);
-    cv::Vec2f* to = places.ptr<cv::Vec2f>(y);
+    const cv::Vec2f* step = back_step[y];
+    cv::Vec2f* to = places[y];
     for (int x = 0; x < places.cols; ++x) {
       const float u = static_cast<float>(x) + step[x][0];
       const float v = static_cast<float>(y) + step[x][1];
@@ -28,9 +31,9 @@ cv::Mat previousPlaces(const cv::Mat& back_step, const Eigen::Matrix3d& ground) 
   return places;
 }
 
-cv::Mat fetch(const cv::Mat& map, const cv::Mat& places, const cv::Mat& like) {
-  if (map.empty()) return cv::Mat::zeros(like.size(), like.type());
-  cv::Mat fetched;
+cv::Mat4f fetch(const cv::Mat4f& map, const cv::Mat2f& places) {
+  if (map.empty()) return cv::Mat4f::zeros(places.size());
+  cv::Mat4f fetched;
   cv::remap(map, fetched, places, {}, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar::all(0));
   return fetched;
 }
@@ -40,38 +43,39 @@ cv::Mat fetch(const cv::Mat& map, const cv::Mat& places, const cv::Mat& like) {
 void TravellingEvidence::reset() { moving_.release(); }
 
 void TravellingEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d& ground,
-                                const cv::Mat& unseen) {
-  const cv::Mat places = previousPlaces(now.back_step, ground);
-  cv::Mat moving = fetch(moving_, places, cv::Mat(now.off.size(), CV_32FC4));
-  cv::Mat off_around;
-  cv::blur(now.off, off_around, {3, 3});
+                                const cv::Mat1b& unknown) {
+  const cv::Mat2f places = previousPlaces(now.back_step, ground);
+  cv::Mat4f moving = fetch(moving_, places);
+  cv::Mat2f mean_residual;
+  cv::blur(now.normalized_residual, mean_residual, {kNeighbourhood_px, kNeighbourhood_px});
   const auto half2 = static_cast<float>(parameters_.evidence_sigmas * parameters_.evidence_sigmas);
   const auto rate = static_cast<float>(parameters_.evidence_rate);
   for (int y = 0; y < moving.rows; ++y) {
-    const cv::Vec2f* off = now.off.ptr<cv::Vec2f>(y);
-    const cv::Vec2f* around = off_around.ptr<cv::Vec2f>(y);
-    cv::Vec4f* sum = moving.ptr<cv::Vec4f>(y);
+    const cv::Vec2f* off = now.normalized_residual[y];
+    const cv::Vec2f* around = mean_residual[y];
+    cv::Vec4f* sum = moving[y];
     for (int x = 0; x < moving.cols; ++x) {
       // Background that an object has just uncovered is static where the object moved: it inherits no
       // evidence.
       const float then2 = sum[x][1] * sum[x][1] + sum[x][2] * sum[x][2];
-      const float kept = std::min(1.0F, (4 * around[x].dot(around[x]) + half2) / (then2 + half2));
+      const float kept = std::min(1.0F, (kKeptBelow * around[x].dot(around[x]) + half2) / (then2 + half2));
       const float off2 = off[x].dot(off[x]);
       const cv::Vec4f newest(off2 / (off2 + half2), off[x][0], off[x][1], std::sqrt(off2));
       sum[x] = kept * (1 - rate) * sum[x] + rate * newest;
     }
   }
-  moving.setTo(cv::Scalar::all(0), unseen);
+  moving.setTo(cv::Scalar::all(0), unknown);
   moving_ = moving;
 }
 
-cv::Mat TravellingEvidence::motion() const {
+cv::Mat1f TravellingEvidence::motion() const {
   // Averaging leaves about half of the variance that a single vector has.
-  const auto half2 = static_cast<float>(0.5 * parameters_.evidence_sigmas * parameters_.evidence_sigmas);
-  cv::Mat motion(moving_.size(), CV_32F);
+  constexpr double kAveragedVariance = 0.5;
+  const auto half2 = static_cast<float>(kAveragedVariance * parameters_.evidence_sigmas * parameters_.evidence_sigmas);
+  cv::Mat1f motion(moving_.size());
   for (int y = 0; y < motion.rows; ++y) {
-    const cv::Vec4f* sum = moving_.ptr<cv::Vec4f>(y);
-    float* to = motion.ptr<float>(y);
+    const cv::Vec4f* sum = moving_[y];
+    float* to = motion[y];
     for (int x = 0; x < motion.cols; ++x) {
       const float net2 = sum[x][1] * sum[x][1] + sum[x][2] * sum[x][2];
       const float coherence = net2 / (sum[x][3] * sum[x][3] + kSmall);

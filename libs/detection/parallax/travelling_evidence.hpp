@@ -11,24 +11,24 @@ namespace redbee {
 
 /// Evidence of one frame, per pixel.
 struct FrameEvidence {
-  cv::Mat off;        ///< CV_32FC2: flow off the parallax segment over its standard deviation
-  cv::Mat back_step;  ///< CV_32FC2, px: back along the flow by one frame, ground's motion taken out
+  cv::Mat2f normalized_residual;  ///< flow off the parallax segment over its standard deviation
+  cv::Mat2f back_step;            ///< px: back along the flow by one frame, ground's motion taken out
 };
 
 class TravellingEvidence {
  public:
-  explicit TravellingEvidence(const SegmentationParameters& parameters) : parameters_(parameters) {}
+  explicit TravellingEvidence(const ParallaxParameters& parameters) : parameters_(parameters) {}
 
   void reset();
-  /// `ground`: previous to current. Nothing is kept where `unseen` is not 0.
-  void update(const FrameEvidence& now, const Eigen::Matrix3d& ground, const cv::Mat& unseen);
+  /// `ground`: previous to current. Nothing is kept where `unknown` is not 0.
+  void update(const FrameEvidence& now, const Eigen::Matrix3d& ground, const cv::Mat1b& unknown);
 
-  /// CV_32F, 0..1: steady motion in one direction.
-  cv::Mat motion() const;
+  /// 0..1: steady motion in one direction.
+  cv::Mat1f motion() const;
 
  private:
-  SegmentationParameters parameters_;
-  cv::Mat moving_;  ///< CV_32FC4: mean evidence, mean vector off the segment (2), mean length of it
+  ParallaxParameters parameters_;
+  cv::Mat4f moving_;  ///< mean evidence, mean vector off the segment (2), mean length of it
 };
 
 }  // namespace redbee

@@ -6,8 +6,7 @@
 //   mu_k = (k-1)/k mu_(k-1) + x_k / k,   S_k = (k-1)/k S_(k-1) + |x_k|^2 / k,
 //   D_k = 1 / (1 + |x_k - mu_k|^2 + S_k - |mu_k|^2),
 // and foreground where D_k < mean(D) - deviation(D), both over the pixel's own past. Score: kDecisionScore
-// at a tenth of a
-// deviation, since a deviation is held up from below (tuned), graded by (mean - D_k) / deviation. Their
+// at a tenth of a deviation, since a deviation is held up from below (tuned), graded by (mean - D_k) / deviation. Their
 // grouping of the foreground pixels is an average over a box here (tuned, EXPERIMENTS.md). Mean and deviation
 // of D start when a pixel is first classified: the first densities are all 1. Images are smoothed first, or
 // what the carrying blurs would be foreground wherever there is fine texture. `aurora-davis` has the best
@@ -31,18 +30,18 @@ class RecursiveDensity {
   RecursiveDensity(cv::Size size, const Parameters& parameters);
 
   void carry(const cv::Matx33d& H);
-  /// Learns an image (CV_8UC3). CV_32F: deviations of the density below its mean, 0 where it is above or the
-  /// pixel is not classified yet.
-  cv::Mat update(const cv::Mat& colour);
+  /// Learns an image. Returns deviations of the density below its mean, 0 where it is above or the pixel is not
+  /// classified yet.
+  cv::Mat1f update(const cv::Mat3b& colour);
 
-  const cv::Mat& density() const { return density_; }  ///< CV_32F, D_k of the last update
+  const cv::Mat1f& density() const { return density_; }  ///< D_k of the last update
 
  private:
   Parameters parameters_;
-  cv::Mat mean_;     ///< CV_32FC3, mu
-  cv::Mat moments_;  ///< CV_32FC3: S, mean of D, mean of D^2
-  cv::Mat count_;    ///< CV_32F, k
-  cv::Mat density_;
+  cv::Mat3f mean_;     ///< mu
+  cv::Mat3f moments_;  ///< S, mean of D, mean of D^2
+  cv::Mat1f count_;    ///< k
+  cv::Mat1f density_;
 };
 
 struct AuroraParameters {
@@ -52,12 +51,13 @@ struct AuroraParameters {
 
 class Aurora : public Rival {
  public:
-  explicit Aurora(const AuroraParameters& parameters = {}) : parameters_(parameters) {}
-  bool wantsColour() const override { return true; }
+  explicit Aurora(const ObjectParameters& objects, const AuroraParameters& parameters = {})
+      : Rival(objects), parameters_(parameters) {}
+  DetectorNeeds needs() const override { return {true, false, 1}; }
 
  private:
   void reset() override;
-  RivalOutput judge(const RivalInput& input) override;
+  RivalScore scoreFrame(const FrameInput& input) override;
 
   AuroraParameters parameters_;
   Registrar registrar_;

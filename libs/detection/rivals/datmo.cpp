@@ -94,18 +94,19 @@ std::vector<FlowCluster> GroupFilter::lasting(std::vector<FlowCluster> groups,
   return confirmed;
 }
 
-Datmo::Datmo() : flow_(gridParameters()), filters_(kDecisionLevels) {}
+Datmo::Datmo(const ObjectParameters& objects)
+    : Rival(objects), flow_(gridParameters()), filters_(kDecisionLevels) {}
 
 void Datmo::reset() {
   flow_.reset();
   filters_.assign(kDecisionLevels, {});
 }
 
-RivalOutput Datmo::judge(const RivalInput& input) {
-  RivalOutput output;
+RivalScore Datmo::scoreFrame(const FrameInput& input) {
+  RivalScore scored;
   const bool first = !flow_.hasPrevious();
   const GridTracks tracks = flow_.advance(input.grey);
-  if (first) return output;
+  if (first) return scored;
   std::optional<cv::Matx33d> H;
   if (input.motion) {
     cv::eigen2cv(planeHomography(input.K, *input.motion), H.emplace());
@@ -113,16 +114,16 @@ RivalOutput Datmo::judge(const RivalInput& input) {
     H = registerTracks(tracks);
   }
   if (!H) {
-    output.status = RivalStatus::kLost;
-    return output;
+    scored.status = DetectorStatus::kNoHomography;
+    return scored;
   }
-  output.status = RivalStatus::kGood;
-  output.background = *H;
-  output.score = paintClusters(input.grey.size(), strayPoints(tracks, *H), {},
+  scored.status = DetectorStatus::kGood;
+  scored.background = *H;
+  scored.score = paintClusters(input.grey.size(), strayPoints(tracks, *H), {},
                                [&](size_t level, std::vector<FlowCluster> groups) {
                                  return filters_[level].lasting(std::move(groups), *H);
                                });
-  return output;
+  return scored;
 }
 
 }  // namespace redbee

@@ -46,12 +46,12 @@ class GroupFilter {
 
 class Datmo : public Rival {
  public:
-  Datmo();
-  bool wantsMotion() const override { return true; }
+  explicit Datmo(const ObjectParameters& objects);
+  DetectorNeeds needs() const override { return {false, true, 1}; }
 
  private:
   void reset() override;
-  RivalOutput judge(const RivalInput& input) override;
+  RivalScore scoreFrame(const FrameInput& input) override;
 
   GridFlow flow_;
   std::vector<GroupFilter> filters_;  ///< one for each decision level

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "redbee/detection/rivals/graded_score.hpp"
-#include "redbee/detection/rivals/stabilise.hpp"
+#include "redbee/imaging/warping.hpp"
 
 namespace redbee {
 namespace {
@@ -13,35 +13,35 @@ constexpr float kThreshold = 20;  // grey levels
 
 }  // namespace
 
-Difference::Difference(const DifferenceParameters& parameters)
-    : parameters_(parameters), history_(parameters.back_frames) {}
+Difference::Difference(const ObjectParameters& objects, const DifferenceParameters& parameters)
+    : Rival(objects), parameters_(parameters), history_(parameters.back_frames) {}
 
 void Difference::reset() {
   registrar_.reset();
   history_.clear();
 }
 
-RivalOutput Difference::judge(const RivalInput& input) {
-  RivalOutput output;
+RivalScore Difference::scoreFrame(const FrameInput& input) {
+  RivalScore scored;
   const bool first = !registrar_.hasPrevious();
   const auto registration = registrar_.advance(input.grey);
-  cv::Mat smooth;
+  cv::Mat1b smooth;
   cv::GaussianBlur(input.grey, smooth, {kSmoothPx, kSmoothPx}, 0);
   if (registration) {
-    output.status = RivalStatus::kGood;
-    output.background = *registration;
+    scored.status = DetectorStatus::kGood;
+    scored.background = *registration;
     cv::Mat difference;
     history_.carry(*registration);
-    cv::absdiff(smooth, stabilise(history_.oldest(), history_.oldestToNewest()), difference);
-    difference.setTo(0, unseenBy(history_.oldestToNewest(), smooth.size()));
+    cv::absdiff(smooth, carryMap(history_.oldest(), history_.oldestToNewest(), cv::INTER_LINEAR), difference);
+    difference.setTo(0, outsidePrevious(history_.oldestToNewest(), smooth.size()));
     difference.convertTo(difference, CV_32F);
     cv::blur(difference, difference, {parameters_.average_px, parameters_.average_px});
-    output.score = gradedScore(difference, kThreshold);
+    scored.score = gradedScore(difference, kThreshold);
   } else if (!first) {
-    output.status = RivalStatus::kLost;
+    scored.status = DetectorStatus::kNoHomography;
   }
   history_.push(smooth);
-  return output;
+  return scored;
 }
 
 }  // namespace redbee

@@ -21,11 +21,11 @@ struct DifferenceParameters {
 
 class Difference : public Rival {
  public:
-  explicit Difference(const DifferenceParameters& parameters = {});
+  explicit Difference(const ObjectParameters& objects, const DifferenceParameters& parameters = {});
 
  private:
   void reset() override;
-  RivalOutput judge(const RivalInput& input) override;
+  RivalScore scoreFrame(const FrameInput& input) override;
 
   DifferenceParameters parameters_;
   Registrar registrar_;

@@ -39,7 +39,7 @@ std::vector<FlowCluster> clusterFlow(const std::vector<StrayPoint>& points,
   return clusters;
 }
 
-void paintHull(cv::Mat& map, const std::vector<cv::Point2f>& points, float margin_px, uint8_t value) {
+void paintHull(cv::Mat1b& map, const std::vector<cv::Point2f>& points, float margin_px, uint8_t value) {
   std::vector<cv::Point2f> corners;
   for (const cv::Point2f& point : points) {
     for (int side = 0; side < 8; ++side) {
@@ -55,9 +55,9 @@ void paintHull(cv::Mat& map, const std::vector<cv::Point2f>& points, float margi
   cv::fillConvexPoly(map, outline, cv::Scalar(value));
 }
 
-cv::Mat paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
+cv::Mat1b paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
                       const ClusterParameters& parameters, const ClusterChoice& choose) {
-  cv::Mat map = cv::Mat::zeros(image, CV_8U);
+  cv::Mat1b map = cv::Mat1b::zeros(image);
   std::vector<StrayPoint> stray = points;
   for (size_t level = 0; level < kDecisionLevels; ++level) {
     const float ratio = ratioOfLevel(level);

@@ -32,7 +32,7 @@ std::vector<FlowCluster> clusterFlow(const std::vector<StrayPoint>& points,
                                      const ClusterParameters& parameters);
 
 /// Convex hull of the points, each with a margin around it, set to `value`.
-void paintHull(cv::Mat& map, const std::vector<cv::Point2f>& points, float margin_px, uint8_t value);
+void paintHull(cv::Mat1b& map, const std::vector<cv::Point2f>& points, float margin_px, uint8_t value);
 
 /// Which clusters of one decision level count as objects; level 0, 1, ... from the most lenient.
 using ClusterChoice = std::function<std::vector<FlowCluster>(size_t level, std::vector<FlowCluster>)>;
@@ -40,7 +40,7 @@ using ClusterChoice = std::function<std::vector<FlowCluster>(size_t level, std::
 /// A graded score from a method that decides: the decision is made at thresholds from 1/4 to 16 times the
 /// method's own, and a pixel's score is that of the strictest at which a cluster's hull holds it. At
 /// kDecisionScore the map is the method's own decision.
-cv::Mat paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
+cv::Mat1b paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
                       const ClusterParameters& parameters, const ClusterChoice& choose = {});
 inline constexpr size_t kDecisionLevels = 13;
 

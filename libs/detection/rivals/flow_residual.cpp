@@ -7,13 +7,13 @@
 
 namespace redbee {
 
-cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
+cv::Mat1f flowAgainst(const cv::Mat2f& flow, const cv::Matx33d& H) {
   const cv::Matx33d back = H.inv();
   const cv::Rect2d image(0, 0, flow.cols - 1, flow.rows - 1);
-  cv::Mat remains = cv::Mat::zeros(flow.size(), CV_32F);
+  cv::Mat1f remains = cv::Mat1f::zeros(flow.size());
   for (int y = 0; y < flow.rows; ++y) {
-    const auto* measured = flow.ptr<cv::Vec2f>(y);
-    auto* to = remains.ptr<float>(y);
+    const auto* measured = flow[y];
+    auto* to = remains[y];
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec3d p = back * cv::Vec3d(x, y, 1);
       const cv::Point2d expected(p[0] / p[2], p[1] / p[2]);
@@ -25,8 +25,9 @@ cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H) {
   return remains;
 }
 
-FlowResidual::FlowResidual(const FlowResidualParameters& parameters)
-    : parameters_(parameters),
+FlowResidual::FlowResidual(const ObjectParameters& objects, const FlowResidualParameters& parameters)
+    : Rival(objects),
+      parameters_(parameters),
       flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)),
       history_(parameters.back_frames) {}
 
@@ -35,24 +36,24 @@ void FlowResidual::reset() {
   history_.clear();
 }
 
-RivalOutput FlowResidual::judge(const RivalInput& input) {
-  RivalOutput output;
+RivalScore FlowResidual::scoreFrame(const FrameInput& input) {
+  RivalScore scored;
   const bool first = !registrar_.hasPrevious();
   const auto registration = registrar_.advance(input.grey);
   if (registration) {
-    output.status = RivalStatus::kGood;
-    output.background = *registration;
+    scored.status = DetectorStatus::kGood;
+    scored.background = *registration;
     history_.carry(*registration);
-    cv::Mat flow;
+    cv::Mat2f flow;
     flow_->calc(input.grey, history_.oldest(), flow);
-    cv::Mat remains = flowAgainst(flow, history_.oldestToNewest());
+    cv::Mat1f remains = flowAgainst(flow, history_.oldestToNewest());
     cv::blur(remains, remains, {parameters_.average_px, parameters_.average_px});
-    output.score = gradedScore(remains, parameters_.threshold_px);
+    scored.score = gradedScore(remains, parameters_.threshold_px);
   } else if (!first) {
-    output.status = RivalStatus::kLost;
+    scored.status = DetectorStatus::kNoHomography;
   }
   history_.push(input.grey.clone());
-  return output;
+  return scored;
 }
 
 }  // namespace redbee

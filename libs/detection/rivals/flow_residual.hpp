@@ -23,11 +23,11 @@ struct FlowResidualParameters {
 
 class FlowResidual : public Rival {
  public:
-  explicit FlowResidual(const FlowResidualParameters& parameters = {});
+  explicit FlowResidual(const ObjectParameters& objects, const FlowResidualParameters& parameters = {});
 
  private:
   void reset() override;
-  RivalOutput judge(const RivalInput& input) override;
+  RivalScore scoreFrame(const FrameInput& input) override;
 
   FlowResidualParameters parameters_;
   Registrar registrar_;
@@ -35,8 +35,8 @@ class FlowResidual : public Rival {
   ImageHistory history_;
 };
 
-/// Length [px] of what remains of `flow` (CV_32FC2, current image to previous) once each pixel's own motion
+/// Length [px] of what remains of `flow` (current image to previous) once each pixel's own motion
 /// by `H` (previous to current) is taken out. 0 where H takes it from outside of the previous image.
-cv::Mat flowAgainst(const cv::Mat& flow, const cv::Matx33d& H);
+cv::Mat1f flowAgainst(const cv::Mat2f& flow, const cv::Matx33d& H);
 
 }  // namespace redbee

@@ -16,12 +16,12 @@ inline uint8_t gradedScore(float ratio) {
   return ratio > 0 ? static_cast<uint8_t>(255.5F - 255.0F / (1.0F + ratio)) : uint8_t{0};
 }
 
-/// The same for a map: CV_32F statistic to CV_8U score.
-inline cv::Mat gradedScore(const cv::Mat& statistic, float threshold) {
-  cv::Mat score(statistic.size(), CV_8U);
+/// The same for a map of a statistic.
+inline cv::Mat1b gradedScore(const cv::Mat1f& statistic, float threshold) {
+  cv::Mat1b score(statistic.size());
   for (int y = 0; y < score.rows; ++y) {
-    const auto* from = statistic.ptr<float>(y);
-    auto* to = score.ptr<uint8_t>(y);
+    const float* from = statistic[y];
+    uint8_t* to = score[y];
     for (int x = 0; x < score.cols; ++x) to[x] = gradedScore(from[x] / threshold);
   }
   return score;
@@ -29,8 +29,8 @@ inline cv::Mat gradedScore(const cv::Mat& statistic, float threshold) {
 
 /// A score as a fraction of its range, averaged over a box, and graded again with the decision where that
 /// mean is `decision_fraction`: holes are filled, speckles removed.
-inline cv::Mat averagedScore(const cv::Mat& score, int box_px, float decision_fraction) {
-  cv::Mat mean;
+inline cv::Mat1b averagedScore(const cv::Mat1b& score, int box_px, float decision_fraction) {
+  cv::Mat1f mean;
   score.convertTo(mean, CV_32F, 1.0 / 255);
   cv::blur(mean, mean, {box_px, box_px});
   return gradedScore(mean, decision_fraction);

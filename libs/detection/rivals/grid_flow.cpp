@@ -15,7 +15,7 @@ std::vector<cv::Point2f> gridPoints(cv::Size image, cv::Size cell_px) {
   return points;
 }
 
-std::vector<cv::Mat> GridFlow::pyramidOf(const cv::Mat& grey) const {
+std::vector<cv::Mat> GridFlow::pyramidOf(const cv::Mat1b& grey) const {
   std::vector<cv::Mat> pyramid;
   cv::buildOpticalFlowPyramid(grey, pyramid, {parameters_.window_px, parameters_.window_px},
                               parameters_.levels);
@@ -34,7 +34,7 @@ std::vector<cv::Point2f> GridFlow::flow(const std::vector<cv::Mat>& from, const 
   return moved;
 }
 
-std::vector<cv::Point2f> GridFlow::follow(const cv::Mat& grey, const std::vector<cv::Point2f>& points,
+std::vector<cv::Point2f> GridFlow::follow(const cv::Mat1b& grey, const std::vector<cv::Point2f>& points,
                                           std::vector<uint8_t>& lost) {
   const std::vector<cv::Mat> before = std::exchange(pyramid_, pyramidOf(grey));
   lost.assign(points.size(), 1);
@@ -52,7 +52,7 @@ std::vector<cv::Point2f> GridFlow::follow(const cv::Mat& grey, const std::vector
   return moved;
 }
 
-GridTracks GridFlow::advance(const cv::Mat& grey) {
+GridTracks GridFlow::advance(const cv::Mat1b& grey) {
   const bool first = !hasPrevious();
   const std::vector<cv::Point2f> grid = gridPoints(grey.size(), parameters_.grid_px);
   std::vector<uint8_t> lost;

@@ -29,15 +29,15 @@ class GridFlow {
 
   void reset() { pyramid_.clear(); }
   bool hasPrevious() const { return !pyramid_.empty(); }
-  /// Follows the grid of the image (CV_8U) before into this one, which is then the one before. All images
+  /// Follows the grid of the image before into this one, which is then the one before. All images
   /// between resets are of one size. Empty for the first.
-  GridTracks advance(const cv::Mat& grey);
+  GridTracks advance(const cv::Mat1b& grey);
   /// Follows any points instead; `lost[i]` tells which were not found.
-  std::vector<cv::Point2f> follow(const cv::Mat& grey, const std::vector<cv::Point2f>& points,
+  std::vector<cv::Point2f> follow(const cv::Mat1b& grey, const std::vector<cv::Point2f>& points,
                                   std::vector<uint8_t>& lost);
 
  private:
-  std::vector<cv::Mat> pyramidOf(const cv::Mat& grey) const;
+  std::vector<cv::Mat> pyramidOf(const cv::Mat1b& grey) const;
   std::vector<cv::Point2f> flow(const std::vector<cv::Mat>& from, const std::vector<cv::Mat>& to,
                                 const std::vector<cv::Point2f>& points, std::vector<uint8_t>& found) const;
 

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "redbee/detection/rivals/graded_score.hpp"
-#include "redbee/detection/rivals/stabilise.hpp"
+#include "redbee/imaging/warping.hpp"
 
 namespace redbee {
 namespace {
@@ -18,23 +18,23 @@ constexpr float kDecisionFraction = 0.38F;
 constexpr uint8_t kMog2Foreground = 255;
 
 double overlap(const cv::Matx33d& H, cv::Size size) {
-  const cv::Mat unseen = unseenBy(H, size);
-  return 1.0 - static_cast<double>(cv::countNonZero(unseen)) / static_cast<double>(unseen.total());
+  const cv::Mat1b outside = outsidePrevious(H, size);
+  return 1.0 - static_cast<double>(cv::countNonZero(outside)) / static_cast<double>(outside.total());
 }
 
 /// Largest of the channels' absolute differences.
-cv::Mat greatestDifference(const cv::Mat& a, const cv::Mat& b) {
-  cv::Mat difference;
+cv::Mat1b greatestDifference(const cv::Mat3b& a, const cv::Mat3b& b) {
+  cv::Mat3b difference;
   cv::absdiff(a, b, difference);
-  std::vector<cv::Mat> channels;
+  std::vector<cv::Mat1b> channels;
   cv::split(difference, channels);
   return cv::max(cv::max(channels[0], channels[1]), channels[2]);
 }
 
-cv::Mat grade(const cv::Mat& mask, const cv::Mat& difference) {
-  cv::Mat statistic;
+cv::Mat1b grade(const cv::Mat1b& mask, const cv::Mat1b& difference) {
+  cv::Mat1f statistic;
   difference.convertTo(statistic, CV_32F);
-  cv::Mat half;
+  cv::Mat1b half;
   gradedScore(statistic, kDifferenceUnit).convertTo(half, CV_8U, 0.5, -0.5);
   cv::add(half, cv::Scalar(kDecisionScore), half, mask == kMog2Foreground);
   return half;
@@ -48,49 +48,49 @@ void HomographyMog2::reset() {
   learned_ = 0;
 }
 
-void HomographyMog2::anchorHere(const cv::Mat& background) {
+void HomographyMog2::anchorHere(const cv::Mat3b& background) {
   model_ = cv::createBackgroundSubtractorMOG2(kHistory, kVarThreshold, true);
   anchor_ = cv::Matx33d::eye();
-  cv::Mat mask;
+  cv::Mat1b mask;
   model_->apply(background, mask);
 }
 
-cv::Mat HomographyMog2::learn(const cv::Mat& image) {
-  cv::Mat background;
+cv::Mat1b HomographyMog2::learn(const cv::Mat3b& image) {
+  cv::Mat3b background;
   model_->getBackgroundImage(background);
-  const cv::Mat unseen = unseenBy(anchor_.inv(), image.size());
-  cv::Mat laid = stabilise(image, anchor_.inv());
-  background.copyTo(laid, unseen);
-  cv::Mat mask;
+  const cv::Mat1b outside = outsidePrevious(anchor_.inv(), image.size());
+  cv::Mat3b laid = carryMap(image, anchor_.inv(), cv::INTER_LINEAR);
+  background.copyTo(laid, outside);
+  cv::Mat1b mask;
   model_->apply(laid, mask);
-  mask.setTo(0, unseen);
-  return stabilise(grade(mask, greatestDifference(laid, background)), anchor_, cv::INTER_NEAREST);
+  mask.setTo(0, outside);
+  return carryMap(grade(mask, greatestDifference(laid, background)), anchor_, cv::INTER_NEAREST);
 }
 
-RivalOutput HomographyMog2::judge(const RivalInput& input) {
-  RivalOutput output;
+RivalScore HomographyMog2::scoreFrame(const FrameInput& input) {
+  RivalScore scored;
   const bool first = !registrar_.hasPrevious();
   const auto registration = registrar_.advance(input.grey);
   if (first) {
     anchorHere(input.colour);
-    return output;
+    return scored;
   }
   if (!registration) {
-    output.status = RivalStatus::kLost;
-    return output;
+    scored.status = DetectorStatus::kNoHomography;
+    return scored;
   }
   anchor_ = *registration * anchor_;
   if (overlap(anchor_, input.grey.size()) < kMinOverlap) {
-    cv::Mat background;
+    cv::Mat3b background;
     model_->getBackgroundImage(background);
-    cv::Mat here = stabilise(background, anchor_);
-    input.colour.copyTo(here, unseenBy(anchor_, here.size()));
+    cv::Mat3b here = carryMap(background, anchor_, cv::INTER_LINEAR);
+    input.colour.copyTo(here, outsidePrevious(anchor_, here.size()));
     anchorHere(here);
   }
-  output.score = averagedScore(learn(input.colour), kAveragePx, kDecisionFraction);
-  output.background = *registration;
-  output.status = ++learned_ < kLearningFrames ? RivalStatus::kLearning : RivalStatus::kGood;
-  return output;
+  scored.score = averagedScore(learn(input.colour), kAveragePx, kDecisionFraction);
+  scored.background = *registration;
+  scored.status = ++learned_ < kLearningFrames ? DetectorStatus::kLearning : DetectorStatus::kGood;
+  return scored;
 }
 
 }  // namespace redbee

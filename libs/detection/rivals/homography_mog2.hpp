@@ -18,14 +18,15 @@ namespace redbee {
 
 class HomographyMog2 : public Rival {
  public:
-  bool wantsColour() const override { return true; }
+  explicit HomographyMog2(const ObjectParameters& objects) : Rival(objects) {}
+  DetectorNeeds needs() const override { return {true, false, 1}; }
 
  private:
   void reset() override;
-  RivalOutput judge(const RivalInput& input) override;
+  RivalScore scoreFrame(const FrameInput& input) override;
 
-  void anchorHere(const cv::Mat& background);
-  cv::Mat learn(const cv::Mat& image);
+  void anchorHere(const cv::Mat3b& background);
+  cv::Mat1b learn(const cv::Mat3b& image);
 
   Registrar registrar_;
   cv::Ptr<cv::BackgroundSubtractorMOG2> model_;

@@ -18,16 +18,16 @@ class ImageHistory {
     for (Entry& entry : entries_) entry.to_newest = H * entry.to_newest;
   }
   /// The newest frame's image, which shares its memory.
-  void push(const cv::Mat& image) {
+  void push(const cv::Mat1b& image) {
     entries_.push_back({image, cv::Matx33d::eye()});
     if (entries_.size() > frames_) entries_.pop_front();
   }
-  const cv::Mat& oldest() const { return entries_.front().image; }
+  const cv::Mat1b& oldest() const { return entries_.front().image; }
   const cv::Matx33d& oldestToNewest() const { return entries_.front().to_newest; }
 
  private:
   struct Entry {
-    cv::Mat image;
+    cv::Mat1b image;
     cv::Matx33d to_newest;
   };
   size_t frames_;

@@ -17,7 +17,7 @@ constexpr float kAgeDecay = 0.001F;
 constexpr float kNoiseVariance = 2500;  // variance above which age decays
 constexpr float kMatch = 2;             // squared sigmas
 constexpr float kForegroundSigmas = 2;  // the square root of the authors' 4
-constexpr float kJudgedFromAge = 1;
+constexpr float kClassifiedFromAge = 1;
 constexpr int kAveragePx = 21;
 constexpr float kDecisionFraction = 0.26F;
 
@@ -42,13 +42,13 @@ struct BlockPixels {
   float mean, least, greatest;
 };
 
-BlockPixels pixelsOf(const cv::Mat& grey, int row, int column) {
+BlockPixels pixelsOf(const cv::Mat1b& grey, int row, int column) {
   constexpr int kSide = Mcd::kBlockPx;
   int sum = 0;
   int least = 255;
   int greatest = 0;
   for (int y = row * kSide; y < (row + 1) * kSide; ++y) {
-    const auto* pixel = grey.ptr<uint8_t>(y) + column * kSide;
+    const auto* pixel = grey[y] + column * kSide;
     for (int x = 0; x < kSide; ++x) {
       sum += pixel[x];
       least = std::min<int>(least, pixel[x]);
@@ -92,7 +92,7 @@ BlockBackground updateDualModel(DualModel& model, float mean, float least, float
     if (!matches(model[1], mean)) model[1] = {mean, kFirstVariance, 0};
     learn(model[1], mean, least, greatest);
   }
-  return {model[0].mean, before.variance, before.age > kJudgedFromAge};
+  return {model[0].mean, before.variance, before.age > kClassifiedFromAge};
 }
 
 void Mcd::reset() {
@@ -100,25 +100,25 @@ void Mcd::reset() {
   models_.clear();
 }
 
-RivalOutput Mcd::judge(const RivalInput& input) {
-  cv::Mat grey;
+RivalScore Mcd::scoreFrame(const FrameInput& input) {
+  cv::Mat1b grey;
   cv::medianBlur(input.grey, grey, kMedianPx);
-  RivalOutput output;
+  RivalScore scored;
   const bool first = !registrar_.hasPrevious();
   const auto registration = registrar_.advance(grey);
   if (first) {
     blocks_ = grey.size() / kBlockPx;
     models_.assign(static_cast<size_t>(blocks_.area()), DualModel{});
   } else if (!registration) {
-    output.status = RivalStatus::kLost;
-    return output;
+    scored.status = DetectorStatus::kNoHomography;
+    return scored;
   } else {
     carry(*registration);
-    output.status = RivalStatus::kGood;
-    output.background = *registration;
+    scored.status = DetectorStatus::kGood;
+    scored.background = *registration;
   }
-  output.score = averagedScore(updateAndScore(grey), kAveragePx, kDecisionFraction);
-  return output;
+  scored.score = averagedScore(updateAndScore(grey), kAveragePx, kDecisionFraction);
+  return scored;
 }
 
 GreyGaussian Mcd::modelAt(size_t which, double column, double row) const {
@@ -158,18 +158,18 @@ void Mcd::carry(const cv::Matx33d& H) {
   models_ = std::move(carried);
 }
 
-cv::Mat Mcd::updateAndScore(const cv::Mat& grey) {
-  cv::Mat score = cv::Mat::zeros(grey.size(), CV_8U);
+cv::Mat1b Mcd::updateAndScore(const cv::Mat1b& grey) {
+  cv::Mat1b score = cv::Mat1b::zeros(grey.size());
   for (int row = 0; row < blocks_.height; ++row) {
     for (int column = 0; column < blocks_.width; ++column) {
       const BlockPixels block = pixelsOf(grey, row, column);
       const BlockBackground background =
           updateDualModel(model(row, column), block.mean, block.least, block.greatest);
-      if (!background.judges) continue;
+      if (!background.classifies) continue;
       const float unit = 1 / (kForegroundSigmas * std::sqrt(background.variance));
       for (int y = row * kBlockPx; y < (row + 1) * kBlockPx; ++y) {
-        const auto* pixel = grey.ptr<uint8_t>(y) + column * kBlockPx;
-        auto* to = score.ptr<uint8_t>(y) + column * kBlockPx;
+        const auto* pixel = grey[y] + column * kBlockPx;
+        auto* to = score[y] + column * kBlockPx;
         for (int x = 0; x < kBlockPx; ++x) to[x] = gradedScore(std::abs(pixel[x] - background.mean) * unit);
       }
     }

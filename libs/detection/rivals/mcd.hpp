@@ -35,7 +35,7 @@ GreyGaussian blendGaussians(const std::array<GreyGaussian, 4>& models, const std
 struct BlockBackground {
   float mean;      ///< grey levels, of model 0 once it has learned from the block, if it has
   float variance;  ///< grey levels^2, of model 0 before
-  bool judges;     ///< false: model 0 is too young
+  bool classifies;  ///< false: model 0 is too young
 };
 
 /// Takes in a block's pixels: the candidate becomes the background where it is as old. `mean`: of the block;
@@ -44,15 +44,17 @@ BlockBackground updateDualModel(DualModel& model, float mean, float least, float
 
 class Mcd : public Rival {
  public:
+  explicit Mcd(const ObjectParameters& objects) : Rival(objects) {}
+
   static constexpr int kBlockPx = 4;
 
  private:
   void reset() override;
-  RivalOutput judge(const RivalInput& input) override;
+  RivalScore scoreFrame(const FrameInput& input) override;
 
   void carry(const cv::Matx33d& H);
   GreyGaussian modelAt(size_t which, double column, double row) const;
-  cv::Mat updateAndScore(const cv::Mat& grey);
+  cv::Mat1b updateAndScore(const cv::Mat1b& grey);
 
   Registrar registrar_;
   DualModel& model(int row, int column) { return models_[static_cast<size_t>(row * blocks_.width + column)]; }

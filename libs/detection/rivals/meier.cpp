@@ -46,13 +46,13 @@ std::vector<StrayPoint> strayPoints(const GridTracks& tracks, const EgoMotion& m
 
 }  // namespace
 
-Meier::Meier() : flow_(gridParameters()) {}
+Meier::Meier(const ObjectParameters& objects) : Rival(objects), flow_(gridParameters()) {}
 
-RivalOutput Meier::judge(const RivalInput& input) {
-  RivalOutput output;
+RivalScore Meier::scoreFrame(const FrameInput& input) {
+  RivalScore scored;
   const bool first = !flow_.hasPrevious();
   const GridTracks tracks = flow_.advance(input.grey);
-  if (first) return output;
+  if (first) return scored;
   std::optional<EgoMotion> motion;
   std::optional<cv::Matx33d> background;
   if (input.motion) {
@@ -63,16 +63,16 @@ RivalOutput Meier::judge(const RivalInput& input) {
     background = registerTracks(tracks);
   }
   if (!motion) {
-    output.status = RivalStatus::kLost;
-    return output;
+    scored.status = DetectorStatus::kNoHomography;
+    return scored;
   }
-  output.status = RivalStatus::kGood;
-  output.background = background.value_or(cv::Matx33d::eye());
+  scored.status = DetectorStatus::kGood;
+  scored.background = background.value_or(cv::Matx33d::eye());
   ClusterParameters clusters;
   clusters.reach_px = kReachPx;
-  output.score = averagedScore(paintClusters(input.grey.size(), strayPoints(tracks, *motion), clusters),
+  scored.score = averagedScore(paintClusters(input.grey.size(), strayPoints(tracks, *motion), clusters),
                                kAveragePx, kDecisionFraction);
-  return output;
+  return scored;
 }
 
 }  // namespace redbee

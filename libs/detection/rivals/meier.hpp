@@ -21,12 +21,12 @@ namespace redbee {
 
 class Meier : public Rival {
  public:
-  Meier();
-  bool wantsMotion() const override { return true; }
+  explicit Meier(const ObjectParameters& objects);
+  DetectorNeeds needs() const override { return {false, true, 1}; }
 
  private:
   void reset() override { flow_.reset(); }
-  RivalOutput judge(const RivalInput& input) override;
+  RivalScore scoreFrame(const FrameInput& input) override;
 
   GridFlow flow_;
 };

@@ -20,9 +20,9 @@ class Registrar {
 
   void reset() { flow_.reset(); }
   bool hasPrevious() const { return flow_.hasPrevious(); }
-  /// Registers the image (CV_8U) before to this one, which is then the one before. Nothing for the first
+  /// Registers the image before to this one, which is then the one before. Nothing for the first
   /// image and where registerTracks() fails.
-  std::optional<cv::Matx33d> advance(const cv::Mat& grey) { return registerTracks(flow_.advance(grey)); }
+  std::optional<cv::Matx33d> advance(const cv::Mat1b& grey) { return registerTracks(flow_.advance(grey)); }
 
  private:
   GridFlow flow_;

@@ -1,108 +1,77 @@
 #include "redbee/detection/rivals/rival.hpp"
 
-#include <map>
+#include <opencv2/core/eigen.hpp>
+#include <utility>
+#include <vector>
 
-#include "redbee/detection/rivals/aurora.hpp"
-#include "redbee/detection/rivals/datmo.hpp"
-#include "redbee/detection/rivals/difference.hpp"
-#include "redbee/detection/rivals/flow_residual.hpp"
-#include "redbee/detection/rivals/homography_mog2.hpp"
-#include "redbee/detection/rivals/mcd.hpp"
-#include "redbee/detection/rivals/meier.hpp"
-#include "redbee/detection/rivals/trajectory_rival.hpp"
+#include "redbee/detection/rivals/graded_score.hpp"
 
 namespace redbee {
 namespace {
 
-using Factory = std::unique_ptr<Rival> (*)();
-
-template <typename Kind>
-std::unique_ptr<Rival> make() {
-  return std::make_unique<Kind>();
-}
-
-template <typename Kind, typename Parameters>
-std::unique_ptr<Rival> makeWith(const Parameters& parameters) {
-  return std::make_unique<Kind>(parameters);
-}
-
-/// Forgets sooner.
-AuroraParameters auroraOnDavis() {
-  AuroraParameters parameters;
-  parameters.density.longest = 6;
-  return parameters;
-}
-
-const std::map<std::string, Factory>& factories() {
-  static const std::map<std::string, Factory> all{
-      {"aurora", make<Aurora>},
-      {"aurora-davis", [] { return makeWith<Aurora>(auroraOnDavis()); }},
-      {"datmo", make<Datmo>},
-      {"difference", make<Difference>},
-      {"difference-davis",
-       [] {
-         return makeWith<Difference>(DifferenceParameters{1, 35});
-       }},
-      {"flow-residual", make<FlowResidual>},
-      {"flow-residual-davis",
-       [] {
-         return makeWith<FlowResidual>(FlowResidualParameters{1, 35, 11.5F});
-       }},
-      {"homography-mog2", make<HomographyMog2>},
-      {"lrr", makeLrr},
-      {"mcd", make<Mcd>},
-      {"meier", make<Meier>},
-      {"rv", makeRandomizedVoting},
-      {"ssc", makeSsc},
-  };
-  return all;
+ObjectParameters decidedByScore(ObjectParameters objects) {
+  objects.threshold = (kDecisionScore - 0.5) / 255;
+  objects.extent_threshold = objects.threshold;
+  return objects;
 }
 
 }  // namespace
 
-bool Rival::fits(const RivalInput& input) const {
-  const bool grey = !input.grey.empty() && input.grey.type() == CV_8U;
-  const bool colour = input.colour.type() == CV_8UC3 && input.colour.size() == input.grey.size();
-  return grey && (colour || !wantsColour());
+Rival::Rival(const ObjectParameters& objects) : objects_(decidedByScore(objects)), tracker_(objects_) {}
+
+bool Rival::fits(const FrameInput& input) const {
+  return !input.grey.empty() && (!needs().colour || input.colour.size() == input.grey.size());
 }
 
-RivalOutput Rival::beginAnew(const RivalInput& input) {
+RivalScore Rival::restart(const FrameInput& input) {
   reset();
-  RivalOutput output = judge(input);
-  output.status = RivalStatus::kLost;
-  return output;
+  RivalScore scored = scoreFrame(input);
+  scored.status = DetectorStatus::kNoHomography;
+  return scored;
 }
 
-RivalOutput Rival::step(const RivalInput& input) {
-  RivalOutput output;
+RivalScore Rival::score(const FrameInput& input) {
+  RivalScore scored;
   if (!fits(input)) {
     reset();
-    output.status = RivalStatus::kBadImage;
+    scored.status = DetectorStatus::kBadImage;
   } else {
     const bool first = !last_utime_;
     const bool follows = !first && input.utime > *last_utime_ &&
                          input.utime - *last_utime_ <= kMaxFrameGapUs && input.grey.size() == size_;
     size_ = input.grey.size();
-    if (first || follows) output = judge(input);
-    if ((!first && !follows) || output.status == RivalStatus::kLost) output = beginAnew(input);
+    if (first || follows) scored = scoreFrame(input);
+    if ((!first && !follows) || scored.status == DetectorStatus::kNoHomography) scored = restart(input);
     last_utime_ = input.utime;
   }
-  if (output.status != RivalStatus::kGood) {
-    output.score = cv::Mat::zeros(size_, CV_8U);
-    output.background = cv::Matx33d::eye();
+  if (scored.status != DetectorStatus::kGood) {
+    scored.score = cv::Mat1b::zeros(size_);
+    scored.background = cv::Matx33d::eye();
   }
+  return scored;
+}
+
+DetectorOutput Rival::step(const FrameInput& input) {
+  const RivalScore scored = score(input);
+  const cv::Size size = input.fullSize().empty() ? size_ : input.fullSize();
+  const bool good = scored.status == DetectorStatus::kGood;
+  DetectorOutput output;
+  output.utime = input.utime;
+  output.status = scored.status;
+  output.unknown = cv::Mat1b(size, good ? 0 : 255);
+  output.probability = good ? scored.score : cv::Mat1b(cv::Mat1b::zeros(size));
+  output.mask = cv::Mat1b::zeros(size);
+  std::vector<Detection> components;
+  if (good) {
+    Eigen::Matrix3d background;
+    cv::cv2eigen(scored.background, background);
+    tracker_.carry(background);
+    ForegroundComponents found = findComponents(output.probability, output.unknown, objects_);
+    output.mask = found.mask;
+    components = std::move(found.components);
+  }
+  output.detections = tracker_.update(components, size);
   return output;
-}
-
-std::unique_ptr<Rival> makeRival(const std::string& name) {
-  const auto found = factories().find(name);
-  return found == factories().end() ? nullptr : found->second();
-}
-
-std::vector<std::string> rivalNames() {
-  std::vector<std::string> names;
-  for (const auto& [name, factory] : factories()) names.push_back(name);
-  return names;
 }
 
 }  // namespace redbee

@@ -1,73 +1,57 @@
-// Other detectors of moving objects from a moving camera, behind one interface, to be measured against ours.
+// Other detectors of moving objects from a moving camera, to be measured against ours, or flown.
 //
 // Written from their descriptions; each header states where it departs from them and where its parameters
-// come from. All see ideal (undistorted) images in order of time.
+// come from.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "redbee/geometry/homography.hpp"
+#include "redbee/detection/detector.hpp"
 
 namespace redbee {
 
-struct RivalInput {
-  int64_t utime = 0;  ///< us
-  cv::Mat grey;       ///< CV_8U
-  cv::Mat colour;     ///< CV_8UC3, BGR, of the same size; may be empty unless wantsColour()
-  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix
-  std::optional<PlaneMotion> motion;                ///< of the camera since the previous frame, from an IMU
-};
-
-enum class RivalStatus {
-  kGood,
-  kLearning,  ///< no model to compare with yet
-  kLost,      ///< the images could not be registered, or are not consecutive: it restarts
-  kBadImage,  ///< empty or of the wrong type; nothing was learned from it
-};
-
-struct RivalOutput {
-  RivalStatus status = RivalStatus::kLearning;
-  /// CV_8U, the image's size: graded evidence of motion, all 0 unless kGood. 128 is the published (or tuned)
-  /// decision threshold.
-  cv::Mat score;
+/// What a rival finds in one frame.
+struct RivalScore {
+  DetectorStatus status = DetectorStatus::kLearning;
+  /// Graded evidence of motion, of the image's size, all 0 unless kGood. kDecisionScore (graded_score.hpp) is
+  /// the published (or tuned) decision threshold.
+  cv::Mat1b score;
   /// The rival's own homography of the background, previous to current; the identity unless kGood.
   cv::Matx33d background = cv::Matx33d::eye();
 };
 
-class Rival {
+/// Masks are the components of scores from kDecisionScore on, cleaned and tracked as the configuration has it;
+/// objects.threshold and objects.extent_threshold do not apply.
+class Rival : public Detector {
  public:
   /// Frames further apart than this are not consecutive [us].
   static constexpr int64_t kMaxFrameGapUs = 500'000;
 
-  virtual ~Rival() = default;
-  virtual bool wantsColour() const { return false; }
-  virtual bool wantsMotion() const { return false; }
+  DetectorNeeds needs() const override { return {}; }
+  DetectorOutput step(const FrameInput& input) final;
 
-  /// A gap, a repeated or earlier time, a change of size and a lost registration each restart it from this
-  /// image; see the status.
-  RivalOutput step(const RivalInput& input);
+  /// The score alone; step() calls it. A gap, a repeated or earlier time, a change of size and a lost
+  /// registration each restart the rival from this image.
+  RivalScore score(const FrameInput& input);
+
+ protected:
+  explicit Rival(const ObjectParameters& objects);
 
  private:
   virtual void reset() = 0;
   /// Processes an image that is consecutive to the last one, or the first since reset(). `score` may be left
-  /// empty unless kGood.
-  virtual RivalOutput judge(const RivalInput& input) = 0;
+  /// empty unless kGood; kNoHomography where the images cannot be registered.
+  virtual RivalScore scoreFrame(const FrameInput& input) = 0;
 
-  bool fits(const RivalInput& input) const;
-  RivalOutput beginAnew(const RivalInput& input);
+  bool fits(const FrameInput& input) const;
+  RivalScore restart(const FrameInput& input);
 
+  ObjectParameters objects_;
+  ObjectTracker tracker_;
   std::optional<int64_t> last_utime_;
   cv::Size size_;
 };
-
-/// Null for a name that is none of rivalNames().
-std::unique_ptr<Rival> makeRival(const std::string& name);
-std::vector<std::string> rivalNames();
 
 }  // namespace redbee

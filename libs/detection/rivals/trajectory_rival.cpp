@@ -28,24 +28,25 @@ constexpr float kDecisionFraction = 0.38F;
 constexpr double kRegisteredPx = 1;  // tracks this close to the background's motions register the image
 constexpr Eigen::Index kAffineRank = 3;
 
-cv::Mat fillFromNearest(cv::Size image, const Eigen::MatrixXd& X, const std::vector<uint8_t>& scores) {
-  cv::Mat empty(image, CV_8U, cv::Scalar(255));
+cv::Mat1b fillFromNearest(cv::Size image, const Eigen::MatrixXd& X, const std::vector<uint8_t>& scores) {
+  cv::Mat1b empty(image, 255);
   const auto pixelOf = [&](Eigen::Index i) {
     const Eigen::Vector2d p = X.col(i).tail<2>();
     return cv::Point(std::clamp(cvRound(p.x()), 0, image.width - 1),
                      std::clamp(cvRound(p.y()), 0, image.height - 1));
   };
-  for (Eigen::Index i = 0; i < X.cols(); ++i) empty.at<uint8_t>(pixelOf(i)) = 0;
-  cv::Mat distance, cell;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) empty(pixelOf(i)) = 0;
+  cv::Mat1f distance;
+  cv::Mat1i cell;
   cv::distanceTransform(empty, distance, cell, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
   std::vector<uint8_t> score_of_cell(scores.size() + 1, 0);
   for (Eigen::Index i = 0; i < X.cols(); ++i)
-    score_of_cell[static_cast<size_t>(cell.at<int>(pixelOf(i)))] = scores[static_cast<size_t>(i)];
-  cv::Mat map = cv::Mat::zeros(image, CV_8U);
+    score_of_cell[static_cast<size_t>(cell(pixelOf(i)))] = scores[static_cast<size_t>(i)];
+  cv::Mat1b map = cv::Mat1b::zeros(image);
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.cols; ++x) {
-      if (distance.at<float>(y, x) <= kReachPx)
-        map.at<uint8_t>(y, x) = score_of_cell[static_cast<size_t>(cell.at<int>(y, x))];
+      if (distance(y, x) <= kReachPx)
+        map(y, x) = score_of_cell[static_cast<size_t>(cell(y, x))];
     }
   }
   return map;
@@ -132,47 +133,46 @@ Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, int cell_px) {
   return X(Eigen::all, kept);
 }
 
-TrajectoryRival::TrajectoryRival(TrajectoryClustering clustering, const TrajectoryRivalParameters& parameters)
-    : clustering_(std::move(clustering)), parameters_(parameters), window_(TrajectoryWindowParameters{}) {}
+TrajectoryRival::TrajectoryRival(const ObjectParameters& objects, TrajectoryClustering clustering,
+                                 const TrajectoryRivalParameters& parameters)
+    : Rival(objects), clustering_(std::move(clustering)), parameters_(parameters), window_(TrajectoryWindowParameters{}) {}
 
-RivalOutput TrajectoryRival::judge(const RivalInput& input) {
-  RivalOutput output;
+RivalScore TrajectoryRival::scoreFrame(const FrameInput& input) {
+  RivalScore scored;
   if (!window_.advance(input.grey)) {
-    output.status = RivalStatus::kLost;
-    return output;
+    scored.status = DetectorStatus::kNoHomography;
+    return scored;
   }
   const Eigen::MatrixXd tracks = window_.trajectories();
-  if (tracks.cols() == 0) return output;
+  if (tracks.cols() == 0) return scored;
   const Eigen::MatrixXd X = thinned(tracks, parameters_.clustered_px);
-  if (X.cols() < 4 * kMotions) return output;
+  if (X.cols() < 4 * kMotions) return scored;
   const std::vector<int> labels = clustering_(X, kMotions);
   const Eigen::VectorXd distance = distanceFromBackground(
       tracks, X, labels, backgroundLabels(labels, kMotions, parameters_.background_fraction));
   std::vector<uint8_t> scores;
   for (const double px : distance)
     scores.push_back(gradedScore((static_cast<float>(px) - kTrackingErrorPx) / kDistanceUnitPx));
-  output.status = RivalStatus::kGood;
-  output.score =
+  scored.status = DetectorStatus::kGood;
+  scored.score =
       averagedScore(fillFromNearest(input.grey.size(), tracks, scores), kAveragePx, kDecisionFraction);
-  output.background = registerTracks(lastStepOfBackground(tracks, distance)).value_or(cv::Matx33d::eye());
-  return output;
+  scored.background = registerTracks(lastStepOfBackground(tracks, distance)).value_or(cv::Matx33d::eye());
+  return scored;
 }
 
-std::unique_ptr<Rival> makeRandomizedVoting() {
-  const auto clustering = [](const Eigen::MatrixXd& X, int count) {
-    return randomizedVotingClusters(X, count);
-  };
-  return std::make_unique<TrajectoryRival>(clustering, kRvParameters);
-}
+RandomizedVoting::RandomizedVoting(const ObjectParameters& objects)
+    : TrajectoryRival(
+          objects, [](const Eigen::MatrixXd& X, int count) { return randomizedVotingClusters(X, count); },
+          kRvParameters) {}
 
-std::unique_ptr<Rival> makeLrr() {
-  const auto clustering = [](const Eigen::MatrixXd& X, int count) { return lrrClusters(scaled(X), count); };
-  return std::make_unique<TrajectoryRival>(clustering, kLrrParameters);
-}
+Lrr::Lrr(const ObjectParameters& objects)
+    : TrajectoryRival(
+          objects, [](const Eigen::MatrixXd& X, int count) { return lrrClusters(scaled(X), count); },
+          kLrrParameters) {}
 
-std::unique_ptr<Rival> makeSsc() {
-  const auto clustering = [](const Eigen::MatrixXd& X, int count) { return sscClusters(scaled(X), count); };
-  return std::make_unique<TrajectoryRival>(clustering, kSscParameters);
-}
+Ssc::Ssc(const ObjectParameters& objects)
+    : TrajectoryRival(
+          objects, [](const Eigen::MatrixXd& X, int count) { return sscClusters(scaled(X), count); },
+          kSscParameters) {}
 
 }  // namespace redbee

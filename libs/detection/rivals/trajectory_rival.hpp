@@ -49,19 +49,30 @@ struct TrajectoryRivalParameters {
 
 class TrajectoryRival : public Rival {
  public:
-  TrajectoryRival(TrajectoryClustering clustering, const TrajectoryRivalParameters& parameters);
+  TrajectoryRival(const ObjectParameters& objects, TrajectoryClustering clustering,
+                  const TrajectoryRivalParameters& parameters);
 
  private:
   void reset() override { window_.reset(); }
-  RivalOutput judge(const RivalInput& input) override;
+  RivalScore scoreFrame(const FrameInput& input) override;
 
   TrajectoryClustering clustering_;
   TrajectoryRivalParameters parameters_;
   TrajectoryWindow window_;
 };
 
-std::unique_ptr<Rival> makeRandomizedVoting();
-std::unique_ptr<Rival> makeLrr();
-std::unique_ptr<Rival> makeSsc();
+/// The three methods.
+class RandomizedVoting : public TrajectoryRival {
+ public:
+  explicit RandomizedVoting(const ObjectParameters& objects);
+};
+class Lrr : public TrajectoryRival {
+ public:
+  explicit Lrr(const ObjectParameters& objects);
+};
+class Ssc : public TrajectoryRival {
+ public:
+  explicit Ssc(const ObjectParameters& objects);
+};
 
 }  // namespace redbee

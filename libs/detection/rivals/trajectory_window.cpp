@@ -25,7 +25,7 @@ void TrajectoryWindow::reset() {
   filled_ = 0;
 }
 
-bool TrajectoryWindow::advance(const cv::Mat& grey) {
+bool TrajectoryWindow::advance(const cv::Mat1b& grey) {
   const size_t before = tracks_.size();
   const size_t followed = follow(grey);
   const bool good = before == 0 || 10 * followed >= before;
@@ -38,7 +38,7 @@ bool TrajectoryWindow::advance(const cv::Mat& grey) {
   return good;
 }
 
-size_t TrajectoryWindow::follow(const cv::Mat& grey) {
+size_t TrajectoryWindow::follow(const cv::Mat1b& grey) {
   std::vector<cv::Point2f> ends;
   for (const Track& track : tracks_) ends.push_back(track.back());
   std::vector<uint8_t> lost;

@@ -21,9 +21,9 @@ class TrajectoryWindow {
   explicit TrajectoryWindow(const TrajectoryWindowParameters& parameters);
 
   void reset();
-  /// Follows all tracks into the image (CV_8U, of one size between resets) and seeds empty cells. False where
+  /// Follows all tracks into the image (of one size between resets) and seeds empty cells. False where
   /// fewer than a tenth of the tracks could be followed: it then restarts from this image.
-  bool advance(const cv::Mat& grey);
+  bool advance(const cv::Mat1b& grey);
 
   /// 2F x N, px: x and y of frame f in rows 2f and 2f + 1, a column for every track that spans the whole
   /// window. While the window fills it is as long as it can be; no columns before it has its least length.
@@ -33,7 +33,7 @@ class TrajectoryWindow {
  private:
   using Track = std::deque<cv::Point2f>;
 
-  size_t follow(const cv::Mat& grey);
+  size_t follow(const cv::Mat1b& grey);
   void thinAndSeed(const cv::Size& image);
 
   TrajectoryWindowParameters parameters_;

@@ -14,8 +14,8 @@ namespace {
 // The canvas must neither lose nor invent detail: beyond this change of area it is replaced.
 constexpr double kMaxAreaRatio = 1.2;
 
-int marginPixels(const cv::Size& image, double share) {
-  return static_cast<int>(std::lround(image.width * share));
+int marginPixels(const cv::Size& image, double fraction) {
+  return static_cast<int>(std::lround(image.width * fraction));
 }
 
 Eigen::Matrix3d translation(double x, double y) {
@@ -37,11 +37,11 @@ double polygonArea(const std::array<Eigen::Vector2d, 4>& corners) {
 
 }  // namespace
 
-BackgroundModel::BackgroundModel(cv::Size image, const SegmentationParameters& parameters)
+BackgroundModel::BackgroundModel(cv::Size image, const TwoPlaneParameters& parameters, int learning_frames)
     : image_(image),
       canvas_(image.width + 2 * marginPixels(image, parameters.canvas_margin),
               image.height + 2 * marginPixels(image, parameters.canvas_margin)),
-      learning_frames_(parameters.learning_frames),
+      learning_frames_(learning_frames),
       to_canvas_(translation(marginPixels(image, parameters.canvas_margin),
                              marginPixels(image, parameters.canvas_margin))),
       view_(to_canvas_.inverse()),
@@ -54,23 +54,23 @@ void BackgroundModel::carry(const Eigen::Matrix3d& H) {
   view_ = to_canvas_.inverse();
 }
 
-BackgroundVerdict BackgroundModel::learn(const cv::Mat& grey) {
+ForegroundMaps BackgroundModel::learn(const cv::Mat1b& grey) {
   const Eigen::Matrix3d current_to_canvas = view_.inverse();
-  const auto warp = [&](const cv::Mat& from, cv::Size size, const Eigen::Matrix3d& H, int interpolation) {
-    cv::Mat to;
+  const auto warp = [&](const cv::Mat1b& from, cv::Size size, const Eigen::Matrix3d& H, int interpolation) {
+    cv::Mat1b to;
     cv::warpPerspective(from, to, toMatx(H), size, interpolation);
     return to;
   };
-  const cv::Mat valid =
-      warp(cv::Mat(image_, CV_8U, cv::Scalar(255)), canvas_, current_to_canvas, cv::INTER_NEAREST);
-  const cv::Mat known_canvas = ~mixture_.unknown(learning_frames_);
-  const cv::Mat foreground_canvas =
+  const cv::Mat1b valid =
+      warp(cv::Mat1b(image_, 255), canvas_, current_to_canvas, cv::INTER_NEAREST);
+  const cv::Mat1b known_canvas = ~mixture_.unknown(learning_frames_);
+  const cv::Mat1b foreground_canvas =
       mixture_.update(warp(grey, canvas_, current_to_canvas, cv::INTER_LINEAR), valid);
-  BackgroundVerdict verdict;
-  const cv::Mat known = warp(known_canvas, image_, view_, cv::INTER_NEAREST);
-  verdict.foreground = warp(foreground_canvas, image_, view_, cv::INTER_NEAREST) & known;
-  verdict.unknown = ~known;
-  return verdict;
+  ForegroundMaps maps;
+  const cv::Mat1b known = warp(known_canvas, image_, view_, cv::INTER_NEAREST);
+  maps.foreground = warp(foreground_canvas, image_, view_, cv::INTER_NEAREST) & known;
+  maps.unknown = ~known;
+  return maps;
 }
 
 bool BackgroundModel::viewFitsCanvas() const {

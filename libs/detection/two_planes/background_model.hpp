@@ -8,24 +8,21 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/detection/two_planes/gaussian_mixture.hpp"
 
 namespace redbee {
 
-struct BackgroundVerdict {
-  cv::Mat foreground;  ///< CV_8U in the current image, 255 where the pixel is known and not background
-  cv::Mat unknown;     ///< CV_8U, 255 where the model is too young
-};
-
 class BackgroundModel {
  public:
-  BackgroundModel(cv::Size image, const SegmentationParameters& parameters);
+  /// `learning_frames`: a pixel that was learned from fewer images is unknown.
+  BackgroundModel(cv::Size image, const TwoPlaneParameters& parameters, int learning_frames);
 
   /// The camera moves by H (previous to current, pixels) and nothing is learned.
   void carry(const Eigen::Matrix3d& H);
-  /// Classifies the image (8-bit grey) against the model, then learns it. carry() comes first.
-  BackgroundVerdict learn(const cv::Mat& grey);
+  /// Classifies the image against the model, then learns it. carry() comes first.
+  ForegroundMaps learn(const cv::Mat1b& grey);
 
  private:
   bool viewFitsCanvas() const;

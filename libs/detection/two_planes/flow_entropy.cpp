@@ -15,7 +15,7 @@ struct Cell {
   int tracks = 0;
 };
 
-double order(const Cell& cell, const SegmentationParameters& parameters) {
+double order(const Cell& cell, const RefinementParameters& parameters) {
   if (cell.tracks == 0) return 1.0;
   const bool votes = std::any_of(cell.histogram.begin(), cell.histogram.end(), [](int n) { return n > 0; });
   const double entropy = votes ? histogramEntropy(cell.histogram) : std::log2(parameters.entropy_bins);
@@ -39,9 +39,9 @@ double histogramEntropy(const std::vector<int>& histogram) {
   return entropy;
 }
 
-cv::Mat flowOrder(const PointTracks& tracks, const Eigen::Matrix3d& ground, cv::Size image,
-                  const SegmentationParameters& parameters) {
-  const int side = parameters.sample_grid_px * parameters.entropy_cell_points;
+cv::Mat1f flowOrder(const PointTracks& tracks, int sample_grid_px, const Eigen::Matrix3d& ground,
+                    cv::Size image, const RefinementParameters& parameters) {
+  const int side = sample_grid_px * parameters.entropy_cell_points;
   const int columns = (image.width + side - 1) / side;
   const int rows = (image.height + side - 1) / side;
   const Cell empty{std::vector<int>(static_cast<size_t>(parameters.entropy_bins), 0), 0};
@@ -58,7 +58,7 @@ cv::Mat flowOrder(const PointTracks& tracks, const Eigen::Matrix3d& ground, cv::
     if (!(flow.norm() > parameters.flow_noise_px)) continue;
     ++cell.histogram[static_cast<size_t>(directionBin(flow, parameters.entropy_bins))];
   }
-  cv::Mat map(image, CV_32F);
+  cv::Mat1f map(image);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const cv::Rect area = cv::Rect(column * side, row * side, side, side) & cv::Rect({}, image);

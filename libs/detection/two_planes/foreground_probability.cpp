@@ -7,8 +7,8 @@
 namespace redbee {
 namespace {
 
-void follow(cv::Mat& map, const cv::Mat& value, double rate) {
-  if (map.empty()) map = cv::Mat::zeros(value.size(), CV_32F);
+void follow(cv::Mat1f& map, const cv::Mat1f& value, double rate) {
+  if (map.empty()) map = cv::Mat1f::zeros(value.size());
   cv::addWeighted(map, 1 - rate, value, rate, 0, map);
 }
 
@@ -21,18 +21,18 @@ void ForegroundProbability::reset() {
 }
 
 void ForegroundProbability::carry(const Eigen::Matrix3d& ground) {
-  for (cv::Mat* map : {&temporal_, &spatial_, &entropy_}) {
+  for (cv::Mat1f* map : {&temporal_, &spatial_, &entropy_}) {
     if (!map->empty()) *map = carryMap(*map, ground, cv::INTER_LINEAR);
   }
 }
 
-cv::Mat ForegroundProbability::update(const cv::Mat& foreground, const cv::Mat& order) {
-  cv::Mat neighbourhood;
+cv::Mat1f ForegroundProbability::update(const cv::Mat1f& foreground, const cv::Mat1f& order) {
+  cv::Mat1f neighbourhood;
   const cv::Size window(parameters_.spatial_window_px, parameters_.spatial_window_px);
   cv::boxFilter(foreground, neighbourhood, CV_32F, window, {-1, -1}, true, cv::BORDER_REPLICATE);
   follow(temporal_, foreground, parameters_.alpha);
   follow(spatial_, neighbourhood, parameters_.beta);
-  cv::Mat probability = temporal_.mul(spatial_);
+  cv::Mat1f probability = temporal_.mul(spatial_);
   if (!order.empty()) {
     follow(entropy_, order, parameters_.gamma);
     probability = probability.mul(entropy_);

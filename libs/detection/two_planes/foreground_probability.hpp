@@ -11,18 +11,18 @@ namespace redbee {
 
 class ForegroundProbability {
  public:
-  explicit ForegroundProbability(const SegmentationParameters& parameters) : parameters_(parameters) {}
+  explicit ForegroundProbability(const RefinementParameters& parameters) : parameters_(parameters) {}
 
   void reset();
   /// The camera moves by the ground homography (previous to current).
   void carry(const Eigen::Matrix3d& ground);
-  /// `foreground`: CV_32F, 0..1, the D_t of (13) and (14); `order`: CV_32F, 0..1, the E_t of (15), empty for
-  /// none. P_FG (16), CV_32F, 0..1.
-  cv::Mat update(const cv::Mat& foreground, const cv::Mat& order);
+  /// `foreground`: 0..1, the D_t of (13) and (14); `order`: 0..1, the E_t of (15), empty for none. Returns P_FG
+  /// (16), 0..1.
+  cv::Mat1f update(const cv::Mat1f& foreground, const cv::Mat1f& order);
 
  private:
-  SegmentationParameters parameters_;
-  cv::Mat temporal_, spatial_, entropy_;  ///< CV_32F, empty before the first update
+  RefinementParameters parameters_;
+  cv::Mat1f temporal_, spatial_, entropy_;  ///< empty before the first update
 };
 
 }  // namespace redbee

@@ -26,12 +26,12 @@ GaussianMixture::GaussianMixture(cv::Size size, int history_frames, double thres
       threshold_(static_cast<float>(threshold)),
       pixels_(static_cast<size_t>(size.area())) {}
 
-cv::Mat GaussianMixture::update(const cv::Mat& grey, const cv::Mat& valid) {
-  cv::Mat foreground(size_, CV_8U, cv::Scalar(0));
+cv::Mat1b GaussianMixture::update(const cv::Mat1b& grey, const cv::Mat1b& valid) {
+  cv::Mat1b foreground = cv::Mat1b::zeros(size_);
   for (int y = 0; y < size_.height; ++y) {
-    const uint8_t* value = grey.ptr(y);
-    const uint8_t* is_valid = valid.ptr(y);
-    uint8_t* out = foreground.ptr(y);
+    const uint8_t* value = grey[y];
+    const uint8_t* is_valid = valid[y];
+    uint8_t* out = foreground[y];
     Pixel* row = &pixels_[static_cast<size_t>(y) * static_cast<size_t>(size_.width)];
     for (int x = 0; x < size_.width; ++x) {
       if (is_valid[x] != 0 && !learn(row[x], value[x])) out[x] = 255;
@@ -91,21 +91,20 @@ void GaussianMixture::addGaussian(Pixel& pixel, float value, float rate) const {
   }
 }
 
-cv::Mat GaussianMixture::unknown(int frames) const {
-  cv::Mat unknown(size_, CV_8U);
+cv::Mat1b GaussianMixture::unknown(int frames) const {
+  cv::Mat1b unknown(size_);
   for (size_t i = 0; i < pixels_.size(); ++i) unknown.data[i] = pixels_[i].age < frames ? 255 : 0;
   return unknown;
 }
 
 void GaussianMixture::move(const Eigen::Matrix3d& H) {
-  cv::Mat index(size_, CV_32S);
-  for (int i = 0; i < size_.area(); ++i) index.at<int>(i / size_.width, i % size_.width) = i + 1;
   // OpenCV remaps no 32-bit integers; floats represent every index of an image below 2^24 pixels exactly.
-  index.convertTo(index, CV_32F);
-  const cv::Mat source = carryMap(index, H, cv::INTER_NEAREST);
+  cv::Mat1f index(size_);
+  for (int i = 0; i < size_.area(); ++i) index(i / size_.width, i % size_.width) = static_cast<float>(i + 1);
+  const cv::Mat1f source = carryMap(index, H, cv::INTER_NEAREST);
   std::vector<Pixel> moved(pixels_.size());
   for (int y = 0; y < size_.height; ++y) {
-    const float* from = source.ptr<float>(y);
+    const float* from = source[y];
     Pixel* to = &moved[static_cast<size_t>(y) * static_cast<size_t>(size_.width)];
     for (int x = 0; x < size_.width; ++x) {
       if (from[x] > 0) to[x] = pixels_[static_cast<size_t>(from[x]) - 1];

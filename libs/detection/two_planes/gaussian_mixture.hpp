@@ -19,12 +19,12 @@ class GaussianMixture {
   /// `threshold`: squared Mahalanobis distance within which a value belongs to a Gaussian of the background.
   GaussianMixture(cv::Size size, int history_frames, double threshold);
 
-  /// Learns the values of `grey` (CV_8U) where `valid` (CV_8U) is not 0. Returns CV_8U: 255 where a valid
+  /// Learns the values of `grey` where `valid` is not 0. Returns 255 where a valid
   /// pixel does not belong to the background it had before, else 0.
-  cv::Mat update(const cv::Mat& grey, const cv::Mat& valid);
+  cv::Mat1b update(const cv::Mat1b& grey, const cv::Mat1b& valid);
 
   /// 255 where fewer than `frames` values have been learned.
-  cv::Mat unknown(int frames) const;
+  cv::Mat1b unknown(int frames) const;
 
   /// The same scene points at new pixels: model(x) = model(H^-1 x), the nearest pixel's, for blurred
   /// Gaussians are no background of anything. New pixels have age 0.

@@ -18,16 +18,16 @@ void TwoPlaneBackground::carry(const Eigen::Matrix3d& ground, const std::optiona
   ground_->carry(ground);
 }
 
-BackgroundVerdict TwoPlaneBackground::learn(const cv::Mat& grey) {
-  if (!ground_) ground_.emplace(grey.size(), parameters_);
-  BackgroundVerdict ground = ground_->learn(grey);
+ForegroundMaps TwoPlaneBackground::learn(const cv::Mat1b& grey) {
+  if (!ground_) ground_.emplace(grey.size(), parameters_, learning_frames_);
+  ForegroundMaps ground = ground_->learn(grey);
   if (!front_) return ground;
-  const BackgroundVerdict front = front_->learn(grey);
-  BackgroundVerdict both;
+  const ForegroundMaps front = front_->learn(grey);
+  ForegroundMaps both;
   both.foreground = ground.foreground & front.foreground;
   // A pixel that is background for one plane is background, also where the other has no data.
-  const cv::Mat not_background_ground = ground.foreground | ground.unknown;
-  const cv::Mat not_background_front = front.foreground | front.unknown;
+  const cv::Mat1b not_background_ground = ground.foreground | ground.unknown;
+  const cv::Mat1b not_background_front = front.foreground | front.unknown;
   both.unknown = (ground.unknown & not_background_front) | (front.unknown & not_background_ground);
   return both;
 }

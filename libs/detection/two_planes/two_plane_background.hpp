@@ -11,17 +11,19 @@ namespace redbee {
 
 class TwoPlaneBackground {
  public:
-  explicit TwoPlaneBackground(const SegmentationParameters& parameters) : parameters_(parameters) {}
+  TwoPlaneBackground(const TwoPlaneParameters& parameters, int learning_frames)
+      : parameters_(parameters), learning_frames_(learning_frames) {}
 
   void reset();
   /// The camera moves (homographies previous to current). A new front plane starts with the ground's model,
   /// so that it has data; one that is lost is deleted.
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front);
   /// The first image after a reset is learned without carry().
-  BackgroundVerdict learn(const cv::Mat& grey);
+  ForegroundMaps learn(const cv::Mat1b& grey);
 
  private:
-  SegmentationParameters parameters_;
+  TwoPlaneParameters parameters_;
+  int learning_frames_;
   std::optional<BackgroundModel> ground_;
   std::optional<BackgroundModel> front_;
 };

@@ -1,0 +1,108 @@
+#include "redbee/detection/ground_detector.hpp"
+
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "redbee/detection/two_planes/flow_entropy.hpp"
+#include "redbee/imaging/warping.hpp"
+
+namespace redbee {
+namespace {
+
+// Less of P_FG * 255 than this is noise, and would make most of the map's bytes on the wire.
+constexpr double kNoise = 6;
+
+}  // namespace
+
+GroundDetector::GroundDetector(const DetectionParameters& parameters)
+    : learning_frames_(parameters.learning_frames),
+      refinement_(parameters.refinement),
+      objects_(parameters.objects),
+      image_check_(parameters.min_contrast),
+      probability_(parameters.refinement),
+      tracker_(parameters.objects) {}
+
+DetectorOutput GroundDetector::step(const FrameInput& input) {
+  const bool continues = isConsecutive(input);
+  const bool is_first = last_utime_ == kNever;
+  if (!input.fullSize().empty() && input.fullSize() != size_) {
+    tracker_.reset();
+    image_check_.reset();
+    size_ = input.fullSize();
+  }
+  last_utime_ = input.utime;
+  if (continues) {
+    carry(input);
+  } else {
+    reset();
+  }
+  DetectorOutput output = emptyOutput(input);
+  if (!image_check_.accepts(input.grey)) {
+    output.status = DetectorStatus::kBadImage;
+    output.detections = tracker_.skip(size_);
+    return output;
+  }
+  ForegroundMaps maps = learn(input);
+  if (maps.foreground.empty()) maps.foreground = cv::Mat1b::zeros(size_);
+  if (maps.unknown.empty()) maps.unknown = output.unknown;
+  cv::Mat1b probability = refinement_.enabled ? refined(maps.foreground, input) : maps.foreground;
+  ++learned_;
+  if (!continues && !is_first) {
+    output.status = DetectorStatus::kNoHomography;
+  } else if (learned_ <= learning_frames_) {
+    output.status = DetectorStatus::kLearning;
+  } else {
+    output.status = DetectorStatus::kGood;
+    findObjects(std::move(probability), maps.unknown, output);
+  }
+  if (output.status != DetectorStatus::kGood) output.detections = tracker_.skip(size_);
+  return output;
+}
+
+bool GroundDetector::isConsecutive(const FrameInput& input) const {
+  return last_utime_ != kNever && input.utime > last_utime_ && input.utime_previous == last_utime_ &&
+         input.fullSize() == size_ && input.ground && isUsableHomography(*input.ground);
+}
+
+void GroundDetector::reset() {
+  resetBackground();
+  probability_.reset();
+  learned_ = 0;
+}
+
+void GroundDetector::carry(const FrameInput& input) {
+  carryBackground(input);
+  probability_.carry(*input.ground);
+  tracker_.carry(*input.ground);
+}
+
+DetectorOutput GroundDetector::emptyOutput(const FrameInput& input) const {
+  DetectorOutput output;
+  output.utime = input.utime;
+  output.probability = cv::Mat1b::zeros(size_);
+  output.mask = cv::Mat1b::zeros(size_);
+  output.unknown = cv::Mat1b(size_, 255);
+  return output;
+}
+
+cv::Mat1b GroundDetector::refined(const cv::Mat1b& foreground, const FrameInput& input) {
+  cv::Mat1f evidence, order;
+  foreground.convertTo(evidence, CV_32F, 1.0 / 255);
+  if (refinement_.use_entropy && input.ground) {
+    order = flowOrder(input.tracks, input.sample_grid_px, *input.ground, size_, refinement_);
+  }
+  cv::Mat1b probability;
+  probability_.update(evidence, order).convertTo(probability, CV_8U, 255);
+  return probability;
+}
+
+void GroundDetector::findObjects(cv::Mat1b probability, const cv::Mat1b& unknown, DetectorOutput& output) {
+  output.unknown = unknown;
+  probability.setTo(0, unknown);
+  cv::threshold(probability, output.probability, kNoise, 0, cv::THRESH_TOZERO);
+  ForegroundComponents found = findComponents(output.probability, unknown, objects_);
+  output.mask = found.mask;
+  output.detections = tracker_.update(found.components, size_);
+}
+
+}  // namespace redbee

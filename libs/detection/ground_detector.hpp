@@ -1,0 +1,49 @@
+// From the planes' homographies to moving objects (paper III.A and III.B; libs/README.md, "Foreground and
+// objects"): the frame of all detectors whose background follows the ground.
+#pragma once
+
+#include <cstdint>
+
+#include "redbee/detection/detector.hpp"
+#include "redbee/detection/foreground_maps.hpp"
+#include "redbee/detection/image_check.hpp"
+#include "redbee/detection/two_planes/foreground_probability.hpp"
+
+namespace redbee {
+
+class GroundDetector : public Detector {
+ public:
+  DetectorOutput step(const FrameInput& input) final;
+
+ protected:
+  explicit GroundDetector(const DetectionParameters& parameters);
+
+ private:
+  static constexpr int64_t kNever = INT64_MIN;
+
+  virtual void resetBackground() = 0;
+  /// The camera moves by input.ground; the background is carried along.
+  virtual void carryBackground(const FrameInput& input) = 0;
+  /// Classifies the image against the background, then learns it. Maps may be empty while there is no earlier
+  /// frame.
+  virtual ForegroundMaps learn(const FrameInput& input) = 0;
+
+  bool isConsecutive(const FrameInput& input) const;
+  void reset();
+  void carry(const FrameInput& input);
+  DetectorOutput emptyOutput(const FrameInput& input) const;
+  cv::Mat1b refined(const cv::Mat1b& foreground, const FrameInput& input);
+  void findObjects(cv::Mat1b probability, const cv::Mat1b& unknown, DetectorOutput& output);
+
+  int learning_frames_;
+  RefinementParameters refinement_;
+  ObjectParameters objects_;
+  ImageCheck image_check_;
+  ForegroundProbability probability_;
+  ObjectTracker tracker_;
+  cv::Size size_;
+  int64_t last_utime_ = kNever;
+  int learned_ = 0;
+};
+
+}  // namespace redbee

@@ -1,0 +1,28 @@
+#include "redbee/detection/parallax/parallax_detector.hpp"
+
+#include <algorithm>
+
+namespace redbee {
+
+ParallaxDetector::ParallaxDetector(const DetectionParameters& parameters)
+    : GroundDetector(parameters), evidence_(parameters.parallax, parameters.appearance, parameters.shadow) {
+  needs_.colour = true;
+  needs_.camera_motion = true;
+  // All of the work is on smaller images, and a JPEG is decoded faster into one.
+  needs_.image_downscale = parameters.parallax.work_downscale;
+  if (parameters.appearance.enabled) {
+    needs_.image_downscale = std::min(needs_.image_downscale, parameters.appearance.downscale);
+  }
+}
+
+void ParallaxDetector::carryBackground(const FrameInput& input) {
+  const bool is_structure =
+      input.front && runsOutOfImage(input.tracks, *input.ground, *input.front, input.fullSize());
+  evidence_.carry(*input.ground, is_structure ? input.front : std::nullopt, input.motion, input.K);
+}
+
+ForegroundMaps ParallaxDetector::learn(const FrameInput& input) {
+  return evidence_.learn(input.utime, input.grey, input.colour, input.K, input.fullSize());
+}
+
+}  // namespace redbee

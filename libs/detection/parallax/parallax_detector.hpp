@@ -1,0 +1,24 @@
+// Our detector: dense flow against the camera's motion; foreground is what no depth explains and what differs from
+// the background's appearance.
+#pragma once
+
+#include "redbee/detection/ground_detector.hpp"
+#include "redbee/detection/parallax/foreground_evidence.hpp"
+
+namespace redbee {
+
+class ParallaxDetector : public GroundDetector {
+ public:
+  explicit ParallaxDetector(const DetectionParameters& parameters);
+  DetectorNeeds needs() const override { return needs_; }
+
+ private:
+  void resetBackground() override { evidence_.reset(); }
+  void carryBackground(const FrameInput& input) override;
+  ForegroundMaps learn(const FrameInput& input) override;
+
+  DetectorNeeds needs_;
+  ForegroundEvidence evidence_;
+};
+
+}  // namespace redbee
