@@ -12,7 +12,7 @@ constexpr int kOverlayQuality = 80;
 /// In the unknown mask.
 constexpr uchar kUnknown = 255;
 
-detections_t detectionsMessage(const SegmentationOutput& output) {
+detections_t detectionsMessage(const DetectorOutput& output) {
   detections_t message{};
   message.status = static_cast<int8_t>(output.status);
   message.n = static_cast<int32_t>(output.detections.size());
@@ -55,7 +55,7 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
 
 }  // namespace
 
-void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, SegmentationOutput output) {
+void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, DetectorOutput output) {
   output.probability = camera_.rectifier().toRaw(output.probability);
   output.mask = camera_.rectifier().toRaw(output.mask);
   output.unknown = camera_.rectifier().toRaw(output.unknown, kUnknown);
@@ -79,14 +79,14 @@ void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, 
   publishOverlay(image, output);
 }
 
-void ForegroundPublisher::publishOverlay(const image_t& image, const SegmentationOutput& output) {
+void ForegroundPublisher::publishOverlay(const image_t& image, const DetectorOutput& output) {
   const int period = configuration_.overlay_period_frames;
   if (period == 0 || ++frames_since_overlay_ < period) return;
   frames_since_overlay_ = 0;
   if (const auto colour = decodeColour(image); colour && colour->size() == output.mask.size()) {
     OverlayStatus status;
     status.utime = image.utime;
-    status.message = output.status == SegmentationStatus::kGood ? "" : toString(output.status);
+    status.message = output.status == DetectorStatus::kGood ? "" : toString(output.status);
     const cv::Mat drawn = drawOverlay(*colour, output.mask, output.detections, status);
     publisher_.publish(configuration_.channels.overlay, jpegMessage(image.utime, drawn, kOverlayQuality));
   }

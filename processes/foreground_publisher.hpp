@@ -5,7 +5,7 @@
 
 #include "processes/rectified_camera.hpp"
 #include "redbee/configuration/configuration.hpp"
-#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/detection/detector.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/node/publisher.hpp"
 
@@ -18,10 +18,10 @@ class ForegroundPublisher {
 
   /// `image`: the frame as it came. `output`: on the ideal grid. One message of each kind, and an overlay
   /// every so often.
-  void publish(const image_t& image, int64_t utime_previous, SegmentationOutput output);
+  void publish(const image_t& image, int64_t utime_previous, DetectorOutput output);
 
  private:
-  void publishOverlay(const image_t& image, const SegmentationOutput& output);
+  void publishOverlay(const image_t& image, const DetectorOutput& output);
 
   Publisher& publisher_;
   const Configuration& configuration_;

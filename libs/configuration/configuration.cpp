@@ -9,6 +9,7 @@
 #include "redbee/configuration/configuration_preset.hpp"
 #include "redbee/configuration/configuration_table.hpp"
 #include "redbee/configuration/configuration_value.hpp"
+#include "redbee/configuration/renamed_keys.hpp"
 
 namespace redbee {
 namespace {
@@ -35,7 +36,7 @@ Configuration loadConfiguration(const std::filesystem::path& file) {
 
 void applySetting(Configuration& configuration, const std::string& key, const std::string& text) {
   const auto* setting = configuration::findSetting(key);
-  if (setting == nullptr) throw ConfigurationError("command line: " + key + ": unknown key");
+  if (setting == nullptr) throw ConfigurationError("command line: " + key + ": " + configuration::unknownKey(key));
   try {
     setting->read(configuration, YAML::Load(text));
   } catch (const configuration::ValueError& error) {
@@ -51,6 +52,8 @@ bool applyPreset(Configuration& configuration, const std::string& name) {
   for (const auto& [key, text] : *preset) applySetting(configuration, key, text);
   return true;
 }
+
+std::vector<std::string> presetNames() { return configuration::presetNames(); }
 
 std::string emitYaml(const Configuration& configuration) {
   return emitYaml(configuration, configurationKeys());

@@ -52,7 +52,7 @@ struct Configuration {
   VisualParameters visual;
   FrontPlaneParameters front;
   FusionParameters fusion;
-  SegmentationParameters segmentation;
+  DetectionParameters detection;
   Channels channels;
   WaitParameters waits;
   int overlay_period_frames = 4;  ///< every how many frames OVERLAY shows one; 0: never
@@ -67,18 +67,21 @@ class ConfigurationError : public UserError {
 /// Reads a vehicle's file. Keys that it leaves out keep the values of the files it includes, else the
 /// defaults above.
 ///   include: FILE or [FILE, ...]   relative to the including file; read first, so the including file wins
-///   preset: default | paper        `paper`: the paper's own fusion noise and detector; wins over included
-///                                  files, and the keys of the file that names it win over it
-/// Throws ConfigurationError on the first fault: unknown or repeated keys, wrong types, impossible values, a
-/// camera that is not described, channels that share a name, waits in the wrong order, files that include
-/// each other.
+///   preset: default | paper | vision_only    wins over included files, and the keys of the file that names it win
+///                                  over it. `paper`: the paper's own fusion noise and detector;
+///                                  `vision_only`: thresholds for a vehicle without an IMU
+/// Throws ConfigurationError on the first fault: unknown, renamed or repeated keys, wrong types, impossible values, a
+/// camera that is not described, channels that share a name, waits in the wrong order, an
+/// extent threshold above its threshold, files that include each other.
 Configuration loadConfiguration(const std::filesystem::path& file);
 
-/// Sets one key (`segmentation.threshold`) from YAML text, as a command line gives it. Throws
+/// Sets one key (`detection.objects.threshold`) from YAML text, as a command line gives it. Throws
 /// ConfigurationError.
 void applySetting(Configuration& configuration, const std::string& key, const std::string& text);
-/// Sets all that a preset sets. False for a name that is no preset.
+/// Sets all keys of a preset. False for a name that is no preset.
 bool applyPreset(Configuration& configuration, const std::string& name);
+/// In alphabetical order.
+std::vector<std::string> presetNames();
 
 /// The whole configuration as YAML, which loads back to the same hash.
 std::string emitYaml(const Configuration& configuration);

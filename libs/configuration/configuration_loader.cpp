@@ -6,6 +6,7 @@
 #include "redbee/configuration/configuration_preset.hpp"
 #include "redbee/configuration/configuration_table.hpp"
 #include "redbee/configuration/configuration_value.hpp"
+#include "redbee/configuration/renamed_keys.hpp"
 #include "redbee/configuration/wait_order.hpp"
 
 namespace redbee::configuration {
@@ -21,6 +22,12 @@ double waitOf(const Configuration& configuration, const std::string& key) {
 std::string oneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
+}
+
+std::string listOf(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
 }  // namespace
@@ -74,7 +81,7 @@ void Loader::applyPreset(const YAML::Node& root) {
   const YAML::Node name = root["preset"];
   if (!name) return;
   const PresetValues* preset = name.IsScalar() ? findPreset(name.Scalar()) : nullptr;
-  if (preset == nullptr) fail(placeOf(name), "preset", "must be default or paper");
+  if (preset == nullptr) fail(placeOf(name), "preset", "must be one of " + listOf(presetNames()));
   for (const auto& [key, text] : *preset) apply(key, YAML::Load(text), placeOf(name));
 }
 
@@ -90,7 +97,7 @@ void Loader::applySection(const YAML::Node& section, const std::string& prefix) 
 void Loader::applyEntry(const YAML::Node& name, const YAML::Node& value, const std::string& key) {
   if (isDirective(key)) return;
   if (findSetting(key) != nullptr) return apply(key, value, placeOf(name));
-  if (!isSection(key)) fail(placeOf(name), key, "unknown key");
+  if (!isSection(key) && !isRenamedSection(key)) fail(placeOf(name), key, unknownKey(key));
   if (!value.IsMap()) fail(placeOf(name), key, "is a section and must hold keys");
   applySection(value, key + ".");
 }
@@ -123,6 +130,7 @@ void Loader::checkWhole(const std::filesystem::path& file) const {
          "channel name " + name + " is used twice, by " + first->second + " and " + setting.key);
   }
   checkWaits();
+  checkThresholds();
 }
 
 /// Otherwise the death of one process would make both the process that waits for it and whoever waits for
@@ -147,6 +155,18 @@ void Loader::checkCamera() const {
   if (fault.empty()) return;
   const bool stated = places_.count("camera.distortion") > 0;
   fail(places_.at(stated ? "camera.distortion" : "camera.model"), "camera.distortion", fault);
+}
+
+void Loader::checkThresholds() const {
+  const ObjectParameters& objects = configuration_.detection.objects;
+  if (objects.extent_threshold <= objects.threshold) return;
+  const std::string lower = "detection.objects.extent_threshold";
+  const std::string upper = "detection.objects.threshold";
+  // One of the two may be a default that no file sets.
+  const std::string& key = places_.count(lower) > 0 ? lower : upper;
+  fail(places_.at(key), key,
+       lower + " (" + valueText(objects.extent_threshold) + ") must not exceed " + upper + " (" +
+           valueText(objects.threshold) + ")");
 }
 
 }  // namespace redbee::configuration

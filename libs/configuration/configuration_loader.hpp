@@ -18,7 +18,7 @@ class Loader {
   /// All functions throw ConfigurationError.
   void loadFile(const std::filesystem::path& file);
   /// Checks of the whole: a camera that is not described, a lens with the wrong number of coefficients,
-  /// channels with the same name, waits in the wrong order.
+  /// channels with the same name, waits in the wrong order, an extent threshold above its threshold.
   void checkWhole(const std::filesystem::path& file) const;
   const Configuration& configuration() const { return configuration_; }
 
@@ -38,6 +38,7 @@ class Loader {
   void applyEntry(const YAML::Node& name, const YAML::Node& value, const std::string& key);
   void apply(const std::string& key, const YAML::Node& value, const Place& place);
   void checkWaits() const;
+  void checkThresholds() const;
 
   Configuration configuration_;
   std::map<std::string, Place> places_;

@@ -12,5 +12,6 @@ using PresetValues = std::vector<std::pair<std::string, std::string>>;
 
 /// Null for a name that is no preset.
 const PresetValues* findPreset(const std::string& name);
+std::vector<std::string> presetNames();
 
 }  // namespace redbee::configuration

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "redbee/configuration/configuration_rule.hpp"
+#include "redbee/configuration/detection_settings.hpp"
 
 namespace redbee::configuration {
 namespace {
@@ -124,68 +125,6 @@ Settings fusionSettings() {
   };
 }
 
-Settings backgroundSettings() {
-  return {
-      setting("segmentation.method", MEMBER(segmentation.method), anything),
-      setting("segmentation.mixture_history", MEMBER(segmentation.mixture_history), positive),
-      setting("segmentation.mixture_threshold", MEMBER(segmentation.mixture_threshold), positive),
-      setting("segmentation.canvas_margin", MEMBER(segmentation.canvas_margin), fraction),
-      setting("segmentation.learning_frames", MEMBER(segmentation.learning_frames), notNegative),
-      setting("segmentation.use_front_plane", MEMBER(segmentation.use_front_plane), anything),
-      setting("segmentation.baseline_s", MEMBER(segmentation.baseline_s), positive),
-      setting("segmentation.work_downscale", MEMBER(segmentation.work_downscale), halving),
-      setting("segmentation.flow_downscale", MEMBER(segmentation.flow_downscale), halving),
-      setting("segmentation.use_short_baseline", MEMBER(segmentation.use_short_baseline), anything),
-      setting("segmentation.use_epipolar", MEMBER(segmentation.use_epipolar), anything),
-      setting("segmentation.parallax_noise_px", MEMBER(segmentation.parallax_noise_px), positive),
-      setting("segmentation.direction_error", MEMBER(segmentation.direction_error), notNegative),
-      setting("segmentation.nearest_depth_fraction", MEMBER(segmentation.nearest_depth_fraction), fraction),
-      setting("segmentation.evidence_sigmas", MEMBER(segmentation.evidence_sigmas), positive),
-      setting("segmentation.use_registration", MEMBER(segmentation.use_registration), anything),
-      setting("segmentation.border_stretch", MEMBER(segmentation.border_stretch), fraction),
-      setting("segmentation.motion_half", MEMBER(segmentation.motion_half), positive),
-      setting("segmentation.use_appearance", MEMBER(segmentation.use_appearance), anything),
-      setting("segmentation.background_downscale", MEMBER(segmentation.background_downscale), halving),
-      setting("segmentation.background_span_s", MEMBER(segmentation.background_span_s), positive),
-      setting("segmentation.background_noise", MEMBER(segmentation.background_noise), positive),
-      setting("segmentation.min_gradient", MEMBER(segmentation.min_gradient), positive),
-      setting("segmentation.fill_radius_px", MEMBER(segmentation.fill_radius_px), positive),
-      setting("segmentation.fill_contrast", MEMBER(segmentation.fill_contrast), positive),
-      setting("segmentation.use_hole_filling", MEMBER(segmentation.use_hole_filling), anything),
-      setting("segmentation.outline_gap_px", MEMBER(segmentation.outline_gap_px), notNegative),
-      setting("segmentation.region_radius_px", MEMBER(segmentation.region_radius_px), notNegative),
-      setting("segmentation.edge_doubt_px", MEMBER(segmentation.edge_doubt_px), notNegative),
-      setting("segmentation.use_surfaces", MEMBER(segmentation.use_surfaces), anything),
-      setting("segmentation.use_shadow_test", MEMBER(segmentation.use_shadow_test), anything),
-      setting("segmentation.shadow_noise", MEMBER(segmentation.shadow_noise), positive),
-      setting("segmentation.evidence_rate", MEMBER(segmentation.evidence_rate), fraction),
-  };
-}
-
-Settings objectSettings() {
-  return {
-      setting("segmentation.use_refinement", MEMBER(segmentation.use_refinement), anything),
-      setting("segmentation.use_entropy", MEMBER(segmentation.use_entropy), anything),
-      setting("segmentation.alpha", MEMBER(segmentation.alpha), fraction),
-      setting("segmentation.beta", MEMBER(segmentation.beta), fraction),
-      setting("segmentation.gamma", MEMBER(segmentation.gamma), fraction),
-      setting("segmentation.spatial_window_px", MEMBER(segmentation.spatial_window_px), odd),
-      setting("segmentation.sample_grid_px", MEMBER(segmentation.sample_grid_px), positive),
-      setting("segmentation.entropy_cell_points", MEMBER(segmentation.entropy_cell_points), positive),
-      setting("segmentation.entropy_bins", MEMBER(segmentation.entropy_bins), atLeastTwo),
-      setting("segmentation.entropy_floor", MEMBER(segmentation.entropy_floor), positive),
-      setting("segmentation.flow_noise_px", MEMBER(segmentation.flow_noise_px), notNegative),
-      setting("segmentation.threshold", MEMBER(segmentation.threshold), fraction),
-      setting("segmentation.extent_threshold", MEMBER(segmentation.extent_threshold), fraction),
-      setting("segmentation.opening_px", MEMBER(segmentation.opening_px), notNegative),
-      setting("segmentation.closing_px", MEMBER(segmentation.closing_px), notNegative),
-      setting("segmentation.min_area_px", MEMBER(segmentation.min_area_px), notNegative),
-      setting("segmentation.max_missed_frames", MEMBER(segmentation.max_missed_frames), notNegative),
-      setting("segmentation.confirm_frames", MEMBER(segmentation.confirm_frames), positive),
-      setting("segmentation.min_contrast", MEMBER(segmentation.min_contrast), notNegative),
-  };
-}
-
 Settings messagingSettings() {
   return {
       setting("channels.camera", MEMBER(channels.camera), channelName),
@@ -216,8 +155,7 @@ Settings makeSettings() {
   append(settings, inertialSettings());
   append(settings, visualSettings());
   append(settings, fusionSettings());
-  append(settings, backgroundSettings());
-  append(settings, objectSettings());
+  append(settings, detectionSettings());
   append(settings, messagingSettings());
   return settings;
 }

@@ -22,8 +22,6 @@ using Names = std::array<std::pair<const char*, Enumeration>, 2>;
 
 constexpr Names<FusionNoise> kFusionNoises{
     {{"propagated", FusionNoise::kPropagated}, {"paper", FusionNoise::kPaper}}};
-constexpr Names<SegmentationMethod> kSegmentationMethods{
-    {{"two_planes", SegmentationMethod::kTwoPlanes}, {"parallax", SegmentationMethod::kParallax}}};
 
 template <typename Enumeration>
 void readName(const YAML::Node& node, const Names<Enumeration>& names, Enumeration& value) {
@@ -94,9 +92,6 @@ void readValue(const YAML::Node& node, std::string& value) {
 }
 
 void readValue(const YAML::Node& node, FusionNoise& value) { readName(node, kFusionNoises, value); }
-void readValue(const YAML::Node& node, SegmentationMethod& value) {
-  readName(node, kSegmentationMethods, value);
-}
 
 void readValue(const YAML::Node& node, std::vector<double>& value) {
   if (!node.IsSequence()) refuse("a list of numbers", node);
@@ -132,7 +127,6 @@ std::string valueText(const std::string& value) {
 }
 
 std::string valueText(FusionNoise value) { return nameOf(kFusionNoises, value); }
-std::string valueText(SegmentationMethod value) { return nameOf(kSegmentationMethods, value); }
 std::string valueText(const std::vector<double>& value) {
   return listText(value.data(), static_cast<Eigen::Index>(value.size()));
 }

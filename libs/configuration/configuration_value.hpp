@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "redbee/detection/parameters.hpp"
 #include "redbee/fusion/homography_fusion.hpp"
 
 namespace redbee::configuration {
@@ -27,7 +26,6 @@ void readValue(const YAML::Node& node, uint32_t& value);
 void readValue(const YAML::Node& node, bool& value);
 void readValue(const YAML::Node& node, std::string& value);
 void readValue(const YAML::Node& node, FusionNoise& value);
-void readValue(const YAML::Node& node, SegmentationMethod& value);
 /// A list of any length.
 void readValue(const YAML::Node& node, std::vector<double>& value);
 void readValue(const YAML::Node& node, Eigen::Vector3d& value);
@@ -42,7 +40,6 @@ std::string valueText(uint32_t value);
 std::string valueText(bool value);
 std::string valueText(const std::string& value);
 std::string valueText(FusionNoise value);
-std::string valueText(SegmentationMethod value);
 std::string valueText(const std::vector<double>& value);
 std::string valueText(const Eigen::Vector3d& value);
 std::string valueText(const Eigen::Matrix3d& value);

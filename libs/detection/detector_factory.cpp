@@ -28,16 +28,30 @@ std::unique_ptr<Detector> makeRival(const DetectionParameters& parameters) {
   return std::make_unique<Kind>(parameters.objects);
 }
 
+template <typename Kind, auto parameters>
+std::unique_ptr<Detector> makeTuned(const DetectionParameters& common) {
+  return std::make_unique<Kind>(common.objects, parameters());
+}
+
+/// A shorter memory.
+AuroraParameters auroraOnDavis() {
+  AuroraParameters parameters;
+  parameters.density.longest = 6;
+  return parameters;
+}
+DifferenceParameters differenceOnDavis() { return {1, 35}; }
+FlowResidualParameters flowResidualOnDavis() { return {1, 35, 11.5F}; }
+
 /// Every detector, by its name in `detection.method`.
 const std::map<std::string, Factory>& factories() {
   static const std::map<std::string, Factory> all{
       {"aurora", makeRival<Aurora>},
-      {"aurora-davis", makeRival<AuroraDavis>},
+      {"aurora-davis", makeTuned<Aurora, auroraOnDavis>},
       {"datmo", makeRival<Datmo>},
       {"difference", makeRival<Difference>},
-      {"difference-davis", makeRival<DifferenceDavis>},
+      {"difference-davis", makeTuned<Difference, differenceOnDavis>},
       {"flow-residual", makeRival<FlowResidual>},
-      {"flow-residual-davis", makeRival<FlowResidualDavis>},
+      {"flow-residual-davis", makeTuned<FlowResidual, flowResidualOnDavis>},
       {"homography-mog2", makeRival<HomographyMog2>},
       {"lrr", makeRival<Lrr>},
       {"mcd", makeRival<Mcd>},

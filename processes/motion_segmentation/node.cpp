@@ -1,7 +1,7 @@
 #include "processes/motion_segmentation/node.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "processes/conversions.hpp"
@@ -14,30 +14,32 @@ namespace {
 
 constexpr int8_t kVisualGood = 0;
 
-/// How much smaller a image may be decoded: the parallax segmentation shrinks it anyway.
-int imageDownscale(const Configuration& configuration) {
-  const SegmentationParameters& segmentation = configuration.segmentation;
-  if (segmentation.method != SegmentationMethod::kParallax) return 1;
-  int downscale = segmentation.work_downscale;
-  if (segmentation.use_appearance) downscale = std::min(downscale, segmentation.background_downscale);
-  const auto divides = [downscale](const CameraIntrinsics& camera) {
-    return camera.width % downscale == 0 && camera.height % downscale == 0;
+/// How much smaller an image may be decoded.
+int imageDownscale(const DetectorNeeds& needs, const CameraIntrinsics& camera) {
+  const auto divides = [&](const CameraIntrinsics& of) {
+    return of.width % needs.image_downscale == 0 && of.height % needs.image_downscale == 0;
   };
-  return divides(configuration.camera) && divides(idealCamera(configuration.camera)) ? downscale : 1;
+  return divides(camera) && divides(idealCamera(camera)) ? needs.image_downscale : 1;
 }
 
 }  // namespace
 
 MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration)
+    : MotionSegmentationNode(bus, configuration, makeDetector(configuration.detection)) {}
+
+MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration,
+                                               std::unique_ptr<Detector> detector)
     : ImageStage(bus, programName(kMotionSegmentation), configurationHash(configuration),
                  configuration.channels.camera, configuration.waits.max_backlog,
-                 {fromSeconds(configuration.waits.segmentation_s), true}),
+                 {fromSeconds(configuration.waits.segmentation_s), detector->needs().camera_motion}),
       configuration_(configuration),
-      camera_(configuration.camera, imageDownscale(configuration)),
+      detector_(std::move(detector)),
+      needs_(detector_->needs()),
+      camera_(configuration.camera, imageDownscale(needs_, configuration.camera)),
       foreground_(publisher(), configuration_, camera_),
-      segmenter_(configuration.segmentation),
       visual_(Duration(0), false) {
   const auto& channels = configuration_.channels;
+  if (!needs_.camera_motion) return;
   on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) {
     if (!finiteHomography(m)) return false;
     companions().put(timeOf(m), m);
@@ -53,12 +55,13 @@ void MotionSegmentationNode::reset() {
   last_.reset();
 }
 
-SegmentationInput MotionSegmentationNode::inputFor(const image_t& message,
-                                                   const fused_homography_t* fused) const {
-  SegmentationInput input;
+FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_homography_t* fused) const {
+  FrameInput input;
   input.utime = message.utime;
   input.utime_previous = last_ ? last_->utime : message.utime;
   input.K = camera_.camera().K();
+  input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
+  input.sample_grid_px = configuration_.visual.tracker.grid_px;
   if (!last_) return input;
   if (fused == nullptr || fused->source == 0) {
     addVisual(input);
@@ -82,7 +85,7 @@ SegmentationInput MotionSegmentationNode::inputFor(const image_t& message,
 
 /// While the fusion is away or knows nothing yet (its process was started again): vision's own homography
 /// keeps background and identities.
-void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
+void MotionSegmentationNode::addVisual(FrameInput& input) const {
   const visual_homography_t* visual = visual_.find(timeOf(input));
   if (visual == nullptr || visual->status != kVisualGood || visual->utime_previous != last_->utime) return;
   input.ground = matrix3(visual->H);
@@ -91,9 +94,9 @@ void MotionSegmentationNode::addVisual(SegmentationInput& input) const {
 
 void MotionSegmentationNode::work(const image_t& message) {
   const fused_homography_t* fused = companions().find(timeOf(message));
-  SegmentationInput input = inputFor(message, fused);
+  FrameInput input = inputFor(message, fused);
   decodeInto(input, message);
-  const SegmentationOutput output = segmenter_.step(input);
+  const DetectorOutput output = detector_->step(input);
   noteAnswered();
   publishOutput(message, input, output);
   noteState(output.status, fused != nullptr);
@@ -106,27 +109,26 @@ void MotionSegmentationNode::work(const image_t& message) {
   visual_.eraseThrough(timeOf(message));
 }
 
-void MotionSegmentationNode::decodeInto(SegmentationInput& input, const image_t& message) {
-  const bool wants_colour =
-      configuration_.segmentation.method == SegmentationMethod::kParallax && message.pixelformat != kGray;
-  const IdealImage image = camera_.ideal(message, wants_colour, health());
-  input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
+void MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {
+  const bool is_colour = needs_.colour && message.pixelformat != kGray;
+  const IdealImage image = camera_.ideal(message, is_colour, health());
   input.grey = image.grey;
   input.colour = image.colour;
-  if (!input.grey.empty()) return;
-  input.grey = cv::Mat::zeros(input.size, CV_8U);
+  if (needs_.colour && !is_colour && !input.grey.empty()) {
+    cv::cvtColor(input.grey, input.colour, cv::COLOR_GRAY2BGR);
+  }
 }
 
-void MotionSegmentationNode::publishOutput(const image_t& message, const SegmentationInput& input,
-                                           SegmentationOutput output) {
+void MotionSegmentationNode::publishOutput(const image_t& message, const FrameInput& input,
+                                           DetectorOutput output) {
   for (Detection& detection : output.detections) detection.id = identities_.globalId(detection.id);
   foreground_.publish(message, input.utime_previous, std::move(output));
 }
 
-void MotionSegmentationNode::noteState(SegmentationStatus status, bool has_fused) {
-  if (status != SegmentationStatus::kGood) {
+void MotionSegmentationNode::noteState(DetectorStatus status, bool has_fused) {
+  if (status != DetectorStatus::kGood) {
     health().setState(HealthState::kDegraded, toString(status));
-  } else if (!has_fused) {
+  } else if (needs_.camera_motion && !has_fused) {
     health().setState(HealthState::kDegraded, "no fused homography: homography from vision");
   } else {
     health().setState(HealthState::kGood);

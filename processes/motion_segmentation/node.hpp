@@ -1,14 +1,15 @@
-// CAMERA and FUSED_HOMOGRAPHY in, VISUAL_HOMOGRAPHY for when the fusion is away; FOREGROUND, DETECTIONS and
-// OVERLAY out.
+// CAMERA in and, for detectors that need the camera's motion, FUSED_HOMOGRAPHY, or VISUAL_HOMOGRAPHY while
+// the fusion is away; FOREGROUND, DETECTIONS and OVERLAY out. Serves every detector.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "processes/foreground_publisher.hpp"
 #include "processes/motion_segmentation/track_id_store.hpp"
 #include "redbee/configuration/configuration.hpp"
-#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/detection/detector.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/node/image_stage.hpp"
@@ -25,7 +26,7 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   }
 
  private:
-  /// The last frame that was segmented, and where it lay in its epoch.
+  /// The last frame that was processed, and where it lay in its epoch.
   struct Last {
     int64_t utime;
     int32_t epoch;
@@ -33,20 +34,22 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
     Eigen::Matrix3d H_anchor;
   };
 
+  MotionSegmentationNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Detector> detector);
   void work(const image_t& message) override;
   /// `fused`: of this frame; null where there is none.
-  SegmentationInput inputFor(const image_t& message, const fused_homography_t* fused) const;
-  void addVisual(SegmentationInput& input) const;
-  /// Black where there is no image of the camera's size.
-  void decodeInto(SegmentationInput& input, const image_t& message);
-  void publishOutput(const image_t& message, const SegmentationInput& input, SegmentationOutput output);
-  void noteState(SegmentationStatus status, bool has_fused);
+  FrameInput inputFor(const image_t& message, const fused_homography_t* fused) const;
+  void addVisual(FrameInput& input) const;
+  /// Images stay empty where there is none of the camera's size.
+  void decodeInto(FrameInput& input, const image_t& message);
+  void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output);
+  void noteState(DetectorStatus status, bool has_fused);
   void reset() override;
 
   Configuration configuration_;
+  std::unique_ptr<Detector> detector_;
+  DetectorNeeds needs_;
   RectifiedCamera camera_;
   ForegroundPublisher foreground_;
-  MotionSegmenter segmenter_;
   MessageSynchronizer<visual_homography_t> visual_;
   std::optional<Last> last_;
   TrackIdStore identities_;

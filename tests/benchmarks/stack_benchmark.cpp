@@ -72,8 +72,8 @@ void rival(benchmark::State& state, const std::string& name) {
   BENCHMARK_CAPTURE(function, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)->Iterations(1)
 using Settings = std::vector<std::string>;
 REDBEE_FLIGHT(ours, default, "default", Settings{});
-REDBEE_FLIGHT(ours, quarter_size_motion, "default", Settings{"segmentation.work_downscale=4"});
-REDBEE_FLIGHT(ours, full_size_background, "default", Settings{"segmentation.background_downscale=1"});
+REDBEE_FLIGHT(ours, quarter_size_motion, "default", Settings{"detection.parallax.work_downscale=4"});
+REDBEE_FLIGHT(ours, full_size_background, "default", Settings{"detection.appearance.downscale=1"});
 REDBEE_FLIGHT(ours, preset_paper, "paper", Settings{});
 REDBEE_FLIGHT(rival, mcd, "mcd");
 REDBEE_FLIGHT(rival, aurora, "aurora");

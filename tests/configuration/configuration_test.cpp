@@ -48,8 +48,8 @@ TEST_F(ConfigurationTest, ThePaperPresetHasThePapersValues) {
   EXPECT_EQ(paper.fusion.noise, FusionNoise::kPaper);
   EXPECT_EQ(paper.fusion.paper_Q[2], 1.0);
   EXPECT_EQ(paper.fusion.paper_P0[2], 1e-4);
-  EXPECT_EQ(paper.segmentation.method, SegmentationMethod::kTwoPlanes);
-  EXPECT_EQ(paper.segmentation.gamma, 0.6);
+  EXPECT_EQ(paper.detection.method, SegmentationMethod::kTwoPlanes);
+  EXPECT_EQ(paper.detection.refinement.gamma, 0.6);
   EXPECT_EQ(configurationHash(load(std::string(kCamera) + "preset: default\n")),
             configurationHash(load(kCamera)));
 }
@@ -58,8 +58,8 @@ TEST_F(ConfigurationTest, APresetWinsOverIncludesAndLosesToItsOwnFile) {
   write("base.yaml", std::string(kCamera) + "fusion: {noise: propagated}\nsegmentation: {alpha: 0.9}\n");
   const auto configuration = load("include: base.yaml\npreset: paper\nsegmentation: {beta: 0.7}\n");
   EXPECT_EQ(configuration.fusion.noise, FusionNoise::kPaper);
-  EXPECT_EQ(configuration.segmentation.alpha, 0.4);
-  EXPECT_EQ(configuration.segmentation.beta, 0.7);
+  EXPECT_EQ(configuration.detection.refinement.alpha, 0.4);
+  EXPECT_EQ(configuration.detection.refinement.beta, 0.7);
 }
 
 TEST_F(ConfigurationTest, EmittedYamlLoadsBackToTheSameHash) {

@@ -34,7 +34,7 @@ inline Configuration smallVehicle() {
   configuration.visual.ransac.max_iterations = 20;
   configuration.front.ransac.min_inliers = 8;
   configuration.front.ransac.max_iterations = 20;
-  configuration.segmentation.learning_frames = 1;
+  configuration.detection.learning_frames = 1;
   configuration.overlay_period_frames = 2;
   return configuration;
 }

@@ -29,7 +29,9 @@ cv::Mat1f seeds(const cv::Mat1f& motion, int stretch) {
                             {motion.cols - 2, 0, 1, motion.rows}};
   for (const cv::Rect& line : lines) {
     cv::Mat1f here = seeds(line);
-    cv::max(here, wideLevels(motion(line), stretch), here);
+    // As cv::Mat: of three equal types, std::max would be called.
+    const cv::Mat wide = wideLevels(motion(line), stretch);
+    cv::max(here, wide, here);
   }
   return seeds;
 }

@@ -4,9 +4,10 @@
 #include <chrono>
 #include <thread>
 
+#include "processes/motion_segmentation/node.hpp"
 #include "processes/redbee/detect/collector.hpp"
 #include "processes/redbee/detect/process_usage.hpp"
-#include "processes/rival/node.hpp"
+#include "redbee/detection/detector.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/files/progress.hpp"
@@ -36,18 +37,20 @@ class Pace {
   Clock::time_point start_ = Clock::now();
 };
 
-bool isRival(const std::string& method) {
-  const std::vector<std::string> rivals = rivalNames();
-  return std::find(rivals.begin(), rivals.end(), method) != rivals.end();
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 Configuration configurationFor(const DetectOptions& options) {
   Configuration configuration = loadConfiguration(options.configuration);
-  const std::vector<std::string> known = methodNames();
-  if (std::find(known.begin(), known.end(), options.method) == known.end()) {
+  if (!contains(methodNames(), options.method)) {
     throw InputError("--method " + options.method + ": unknown; known are " + methodList());
   }
-  applyPreset(configuration, options.method);
+  if (contains(detectorNames(), options.method)) {
+    applySetting(configuration, "detection.method", options.method);
+  } else {
+    applyPreset(configuration, options.method);
+  }
   for (const std::string& assignment : options.settings) {
     const size_t equals = assignment.find('=');
     if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected key=value");
@@ -62,18 +65,17 @@ bool isInput(const Channels& channels, const std::string& channel) {
 
 }  // namespace
 
-InProcessStack makeStack(Bus& bus, const Configuration& configuration, const std::string& method) {
-  if (!isRival(method)) return {bus, configuration};
+InProcessStack makeStack(Bus& bus, const Configuration& configuration) {
+  if (makeDetector(configuration.detection)->needs().camera_motion) return {bus, configuration};
   Nodes nodes;
-  // Vision and fusion come with it, since they keep the inertial filter right.
-  if (configuration.has_imu && makeRival(method)->wantsMotion()) nodes = motionNodes(bus, configuration);
-  nodes.push_back(std::make_unique<RivalNode>(bus, configuration, method));
+  nodes.push_back(std::make_unique<MotionSegmentationNode>(bus, configuration));
   return {bus, configuration.channels.health, std::move(nodes)};
 }
 
 std::vector<std::string> methodNames() {
-  std::vector<std::string> names{"redbee", "default", "paper"};
-  for (const std::string& rival : rivalNames()) names.push_back(rival);
+  std::vector<std::string> names{"redbee"};
+  for (const std::string& preset : presetNames()) names.push_back(preset);
+  for (const std::string& detector : detectorNames()) names.push_back(detector);
   return names;
 }
 
@@ -88,7 +90,7 @@ int64_t runDetect(const DetectOptions& options) {
   LogReader log(options.log);
   const auto bus = makeLcmBus("memq://");
   ResultCollector collector(*bus, configuration.channels, options.out);
-  InProcessStack stack = makeStack(*bus, configuration, options.method);
+  InProcessStack stack = makeStack(*bus, configuration);
   Progress progress("detecting in " + options.log.filename().string(), "MB", options.quiet);
   Pace pace(options.rate);
   const auto start = Clock::now();

@@ -21,13 +21,13 @@ struct DetectOptions {
   bool quiet = false;
 };
 
-/// "redbee": as configured; presets on top of the configuration; rivals.
+/// "redbee": as configured; presets and detectors on top of the configuration.
 std::vector<std::string> methodNames();
 /// The same in one line, separated by commas.
 std::string methodList();
 
-/// A rival and what it needs; the stack that flies for any other `method`.
-InProcessStack makeStack(Bus& bus, const Configuration& configuration, const std::string& method);
+/// The stack that flies; for a detector that does not need the camera's motion, that detector alone.
+InProcessStack makeStack(Bus& bus, const Configuration& configuration);
 
 /// Frames that got a mask. Throws InputError or ConfigurationError on bad input, one line each.
 int64_t runDetect(const DetectOptions& options);

@@ -31,14 +31,6 @@ void setCamera(const VehicleDescription& vehicle, Configuration& configuration, 
   }
 }
 
-/// Without an IMU P_FG is lower: the direction of parallax is not known, and what runs out of the image is
-/// muted. Thresholds found on DAVIS and UAVDT; Gull2, where nothing moves, stays clean with them.
-void setThresholdsWithoutImu(Configuration& configuration, Keys& keys) {
-  configuration.segmentation.threshold = 0.25;
-  configuration.segmentation.extent_threshold = 0.12;
-  append(keys, {"segmentation.threshold", "segmentation.extent_threshold"});
-}
-
 }  // namespace
 
 std::string vehicleYaml(const VehicleDescription& vehicle) {
@@ -57,8 +49,8 @@ std::string vehicleYaml(const VehicleDescription& vehicle) {
     append(keys, {"imu.gyro_noise_density", "imu.accel_noise_density", "imu.gyro_random_walk",
                   "imu.accel_random_walk"});
   }
-  if (!vehicle.has_imu) setThresholdsWithoutImu(configuration, keys);
-  return emitYaml(configuration, keys);
+  const std::string preset = vehicle.has_imu ? "" : "preset: vision_only\n";
+  return preset + emitYaml(configuration, keys);
 }
 
 std::filesystem::path writeVehicleFile(const VehicleDescription& vehicle, const std::filesystem::path& log) {

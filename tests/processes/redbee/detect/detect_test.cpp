@@ -91,17 +91,17 @@ TEST_F(Commands, ProcessorTimeAddsUpAndStaysBelowTheProcesss) {
 TEST_F(Commands, SettingsFromTheCommandLineReachTheStack) {
   DetectOptions options = options_;
   options.out = folder_ / "late";
-  options.settings = {"segmentation.learning_frames=1000"};
+  options.settings = {"detection.learning_frames=1000"};
   runDetect(options);
   const auto summary = nlohmann::json::parse(text(options.out / "summary.json"));
   EXPECT_EQ(summary.at("frames_good"), 0);
-  options.settings = {"segmentation.no_such_key=1"};
+  options.settings = {"detection.no_such_key=1"};
   EXPECT_THROW(runDetect(options), ConfigurationError);
   options.settings = {"nonsense"};
   EXPECT_THROW(runDetect(options), InputError);
 }
 
-TEST_F(Commands, ARivalTakesThePlaceOfTheSegmentation) {
+TEST_F(Commands, ARivalTakesThePlaceOfTheDetector) {
   for (const auto& [method, stages] : {std::pair<std::string, size_t>{"mcd", 1}, {"datmo", 4}}) {
     DetectOptions options = options_;
     options.method = method;
@@ -109,10 +109,10 @@ TEST_F(Commands, ARivalTakesThePlaceOfTheSegmentation) {
     EXPECT_EQ(runDetect(options), kFrames);
     const auto summary = nlohmann::json::parse(text(options.out / "summary.json"));
     EXPECT_EQ(summary.at("stages").size(), stages)
-        << method << ": those that want the IMU's motion need more";
+        << method << ": detectors that need the camera's motion need more";
     EXPECT_EQ(summary.at("skipped").get<int>() + summary.at("lost").get<int>(), 0) << method;
     EXPECT_GE(summary.at("frames_good").get<int>(), kFrames - 2) << method;
-    EXPECT_TRUE(summary.at("stages").contains("rival-" + method));
+    EXPECT_TRUE(summary.at("stages").contains("redbee-motion-segmentation"));
     EvaluateOptions truth;
     truth.truth = folder_ / "truth";
     truth.results = options.out;
