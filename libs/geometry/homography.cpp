@@ -91,10 +91,6 @@ Matrix8d inverseJacobian(const Eigen::Matrix3d& H) {
   return projectionJacobian(inverse) * Matrix98d(-rowwiseProduct(inverse, inverse).leftCols<8>());
 }
 
-PlaneMotion compose(const PlaneMotion& cb, const PlaneMotion& ba) {
-  return {cb.R_ba * ba.R_ba, cb.R_ba * ba.t_ba + cb.t_ba, ba.m_a, ba.h_a};
-}
-
 Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion) {
   const Eigen::Matrix3d euclidean = motion.R_ba + motion.t_ba * motion.m_a.transpose() / motion.h_a;
   return normaliseHomography(K * euclidean * K.inverse());

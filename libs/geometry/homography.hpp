@@ -64,9 +64,6 @@ struct PlaneMotion {
   double h_a;
 };
 
-/// From a to c: first `ba`, then `cb`. The plane is that of `ba`.
-PlaneMotion compose(const PlaneMotion& cb, const PlaneMotion& ba);
-
 /// K (R + t m' / h) K^-1, h33 = 1: libs/README.md, equation (1).
 Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion);
 

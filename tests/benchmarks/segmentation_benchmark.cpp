@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "redbee/detection/appearance/carried_background.hpp"
-#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/detection/detector.hpp"
 #include "redbee/detection/objects/object_tracker.hpp"
 #include "redbee/detection/parallax/earlier_frames.hpp"
 #include "redbee/detection/parallax/parallax_evidence.hpp"
@@ -21,39 +21,39 @@ using namespace redbee;
 
 constexpr int kFrames = 30;
 
-const std::vector<SegmentationInput>& inputs() {
+const std::vector<FrameInput>& inputs() {
   static const test::DetectorFlight flight(simulation::twoPlanes(1), kFrames, simulation::kFacadePatch);
   cv::setNumThreads(1);
   return flight.inputs;
 }
 
-/// A segmenter restarts at the end of the flight: one frame in thirty is cheaper than the others.
-void wholeStep(benchmark::State& state, const SegmentationParameters& parameters) {
+/// A detector restarts at the end of the flight: one frame in thirty is cheaper than the others.
+void wholeStep(benchmark::State& state, const DetectionParameters& parameters) {
   inputs();
-  MotionSegmenter segmenter(parameters);
+  const auto detector = makeDetector(parameters);
   std::size_t k = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(segmenter.step(inputs()[k++ % kFrames]));
+  for (auto _ : state) benchmark::DoNotOptimize(detector->step(inputs()[k++ % kFrames]));
 }
 
 void defaultFullSize(benchmark::State& state) {
-  SegmentationParameters parameters;
-  parameters.work_downscale = 1;
-  parameters.background_downscale = 1;
-  parameters.flow_downscale = 1;
+  DetectionParameters parameters;
+  parameters.parallax.work_downscale = 1;
+  parameters.appearance.downscale = 1;
+  parameters.parallax.flow_downscale = 1;
   wholeStep(state, parameters);
 }
 void sharpBackground(benchmark::State& state) {
-  SegmentationParameters parameters;
-  parameters.background_downscale = 1;
+  DetectionParameters parameters;
+  parameters.appearance.downscale = 1;
   wholeStep(state, parameters);
 }
 void defaultPreset(benchmark::State& state) { wholeStep(state, {}); }
 void defaultQuarterSize(benchmark::State& state) {
-  SegmentationParameters parameters;
-  parameters.work_downscale = 4;
+  DetectionParameters parameters;
+  parameters.parallax.work_downscale = 4;
   wholeStep(state, parameters);
 }
-void paperPreset(benchmark::State& state) { wholeStep(state, paperSegmentation()); }
+void paperPreset(benchmark::State& state) { wholeStep(state, paperDetection()); }
 BENCHMARK(defaultPreset)->Unit(benchmark::kMillisecond);
 BENCHMARK(sharpBackground)->Unit(benchmark::kMillisecond);
 BENCHMARK(defaultFullSize)->Unit(benchmark::kMillisecond);
@@ -78,8 +78,8 @@ void carriedBackground(benchmark::State& state) {
   cv::Mat colour, moving = cv::Mat::zeros(inputs()[0].grey.size(), CV_32F);
   cv::cvtColor(inputs()[0].grey, colour, cv::COLOR_GRAY2BGRA);
   colour.convertTo(colour, CV_32F);
-  const SurfaceSpeed speed(colour.size(), CV_32FC2, cv::Scalar(0, 0.1));
-  CarriedBackground background{SegmentationParameters{}};
+  const SurfaceSpeed speed(colour.size(), cv::Vec2f(0, 0.1F));
+  CarriedBackground background{{}, {}, ParallaxParameters{}.evidence_sigmas};
   background.learn(colour, moving, speed, 0.04);
   const SceneMotion scene(*inputs()[1].ground, inputs()[1].motion, inputs()[1].K);
   for (auto _ : state) {
@@ -99,7 +99,7 @@ BENCHMARK(guidedFilterHalfSize)->Unit(benchmark::kMillisecond);
 
 void denseFlowHalfSize(benchmark::State& state) {
   const cv::Mat then = halfSize(inputs()[0].grey), now = halfSize(inputs()[3].grey);
-  const cv::Ptr<cv::DISOpticalFlow> dis = makeMotionFlow(SegmentationParameters{});
+  const cv::Ptr<cv::DISOpticalFlow> dis = makeMotionFlow({});
   cv::Mat flow;
   for (auto _ : state) dis->calc(now, then, flow);
 }
@@ -107,9 +107,9 @@ BENCHMARK(denseFlowHalfSize)->Unit(benchmark::kMillisecond);
 
 void travelHalfSize(benchmark::State& state) {
   const cv::Size half(320, 240);
-  const FrameEvidence now{cv::Mat(half, CV_32FC2, cv::Scalar(1, 0)),
-                          cv::Mat(half, CV_32FC2, cv::Scalar(0.5, 0))};
-  TravellingEvidence evidence{SegmentationParameters{}};
+  const FrameEvidence now{cv::Mat2f(half, cv::Vec2f(1, 0)),
+                          cv::Mat2f(half, cv::Vec2f(0.5F, 0))};
+  TravellingEvidence evidence{{}};
   const cv::Mat unseen = cv::Mat::zeros(half, CV_8U);
   for (auto _ : state) {
     evidence.update(now, Eigen::Matrix3d::Identity(), unseen);
@@ -127,11 +127,11 @@ void components(benchmark::State& state) {
 BENCHMARK(components)->Unit(benchmark::kMillisecond);
 
 void twoPlaneBackground(benchmark::State& state) {
-  TwoPlaneBackground background{paperSegmentation()};
+  TwoPlaneBackground background{{}, paperDetection().learning_frames};
   background.learn(inputs()[0].grey);
   std::size_t k = 0;
   for (auto _ : state) {
-    const SegmentationInput& input = inputs()[1 + k++ % (kFrames - 1)];
+    const FrameInput& input = inputs()[1 + k++ % (kFrames - 1)];
     background.carry(*input.ground, input.front);
     benchmark::DoNotOptimize(background.learn(input.grey));
   }

@@ -38,12 +38,12 @@ Configuration configurationOf(const std::string& preset, const std::vector<std::
 }
 
 /// One iteration is the whole flight.
-void fly(benchmark::State& state, const Configuration& configuration, const std::string& rival) {
+void fly(benchmark::State& state, const Configuration& configuration) {
   CpuTime sum;
   int64_t frames = 0;
   for (auto _ : state) {
     const auto bus = makeLcmBus("memq://");
-    InProcessStack stack = makeStack(*bus, configuration, rival);
+    InProcessStack stack = makeStack(*bus, configuration);
     for (const LogEvent& event : flight()) {
       bus->publish(event.channel, event.data);
       stack.settle();
@@ -62,10 +62,10 @@ void fly(benchmark::State& state, const Configuration& configuration, const std:
 }
 
 void ours(benchmark::State& state, const std::string& preset, const std::vector<std::string>& settings) {
-  fly(state, configurationOf(preset, settings), "");
+  fly(state, configurationOf(preset, settings));
 }
 void rival(benchmark::State& state, const std::string& name) {
-  fly(state, configurationOf("default", {}), name);
+  fly(state, configurationOf("default", {"detection.method=" + name}));
 }
 
 #define REDBEE_FLIGHT(function, name, ...) \

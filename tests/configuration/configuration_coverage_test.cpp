@@ -22,7 +22,14 @@ size_t keysIn(const std::string& section) {
 }
 
 TEST(ConfigurationCoverage, EveryParameterHasAKey) {
-  EXPECT_EQ(keysIn("segmentation"), fieldCount<SegmentationParameters>());
+  const size_t detection_groups = 6;
+  EXPECT_EQ(keysIn("detection"), fieldCount<DetectionParameters>() - detection_groups);
+  EXPECT_EQ(keysIn("detection.parallax"), fieldCount<ParallaxParameters>());
+  EXPECT_EQ(keysIn("detection.appearance"), fieldCount<AppearanceParameters>());
+  EXPECT_EQ(keysIn("detection.shadow"), fieldCount<ShadowParameters>());
+  EXPECT_EQ(keysIn("detection.refinement"), fieldCount<RefinementParameters>());
+  EXPECT_EQ(keysIn("detection.objects"), fieldCount<ObjectParameters>());
+  EXPECT_EQ(keysIn("detection.two_planes"), fieldCount<TwoPlaneParameters>());
   EXPECT_EQ(keysIn("visual.tracker"), fieldCount<TrackerParameters>());
   EXPECT_EQ(keysIn("visual.ransac"), fieldCount<RansacParameters>());
   EXPECT_EQ(keysIn("front_plane.ransac"), fieldCount<RansacParameters>());

@@ -43,20 +43,43 @@ TEST_F(ConfigurationTest, AnEquidistantLensHasFourCoefficients) {
                ConfigurationError);
 }
 
+TEST_F(ConfigurationTest, RenamedKeysLeadToKeysThatExist) {
+  Configuration configuration;
+  for (const char* old_key : {"segmentation.threshold", "segmentation.use_shadow_test", "segmentation.edge_doubt_px",
+                              "visual.min_sharpness_share", "channels.inertial_state"}) {
+    std::string message;
+    try {
+      applySetting(configuration, old_key, "1");
+    } catch (const ConfigurationError& error) {
+      message = error.what();
+    }
+    const std::string announced = "was renamed to ";
+    ASSERT_THAT(message, HasSubstr(announced)) << old_key;
+    const std::string new_key = message.substr(message.find(announced) + announced.size());
+    EXPECT_THAT(configurationKeys(), testing::Contains(new_key)) << old_key;
+  }
+}
+
+TEST_F(ConfigurationTest, TheVisionOnlyPresetHasLowerThresholds) {
+  const Configuration configuration = load(std::string(kCamera) + "preset: vision_only\n");
+  EXPECT_EQ(configuration.detection.objects.threshold, 0.25);
+  EXPECT_EQ(configuration.detection.objects.extent_threshold, 0.12);
+}
+
 TEST_F(ConfigurationTest, ThePaperPresetHasThePapersValues) {
   const auto paper = load(std::string(kCamera) + "preset: paper\n");
   EXPECT_EQ(paper.fusion.noise, FusionNoise::kPaper);
   EXPECT_EQ(paper.fusion.paper_Q[2], 1.0);
   EXPECT_EQ(paper.fusion.paper_P0[2], 1e-4);
-  EXPECT_EQ(paper.detection.method, SegmentationMethod::kTwoPlanes);
+  EXPECT_EQ(paper.detection.method, "two_planes");
   EXPECT_EQ(paper.detection.refinement.gamma, 0.6);
   EXPECT_EQ(configurationHash(load(std::string(kCamera) + "preset: default\n")),
             configurationHash(load(kCamera)));
 }
 
 TEST_F(ConfigurationTest, APresetWinsOverIncludesAndLosesToItsOwnFile) {
-  write("base.yaml", std::string(kCamera) + "fusion: {noise: propagated}\nsegmentation: {alpha: 0.9}\n");
-  const auto configuration = load("include: base.yaml\npreset: paper\nsegmentation: {beta: 0.7}\n");
+  write("base.yaml", std::string(kCamera) + "fusion: {noise: propagated}\ndetection: {refinement: {alpha: 0.9}}\n");
+  const auto configuration = load("include: base.yaml\npreset: paper\ndetection: {refinement: {beta: 0.7}}\n");
   EXPECT_EQ(configuration.fusion.noise, FusionNoise::kPaper);
   EXPECT_EQ(configuration.detection.refinement.alpha, 0.4);
   EXPECT_EQ(configuration.detection.refinement.beta, 0.7);

@@ -10,7 +10,7 @@ namespace redbee::test {
 namespace {
 
 TEST(ImageCheck, RefusesNoiseAndKeepsANoisyScene) {
-  ImageCheck check{SegmentationParameters{}};
+  ImageCheck check{DetectionParameters{}.min_contrast};
   cv::RNG random(3);
   cv::Mat noise(240, 320, CV_8U);
   random.fill(noise, cv::RNG::UNIFORM, 0, 255);
@@ -23,7 +23,7 @@ TEST(ImageCheck, RefusesNoiseAndKeepsANoisyScene) {
 }
 
 TEST(ImageCheck, RefusesBlankAndFrozenImages) {
-  ImageCheck check{SegmentationParameters{}};
+  ImageCheck check{DetectionParameters{}.min_contrast};
   // Blurred, since pure noise is no image either.
   const auto scene = [](int seed) {
     cv::Mat image;

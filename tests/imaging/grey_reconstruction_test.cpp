@@ -84,7 +84,7 @@ TEST(Reconstruct, ALevelReachesAsFarAsItsPathNeverFallsBelow) {
   cv::Mat limit = cv::Mat::zeros(9, 9, CV_32F);
   limit.row(4).setTo(0.8);
   limit.at<float>(4, 5) = 0.5F;  // a saddle
-  cv::Mat level = cv::Mat::zeros(9, 9, CV_32F);
+  cv::Mat1f level = cv::Mat1f::zeros(9, 9);
   level.at<float>(4, 1) = 0.8F;
   reconstruct(limit, level);
   EXPECT_FLOAT_EQ(level.at<float>(4, 4), 0.8F);

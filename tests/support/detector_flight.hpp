@@ -8,24 +8,24 @@
 #include <string>
 #include <vector>
 
-#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/detection/detector.hpp"
 #include "redbee/visual/point_tracker.hpp"
 #include "tests/support/rendered_flight.hpp"
 
 namespace redbee::test {
 
 struct DetectorFlight {
-  std::vector<SegmentationInput> inputs;
+  std::vector<FrameInput> inputs;
   std::vector<simulation::RenderedImage> truths;
 
   /// `front_patch`: the surface whose homography is given as the front plane's; nothing gives none.
   DetectorFlight(const simulation::Scenario& scenario, int frames, std::optional<size_t> front_patch = {}) {
     const RenderedFlight flight(scenario, frames);
     TrackerParameters dense;
-    dense.grid_px = paperSegmentation().sample_grid_px;
+    dense.grid_px = 16;
     PointTracker tracker{dense};
     for (int k = 0; k < frames; ++k) {
-      SegmentationInput input;
+      FrameInput input;
       input.utime = flight.utime(k);
       input.grey = flight.image(k).grey;
       input.K = flight.simulator().camera().K();
@@ -35,6 +35,7 @@ struct DetectorFlight {
         if (front_patch) input.front = flight.simulator().frontHomography(k, *front_patch);
         input.motion = flight.motion(k);
       }
+      input.sample_grid_px = dense.grid_px;
       input.tracks = tracker.advance(input.grey, input.ground);
       inputs.push_back(input);
       truths.push_back(flight.image(k));
@@ -56,7 +57,7 @@ struct PixelCounts {
   double falseFraction() const { return static_ > 0 ? false_ / static_ : 0; }
   double falsePatchFraction() const { return patch > 0 ? false_patch / patch : 0; }
 
-  void add(const simulation::RenderedImage& truth, const SegmentationOutput& output, size_t patch_index) {
+  void add(const simulation::RenderedImage& truth, const DetectorOutput& output, size_t patch_index) {
     const cv::Mat& mask = output.mask;
     const cv::Mat moving = truth.mask == simulation::kMaskMoving;
     const cv::Mat still = truth.mask == 0;
@@ -74,15 +75,15 @@ struct PixelCounts {
 
 /// `change` may alter an input before it is used (drop the motion). The first frames, while things settle, do
 /// not count.
-inline PixelCounts detect(const DetectorFlight& flight, const SegmentationParameters& parameters,
-                          size_t patch, const std::function<void(SegmentationInput&)>& change = {}) {
-  MotionSegmenter segmenter(parameters);
+inline PixelCounts detect(const DetectorFlight& flight, const DetectionParameters& parameters,
+                          size_t patch, const std::function<void(FrameInput&)>& change = {}) {
+  const auto detector = makeDetector(parameters);
   PixelCounts counts;
   const size_t settled = 2 * static_cast<size_t>(parameters.learning_frames);
   for (size_t k = 0; k < flight.inputs.size(); ++k) {
-    SegmentationInput input = flight.inputs[k];
+    FrameInput input = flight.inputs[k];
     if (change) change(input);
-    const SegmentationOutput output = segmenter.step(input);
+    const DetectorOutput output = detector->step(input);
     if (k >= settled) counts.add(flight.truths[k], output, patch);
   }
   return counts;

@@ -13,7 +13,7 @@
 namespace redbee::test {
 
 struct PatchFrame {
-  RivalInput input;
+  FrameInput input;
   cv::Mat truth;  ///< CV_8U, 255 on the patch
 };
 

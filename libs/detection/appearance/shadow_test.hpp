@@ -9,7 +9,7 @@ namespace redbee {
 
 class ShadowTest {
  public:
-  /// Both blue, green, red, anything. They are not copied and must outlive the test. `noise`: grey levels, residual
+  /// Both blue, green, red, anything; they share their memory. `noise`: grey levels, residual
   /// of a shadow after scaling.
   ShadowTest(const cv::Mat4f& image, const cv::Mat4f& background, double noise);
 
@@ -24,8 +24,8 @@ class ShadowTest {
   void add(int y);
   float score(float pp, float pb, float bb) const;
 
-  const cv::Mat4f& image_;
-  const cv::Mat4f& background_;
+  cv::Mat4f image_;
+  cv::Mat4f background_;
   float noise_variance_;
   int next_ = 0;
   Sums products_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/geometry/compose_motion.hpp"
 #include "redbee/imaging/warping.hpp"
 
 namespace redbee {

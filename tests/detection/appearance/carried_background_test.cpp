@@ -41,7 +41,7 @@ cv::Mat scene(double shift_x) {
 }
 
 /// Every surface at this speed [px], known to within 0.1 px.
-SurfaceSpeed allAt(double speed) { return {kSize, CV_32FC2, cv::Scalar(speed, 0.01)}; }
+SurfaceSpeed allAt(double speed) { return {kSize, cv::Vec2f(static_cast<float>(speed), 0.01F)}; }
 
 cv::Mat nothingMoves() { return cv::Mat::zeros(kSize, CV_32F); }
 
@@ -55,7 +55,7 @@ double mean(const cv::Mat& map, const cv::Rect& where) { return cv::mean(map(whe
 
 class Background : public testing::Test {
  protected:
-  CarriedBackground background_{SegmentationParameters{}};
+  CarriedBackground background_{AppearanceParameters{}, ShadowParameters{}, ParallaxParameters{}.evidence_sigmas};
 };
 
 TEST_F(Background, KnowsNothingAtFirst) {
@@ -87,7 +87,7 @@ TEST_F(Background, DistinguishesColoursOfOneGreyValue) {
 
 /// How foreign the uncovered place looks after something stood on it for six images.
 double ghost(bool told_to_move) {
-  CarriedBackground background{SegmentationParameters{}};
+  CarriedBackground background{AppearanceParameters{}, ShadowParameters{}, ParallaxParameters{}.evidence_sigmas};
   for (int k = 0; k < kImages; ++k) background.learn(scene(0), nothingMoves(), allAt(0), kFrame_s);
   cv::Mat covered = scene(0);
   covered(kPatch).setTo(opaque(10, 10, 10));
@@ -125,7 +125,7 @@ TEST_F(Background, UncertainPixelsAccuseLess) {
 /// How foreign the ground looks that a post of this speed has stood before and now leaves, `known_px` being
 /// how well the ground's own speed is known.
 double foreignAfterPost(double post_speed, double known_px, int images_later) {
-  CarriedBackground background{SegmentationParameters{}};
+  CarriedBackground background{AppearanceParameters{}, ShadowParameters{}, ParallaxParameters{}.evidence_sigmas};
   cv::Mat with_post = scene(0);
   with_post(kPatch).setTo(opaque(10, 10, 10));
   SurfaceSpeed speed = allAt(0);

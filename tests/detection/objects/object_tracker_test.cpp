@@ -16,14 +16,14 @@ Detection component(int x, int y) {
   return detection;
 }
 
-SegmentationParameters atOnce() {
-  SegmentationParameters parameters;
+ObjectParameters atOnce() {
+  ObjectParameters parameters;
   parameters.confirm_frames = 1;
   return parameters;
 }
 
 TEST(ObjectTracker, MoverThatStopsKeepsItsIdentity) {
-  const SegmentationParameters parameters = atOnce();
+  const ObjectParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   int x = 100;
   int id = 0;
@@ -46,7 +46,7 @@ TEST(ObjectTracker, MoverThatStopsKeepsItsIdentity) {
 }
 
 TEST(ObjectTracker, IdentityEndsAfterTheStatedPatience) {
-  const SegmentationParameters parameters = atOnce();
+  const ObjectParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   tracker.update({component(100, 200)}, kImage);
   for (int k = 0; k < parameters.max_missed_frames; ++k) tracker.update({}, kImage);
@@ -54,7 +54,7 @@ TEST(ObjectTracker, IdentityEndsAfterTheStatedPatience) {
 }
 
 TEST(ObjectTracker, WhileNothingCouldBeClassifiedNothingWasMissed) {
-  const SegmentationParameters parameters = atOnce();
+  const ObjectParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   const int id = tracker.update({component(100, 200)}, kImage).at(0).id;
   for (int k = 0; k < parameters.max_missed_frames; ++k) {
@@ -69,7 +69,7 @@ TEST(ObjectTracker, WhileNothingCouldBeClassifiedNothingWasMissed) {
 }
 
 TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItDeletesItsTracks) {
-  const SegmentationParameters parameters = atOnce();
+  const ObjectParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   tracker.update({component(100, 200)}, kImage);
   for (int k = 0; k < 2 * parameters.max_missed_frames; ++k) ASSERT_EQ(tracker.skip(kImage).size(), 1U);
@@ -77,7 +77,7 @@ TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItDeletesItsTracks) {
 }
 
 TEST(ObjectTracker, AFlickerIsNotWaitedForWhileNothingCanBeClassified) {
-  SegmentationParameters parameters;
+  ObjectParameters parameters;
   parameters.confirm_frames = 2;
   ObjectTracker tracker(parameters);
   tracker.update({component(100, 200)}, kImage);
@@ -117,7 +117,7 @@ TEST(ObjectTracker, TwoObjectsThatPassKeepTheirIdentities) {
 }
 
 TEST(ObjectTracker, FlickerIsNotConfirmed) {
-  SegmentationParameters parameters;
+  ObjectParameters parameters;
   parameters.confirm_frames = 3;
   ObjectTracker tracker(parameters);
   EXPECT_TRUE(tracker.update({component(100, 200)}, kImage).empty());
@@ -126,7 +126,7 @@ TEST(ObjectTracker, FlickerIsNotConfirmed) {
 }
 
 TEST(FindComponents, SmallAndUnknownRegionsAreNoObjects) {
-  SegmentationParameters parameters;
+  ObjectParameters parameters;
   cv::Mat probability = cv::Mat::zeros(kImage, CV_8U);
   probability(cv::Rect(100, 100, 20, 30)).setTo(204);
   probability(cv::Rect(300, 100, 4, 4)).setTo(204);
@@ -141,7 +141,7 @@ TEST(FindComponents, SmallAndUnknownRegionsAreNoObjects) {
 }
 
 TEST(FindComponents, AnObjectReachesAsFarAsTheLowerThresholdAndIsSureSomewhere) {
-  SegmentationParameters parameters;
+  ObjectParameters parameters;
   parameters.threshold = 0.5;
   parameters.extent_threshold = 0.3;
   cv::Mat probability = cv::Mat::zeros(kImage, CV_8U);

@@ -16,6 +16,7 @@ namespace redbee {
 namespace {
 
 const Eigen::Matrix3d kStill = Eigen::Matrix3d::Identity();
+constexpr int kGrid_px = 24;
 
 TEST(FlowEntropy, OfAHistogram) {
   EXPECT_DOUBLE_EQ(histogramEntropy({7, 0, 0, 0}), 0);
@@ -37,26 +38,26 @@ PointTracks cellOf(double flow_px, bool coherent) {
 }
 
 TEST(FlowEntropy, OrderedFlowScoresOneAndDisorderedFlowLittle) {
-  const SegmentationParameters parameters;
+  const RefinementParameters parameters;
   const cv::Size image(64, 64);
-  EXPECT_FLOAT_EQ(flowOrder(cellOf(2, true), kStill, image, parameters).at<float>(30, 30), 1);
+  EXPECT_FLOAT_EQ(flowOrder(cellOf(2, true), kGrid_px, kStill, image, parameters).at<float>(30, 30), 1);
   const double flattest = parameters.entropy_floor / std::log2(parameters.entropy_bins);
-  EXPECT_LT(flowOrder(cellOf(2, false), kStill, image, parameters).at<float>(30, 30), 1.1 * flattest);
+  EXPECT_LT(flowOrder(cellOf(2, false), kGrid_px, kStill, image, parameters).at<float>(30, 30), 1.1 * flattest);
 }
 
 TEST(FlowEntropy, FlowBelowTheNoiseHasNoDirection) {
-  const SegmentationParameters parameters;
+  const RefinementParameters parameters;
   const float order =
-      flowOrder(cellOf(0.5 * parameters.flow_noise_px, true), kStill, {64, 64}, parameters).at<float>(30, 30);
+      flowOrder(cellOf(0.5 * parameters.flow_noise_px, true), kGrid_px, kStill, {64, 64}, parameters).at<float>(30, 30);
   EXPECT_FLOAT_EQ(order, static_cast<float>(parameters.entropy_floor / std::log2(parameters.entropy_bins)));
 }
 
 TEST(FlowEntropy, ACellWithoutTracksHasNoEntropy) {
-  EXPECT_FLOAT_EQ(flowOrder(cellOf(2, false), kStill, {128, 64}, {}).at<float>(30, 100), 1);
+  EXPECT_FLOAT_EQ(flowOrder(cellOf(2, false), kGrid_px, kStill, {128, 64}, {}).at<float>(30, 100), 1);
 }
 
 TEST(ForegroundProbability, FollowsTheEquations) {
-  const SegmentationParameters p;
+  const RefinementParameters p;
   ForegroundProbability probability(p);
   const cv::Mat foreground = cv::Mat::ones(20, 20, CV_32F);
   const cv::Mat order(20, 20, CV_32F, cv::Scalar(0.5));
@@ -94,11 +95,11 @@ class Parallax : public testing::Test {
   }
   Eigen::Vector2d project(const Eigen::Vector3d& X) const { return (K_ * X).hnormalized(); }
 
-  ParallaxSegment::Verdict judge(const Eigen::Vector2d& before, const Eigen::Vector2d& now) const {
+  ParallaxSegment::Residual residual(const Eigen::Vector2d& before, const Eigen::Vector2d& now) const {
     const Eigen::Vector2d ground = transfer(planeHomography(K_, motion_), before);
     const Eigen::Vector2d flow = now - ground;
     return ParallaxSegment(motion_, K_, {})
-        .judge({static_cast<float>(ground.x()), static_cast<float>(ground.y())},
+        .residual({static_cast<float>(ground.x()), static_cast<float>(ground.y())},
                {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance);
   }
 
@@ -111,7 +112,7 @@ TEST_F(Parallax, StaticPointsAtAnyDepthBeforeTheGroundAreExplained) {
     const Eigen::Vector3d ray = K_.inverse() * Eigen::Vector3d(150, 300, 1);
     const Eigen::Vector3d X = share * motion_.h_a / motion_.m_a.dot(ray) * ray;
     const Eigen::Vector2d now = project(motion_.R_ba * X + motion_.t_ba);
-    EXPECT_LT(judge({150, 300}, now).squaredMahalanobis(), 0.01)
+    EXPECT_LT(residual({150, 300}, now).squaredMahalanobis(), 0.01)
         << "at " << share << " of the way to the ground";
   }
 }
@@ -123,8 +124,8 @@ TEST_F(Parallax, MotionAcrossTheLineOrBelowTheGroundIsNot) {
   const Eigen::Vector2d nearer = project(motion_.R_ba * (0.5 * X) + motion_.t_ba);
   const Eigen::Vector2d along = (nearer - ground).normalized();
   const Eigen::Vector2d across(-along.y(), along.x());
-  EXPECT_GT(judge({150, 300}, ground + 3 * across).squaredMahalanobis(), 30);
-  EXPECT_GT(judge({150, 300}, ground - 3 * along).squaredMahalanobis(), 20);
+  EXPECT_GT(residual({150, 300}, ground + 3 * across).squaredMahalanobis(), 30);
+  EXPECT_GT(residual({150, 300}, ground - 3 * along).squaredMahalanobis(), 20);
 }
 
 TEST_F(Parallax, ASecondPlaneShowsWhereStaticSurfacesGo) {
@@ -139,7 +140,7 @@ TEST_F(Parallax, ASecondPlaneShowsWhereStaticSurfacesGo) {
     const Eigen::Vector3d X = depth * (K_.inverse() * before.homogeneous());
     const Eigen::Vector2d flow = project(motion_.R_ba * X + motion_.t_ba) + moved - on_ground;
     return segment
-        .judge({static_cast<float>(on_ground.x()), static_cast<float>(on_ground.y())},
+        .residual({static_cast<float>(on_ground.x()), static_cast<float>(on_ground.y())},
                {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance)
         .squaredMahalanobis();
   };
@@ -183,7 +184,7 @@ cv::Vec2f flowOfSmallMover(int work_downscale, int flow_downscale) {
   cv::Mat then = ground.clone(), now = ground.clone(), flow;
   paint.copyTo(then(cv::Rect(70, 75, 10, 10)));
   paint.copyTo(now(cv::Rect(73, 75, 10, 10)));
-  SegmentationParameters parameters;
+  ParallaxParameters parameters;
   parameters.work_downscale = work_downscale;
   parameters.flow_downscale = flow_downscale;
   makeMotionFlow(parameters)->calc(now, then, flow);
@@ -217,16 +218,16 @@ class Travelling : public testing::Test {
 
   /// Evidence of a square of 9 px at x that has moved by `off` standard deviations and `step` px.
   void see(int x, float off, float step) {
-    FrameEvidence now{cv::Mat(kSize, kSize, CV_32FC2, cv::Scalar::all(0)),
-                      cv::Mat(kSize, kSize, CV_32FC2, cv::Scalar::all(0))};
+    FrameEvidence now{cv::Mat2f::zeros(kSize, kSize),
+                      cv::Mat2f::zeros(kSize, kSize)};
     const cv::Rect square(x, 20, 9, 9);
-    now.off(square).setTo(cv::Scalar(off, 0));
+    now.normalized_residual(square).setTo(cv::Scalar(off, 0));
     now.back_step(square).setTo(cv::Scalar(-step, 0));
     evidence_.update(now, kStill, cv::Mat::zeros(kSize, kSize, CV_8U));
   }
   float motionAt(int x) const { return evidence_.motion().at<float>(24, x); }
 
-  TravellingEvidence evidence_{SegmentationParameters{}};
+  TravellingEvidence evidence_{ParallaxParameters{}};
 };
 
 TEST_F(Travelling, WhatMovesSteadilyAddsUpAndLeavesNoTrail) {

@@ -62,7 +62,7 @@ TEST(HomographyFlow, IsAHomographysToFirstOrder) {
 }
 
 TEST(RegistrationError, WithoutParallaxAllOfItIsFound) {
-  const ParallaxSegment none(std::nullopt, kCamera, SegmentationParameters{});
+  const ParallaxSegment none(std::nullopt, kCamera, ParallaxParameters{});
   const cv::Mat flow = flowOf(drift(), [](int, int) { return cv::Vec2f(0, 0); });
   const HomographyFlow found = registrationError(flow, kVariance, kSeen, none, kExpected_px);
   EXPECT_LT(worst(found, drift(), 0), 0.02F);
@@ -70,7 +70,7 @@ TEST(RegistrationError, WithoutParallaxAllOfItIsFound) {
 }
 
 TEST(RegistrationError, WhatMovesOnAFifthOfTheImageDoesNotBendIt) {
-  const ParallaxSegment none(std::nullopt, kCamera, SegmentationParameters{});
+  const ParallaxSegment none(std::nullopt, kCamera, ParallaxParameters{});
   const cv::Mat flow =
       flowOf(drift(), [](int x, int y) { return x < 140 && y > 120 ? cv::Vec2f(3, -2) : cv::Vec2f(0, 0); });
   const HomographyFlow found = registrationError(flow, kVariance, kSeen, none, kExpected_px);
@@ -81,7 +81,7 @@ TEST(RegistrationError, WhatMovesOnAFifthOfTheImageDoesNotBendIt) {
 TEST(RegistrationError, FlightToTheSideShowsWhatIsAcrossWhateverTheDepths) {
   // Level flight to the right: parallax is horizontal, and of any size here.
   const PlaneMotion sideways{Eigen::Matrix3d::Identity(), {-0.1, 0, 0}, {0, 1, 0}, 8.0};
-  const ParallaxSegment segment(sideways, kCamera, SegmentationParameters{});
+  const ParallaxSegment segment(sideways, kCamera, ParallaxParameters{});
   const cv::Mat flow = flowOf(
       drift(), [](int x, int y) { return cv::Vec2f(-0.02F * static_cast<float>((7 * x + y) % 100), 0); });
   const HomographyFlow found = registrationError(flow, kVariance, kSeen, segment, kExpected_px);
@@ -92,7 +92,7 @@ TEST(RegistrationError, FlightToTheSideShowsWhatIsAcrossWhateverTheDepths) {
 }
 
 TEST(RegistrationError, AImageOfWhichNothingWasSeenHasNone) {
-  const ParallaxSegment none(std::nullopt, kCamera, SegmentationParameters{});
+  const ParallaxSegment none(std::nullopt, kCamera, ParallaxParameters{});
   const cv::Mat flow(kSize, CV_32FC2, cv::Scalar(4, 4));
   const cv::Mat unseen(kSize, CV_8U, cv::Scalar(255));
   const HomographyFlow found = registrationError(flow, kVariance, unseen, none, kExpected_px);

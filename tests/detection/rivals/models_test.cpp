@@ -51,7 +51,7 @@ TEST(McdModel, ACandidateAsOldReplacesTheBackground) {
   DualModel model{GreyGaussian{100, 50, 4}, GreyGaussian{200, 60, 4}};
   const BlockBackground background = updateDualModel(model, 200, 200, 200);
   EXPECT_FLOAT_EQ(model[0].mean, 200);
-  EXPECT_FLOAT_EQ(background.mean, 200) << "and this frame is judged against it already";
+  EXPECT_FLOAT_EQ(background.mean, 200) << "and this frame is compared with it already";
   EXPECT_FLOAT_EQ(background.variance, 60);
 }
 
@@ -60,13 +60,13 @@ TEST(McdModel, PixelsAreScoredByTheMeanWithThemAndTheVarianceWithoutThem) {
   const BlockBackground background = updateDualModel(model, 104, 100, 108);
   EXPECT_FLOAT_EQ(background.mean, 101);
   EXPECT_FLOAT_EQ(background.variance, 100);
-  EXPECT_TRUE(background.judges);
+  EXPECT_TRUE(background.classifies);
 }
 
 TEST(McdModel, AYoungBackgroundDoesNotScore) {
   for (const float age : {0.5F, 1.0F, 1.5F}) {
     DualModel model{GreyGaussian{100, 100, age}, GreyGaussian{0, 400, 0}};
-    EXPECT_EQ(updateDualModel(model, 104, 100, 108).judges, age > 1) << age;
+    EXPECT_EQ(updateDualModel(model, 104, 100, 108).classifies, age > 1) << age;
   }
 }
 

@@ -15,6 +15,23 @@ namespace {
 
 constexpr size_t kSettled = 11;  // frames
 
+std::unique_ptr<Rival> makeRival(const std::string& name) {
+  DetectionParameters parameters;
+  parameters.method = name;
+  std::unique_ptr<Detector> detector = makeDetector(parameters);
+  auto* rival = dynamic_cast<Rival*>(detector.get());
+  if (rival != nullptr) static_cast<void>(detector.release());
+  return std::unique_ptr<Rival>(rival);
+}
+
+std::vector<std::string> rivalNames() {
+  std::vector<std::string> names;
+  for (const std::string& name : detectorNames()) {
+    if (makeRival(name) != nullptr) names.push_back(name);
+  }
+  return names;
+}
+
 struct Expected {
   double auc, patch, rest;
 };
@@ -45,9 +62,9 @@ const std::vector<PatchFrame>& stillPlane() {
 RankStatistic scoresOf(Rival& rival, const std::vector<PatchFrame>& scene) {
   RankStatistic statistic;
   for (size_t k = 0; k < scene.size(); ++k) {
-    const RivalOutput output = rival.step(scene[k].input);
+    const RivalScore output = rival.score(scene[k].input);
     if (k < kSettled) continue;
-    EXPECT_EQ(output.status, RivalStatus::kGood) << "frame " << k;
+    EXPECT_EQ(output.status, DetectorStatus::kGood) << "frame " << k;
     statistic.add(output.score, scene[k].truth);
   }
   return statistic;
@@ -57,9 +74,9 @@ class Rivals : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Rival> rival_ = makeRival(GetParam());
 
-  const RivalInput& input(size_t k) const { return slidingPatch()[k].input; }
+  const FrameInput& input(size_t k) const { return slidingPatch()[k].input; }
   /// Nothing is claimed of a frame that is not called good.
-  static void expectNothingClaimed(const RivalOutput& output) {
+  static void expectNothingClaimed(const RivalScore& output) {
     EXPECT_EQ(cv::countNonZero(output.score), 0);
     EXPECT_EQ(cv::norm(cv::Mat(output.background - cv::Matx33d::eye())), 0);
   }
@@ -92,8 +109,8 @@ TEST_P(Rivals, NothingStandsOutWhereAllIsStill) {
 
 TEST_P(Rivals, TheBackgroundsHomographyIsTheCameras) {
   for (const PatchFrame& frame : slidingPatch()) {
-    const RivalOutput output = rival_->step(frame.input);
-    if (output.status != RivalStatus::kGood) continue;
+    const RivalScore output = rival_->score(frame.input);
+    if (output.status != DetectorStatus::kGood) continue;
     Eigen::Matrix3d H;
     cv::cv2eigen(output.background, H);
     const Eigen::Matrix3d truth = planeHomography(frame.input.K, *frame.input.motion);
@@ -102,7 +119,7 @@ TEST_P(Rivals, TheBackgroundsHomographyIsTheCameras) {
 }
 
 TEST_P(Rivals, WorksWithoutAnImu) {
-  if (!rival_->wantsMotion()) GTEST_SKIP() << "never uses it";
+  if (!rival_->needs().camera_motion) GTEST_SKIP() << "never uses it";
   std::vector<PatchFrame> scene = slidingPatch();
   for (PatchFrame& frame : scene) frame.input.motion.reset();
   const RankStatistic statistic = scoresOf(*rival_, scene);
@@ -113,65 +130,63 @@ TEST_P(Rivals, WorksWithoutAnImu) {
 TEST_P(Rivals, SameInputGivesSameScores) {
   const auto again = makeRival(GetParam());
   for (const PatchFrame& frame : slidingPatch()) {
-    EXPECT_EQ(cv::norm(rival_->step(frame.input).score, again->step(frame.input).score, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(rival_->score(frame.input).score, again->score(frame.input).score, cv::NORM_INF), 0);
   }
 }
 
 TEST_P(Rivals, BadImagesAreReported) {
-  EXPECT_EQ(rival_->step({}).status, RivalStatus::kBadImage) << "even the first";
-  rival_->step(input(0));
-  RivalInput bad = input(1);
+  EXPECT_EQ(rival_->score({}).status, DetectorStatus::kBadImage) << "even the first";
+  rival_->score(input(0));
+  FrameInput bad = input(1);
   bad.grey.release();
-  const RivalOutput empty = rival_->step(bad);
-  EXPECT_EQ(empty.status, RivalStatus::kBadImage);
+  const RivalScore empty = rival_->score(bad);
+  EXPECT_EQ(empty.status, DetectorStatus::kBadImage);
   EXPECT_EQ(empty.score.size(), input(0).grey.size());
   expectNothingClaimed(empty);
-  bad.grey = cv::Mat(input(1).grey.size(), CV_32F, cv::Scalar(0));
-  EXPECT_EQ(rival_->step(bad).status, RivalStatus::kBadImage);
 }
 
 TEST_P(Rivals, BlackImagesAreNeverGood) {
-  for (size_t k = 0; k < 9; ++k) rival_->step(input(k));
+  for (size_t k = 0; k < 9; ++k) rival_->score(input(k));
   for (size_t k = 9; k < 12; ++k) {
-    RivalInput black = input(k);
+    FrameInput black = input(k);
     black.grey = cv::Mat(black.grey.size(), CV_8U, cv::Scalar(0));
     black.colour = cv::Mat(black.grey.size(), CV_8UC3, cv::Scalar::all(0));
     black.motion.reset();
-    const RivalOutput output = rival_->step(black);
-    EXPECT_NE(output.status, RivalStatus::kGood);
+    const RivalScore output = rival_->score(black);
+    EXPECT_NE(output.status, DetectorStatus::kGood);
     expectNothingClaimed(output);
   }
 }
 
 TEST_P(Rivals, AGapRestarts) {
-  for (size_t k = 0; k < 10; ++k) rival_->step(input(k));
+  for (size_t k = 0; k < 10; ++k) rival_->score(input(k));
   for (const int64_t jump : {int64_t{600'000}, int64_t{-600'000}, int64_t{0}}) {
-    RivalInput late = input(9);
+    FrameInput late = input(9);
     late.utime += jump;
-    const RivalOutput output = rival_->step(late);
-    EXPECT_EQ(output.status, RivalStatus::kLost) << jump;
+    const RivalScore output = rival_->score(late);
+    EXPECT_EQ(output.status, DetectorStatus::kNoHomography) << jump;
     expectNothingClaimed(output);
-    RivalInput back = input(9);
-    rival_->step(back);
+    FrameInput back = input(9);
+    rival_->score(back);
   }
 }
 
 TEST_P(Rivals, AChangeOfSizeRestartsAndIsSurvived) {
-  for (size_t k = 0; k < 4; ++k) rival_->step(input(k));
-  RivalInput small = input(4);
+  for (size_t k = 0; k < 4; ++k) rival_->score(input(k));
+  FrameInput small = input(4);
   small.grey = small.grey(cv::Rect(0, 0, 160, 120)).clone();
   small.colour = small.colour(cv::Rect(0, 0, 160, 120)).clone();
-  const RivalOutput output = rival_->step(small);
-  EXPECT_EQ(output.status, RivalStatus::kLost);
+  const RivalScore output = rival_->score(small);
+  EXPECT_EQ(output.status, DetectorStatus::kNoHomography);
   EXPECT_EQ(output.score.size(), cv::Size(160, 120));
   expectNothingClaimed(output);
-  RivalStatus last = RivalStatus::kLost;
+  DetectorStatus last = DetectorStatus::kNoHomography;
   for (size_t k = 0; k < slidingPatch().size(); ++k) {
-    RivalInput later = input(k);
+    FrameInput later = input(k);
     later.utime += small.utime;
-    last = rival_->step(later).status;
+    last = rival_->score(later).status;
   }
-  EXPECT_EQ(last, RivalStatus::kGood);
+  EXPECT_EQ(last, DetectorStatus::kGood);
 }
 
 /// A map that leaves half of a mover without a score caps the recall, whatever the clustering found. Not rv,
@@ -185,11 +200,18 @@ TEST_P(TrajectoryRivals, ScoreNearlyAllOfThePatch) {
   EXPECT_GT(statistic.fractionAbove(true, 1), 0.95);
 }
 
-TEST(RivalNames, AreDistinctAndMade) {
-  const std::vector<std::string> names = rivalNames();
-  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
-  for (const std::string& name : names) EXPECT_NE(makeRival(name), nullptr) << name;
-  EXPECT_EQ(makeRival("nobody"), nullptr);
+TEST(Detectors, AreMadeByName) {
+  EXPECT_EQ(rivalNames().size() + 2, detectorNames().size()) << "all but ours and the paper's";
+  EXPECT_THROW(makeRival("nobody"), std::invalid_argument);
+}
+
+TEST_P(Rivals, MasksHoldWhatScoresTheDecision) {
+  DetectorOutput output;
+  for (const PatchFrame& frame : slidingPatch()) output = rival_->step(frame.input);
+  ASSERT_EQ(output.status, DetectorStatus::kGood);
+  EXPECT_EQ(output.mask.size(), slidingPatch()[0].input.grey.size());
+  const cv::Mat below = output.probability < kDecisionScore;
+  EXPECT_LE(cv::countNonZero(output.mask & below), cv::countNonZero(output.mask) / 2) << "closing adds some";
 }
 
 TEST(GradedScore, RisesWithTheRatioThroughTheDecision) {

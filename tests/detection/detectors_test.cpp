@@ -1,4 +1,4 @@
-#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/detection/detector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -49,19 +49,19 @@ const DetectorFlight& pondAndCar() {
   return flight;
 }
 
-TEST(MotionSegmenter, MoverStandsOutAndFrontPlaneDoesNotWithTheDefault) {
+TEST(Detectors, MoverStandsOutAndFrontPlaneDoesNotWithTheDefault) {
   const PixelCounts counts = detect(facadeAndCar(), {}, kFacadePatch);
   report("default", counts);
   EXPECT_GT(counts.recall(), 0.5);
   EXPECT_LT(counts.falsePatchFraction(), 0.02);
 }
 
-TEST(MotionSegmenter, MoverStandsOutAndFrontPlaneDoesNotWithTwoPlanes) {
+TEST(Detectors, MoverStandsOutAndFrontPlaneDoesNotWithTwoPlanes) {
   // The raw foreground, for the planes alone are in question here.
-  SegmentationParameters parameters = paperSegmentation();
-  parameters.use_refinement = false;
+  DetectionParameters parameters = paperDetection();
+  parameters.refinement.enabled = false;
   const PixelCounts both = detect(facadeAndCar(), parameters, kFacadePatch);
-  parameters.use_front_plane = false;
+  parameters.two_planes.use_front_plane = false;
   const PixelCounts ground = detect(facadeAndCar(), parameters, kFacadePatch);
   report("two_planes", both);
   report("ground_only", ground);
@@ -72,36 +72,36 @@ TEST(MotionSegmenter, MoverStandsOutAndFrontPlaneDoesNotWithTwoPlanes) {
   EXPECT_LT(both.falsePatchFraction(), 0.25 * ground.falsePatchFraction());
 }
 
-TEST(MotionSegmenter, SceneWithoutFrontPlaneWorksWithTwoPlanes) {
-  const PixelCounts counts = detect(walkersOnGrass(), paperSegmentation(), 0);
+TEST(Detectors, SceneWithoutFrontPlaneWorksWithTwoPlanes) {
+  const PixelCounts counts = detect(walkersOnGrass(), paperDetection(), 0);
   report("walkers_paper", counts);
   EXPECT_GT(counts.recall(), 0.3);
   EXPECT_LT(counts.falseFraction(), 0.02);
 }
 
-TEST(MotionSegmenter, SceneWithoutFrontPlaneWorksWithTheDefault) {
+TEST(Detectors, SceneWithoutFrontPlaneWorksWithTheDefault) {
   const PixelCounts counts = detect(walkersOnGrass(), {}, 0);
   report("walkers_default", counts);
   EXPECT_GT(counts.recall(), 0.3);
   EXPECT_LT(counts.falseFraction(), 0.02);
 }
 
-TEST(MotionSegmenter, WorksOnVisionAlone) {
-  const auto without_motion = [](SegmentationInput& input) { input.motion.reset(); };
+TEST(Detectors, WorksOnVisionAlone) {
+  const auto without_motion = [](FrameInput& input) { input.motion.reset(); };
   const PixelCounts counts = detect(walkersOnGrass(), {}, 0, without_motion);
   report("vision_only", counts);
   EXPECT_GT(counts.recall(), 0.3);
   EXPECT_LT(counts.falseFraction(), 0.05);
 }
 
-TEST(MotionSegmenter, WithoutImuAndSecondPlaneAFacadeThatRunsOutOfTheImageIsStatic) {
-  const auto ground_alone = [](SegmentationInput& input) {
+TEST(Detectors, WithoutImuAndSecondPlaneAFacadeThatRunsOutOfTheImageIsStatic) {
+  const auto ground_alone = [](FrameInput& input) {
     input.motion.reset();
     input.front.reset();
   };
-  SegmentationParameters parameters;
+  DetectionParameters parameters;
   const PixelCounts muted = detect(facadeAndCar(), parameters, kFacadePatch, ground_alone);
-  parameters.border_stretch = 0;
+  parameters.parallax.border_stretch = 0;
   const PixelCounts counted = detect(facadeAndCar(), parameters, kFacadePatch, ground_alone);
   report("muted", muted);
   report("counted", counted);
@@ -110,10 +110,10 @@ TEST(MotionSegmenter, WithoutImuAndSecondPlaneAFacadeThatRunsOutOfTheImageIsStat
   EXPECT_GT(muted.moverProbability(), 0.8 * counted.moverProbability());
 }
 
-TEST(MotionSegmenter, EntropySuppressesWavingTexture) {
-  SegmentationParameters parameters = paperSegmentation();
+TEST(Detectors, EntropySuppressesWavingTexture) {
+  DetectionParameters parameters = paperDetection();
   const PixelCounts with = detect(pondAndCar(), parameters, kPondPatch);
-  parameters.use_entropy = false;
+  parameters.refinement.use_entropy = false;
   const PixelCounts without = detect(pondAndCar(), parameters, kPondPatch);
   report("with_entropy", with);
   report("without_entropy", without);
@@ -125,13 +125,13 @@ TEST(MotionSegmenter, EntropySuppressesWavingTexture) {
   EXPECT_GT(mover_kept, 1.5 * pond_kept);
 }
 
-TEST(MotionSegmenter, RefinementCanBeSwitchedOff) {
-  SegmentationParameters parameters = paperSegmentation();
-  parameters.use_refinement = false;
-  MotionSegmenter segmenter(parameters);
-  SegmentationOutput output;
-  for (size_t k = 0; k < 8; ++k) output = segmenter.step(walkersOnGrass().inputs[k]);
-  ASSERT_EQ(output.status, SegmentationStatus::kGood);
+TEST(Detectors, RefinementCanBeSwitchedOff) {
+  DetectionParameters parameters = paperDetection();
+  parameters.refinement.enabled = false;
+  const auto detector = makeDetector(parameters);
+  DetectorOutput output;
+  for (size_t k = 0; k < 8; ++k) output = detector->step(walkersOnGrass().inputs[k]);
+  ASSERT_EQ(output.status, DetectorStatus::kGood);
   const cv::Mat neither = (output.probability != 0) & (output.probability != 255);
   EXPECT_EQ(cv::countNonZero(neither), 0) << "the raw foreground is a yes or no";
 }
