@@ -36,7 +36,8 @@ Configuration loadConfiguration(const std::filesystem::path& file) {
 
 void applySetting(Configuration& configuration, const std::string& key, const std::string& text) {
   const auto* setting = configuration::findSetting(key);
-  if (setting == nullptr) throw ConfigurationError("command line: " + key + ": " + configuration::unknownKey(key));
+  if (setting == nullptr)
+    throw ConfigurationError("command line: " + key + ": " + configuration::unknownKey(key));
   try {
     setting->read(configuration, YAML::Load(text));
   } catch (const configuration::ValueError& error) {

@@ -67,12 +67,13 @@ class ConfigurationError : public UserError {
 /// Reads a vehicle's file. Keys that it leaves out keep the values of the files it includes, else the
 /// defaults above.
 ///   include: FILE or [FILE, ...]   relative to the including file; read first, so the including file wins
-///   preset: default | paper | vision_only    wins over included files, and the keys of the file that names it win
+///   preset: default | paper | vision_only    wins over included files, and the keys of the file that names
+///   it win
 ///                                  over it. `paper`: the paper's own fusion noise and detector;
 ///                                  `vision_only`: thresholds for a vehicle without an IMU
-/// Throws ConfigurationError on the first fault: unknown, renamed or repeated keys, wrong types, impossible values, a
-/// camera that is not described, channels that share a name, waits in the wrong order, an
-/// extent threshold above its threshold, files that include each other.
+/// Throws ConfigurationError on the first fault: unknown, renamed or repeated keys, wrong types, impossible
+/// values, a camera that is not described, channels that share a name, waits in the wrong order, an extent
+/// threshold above its threshold, files that include each other.
 Configuration loadConfiguration(const std::filesystem::path& file);
 
 /// Sets one key (`detection.objects.threshold`) from YAML text, as a command line gives it. Throws

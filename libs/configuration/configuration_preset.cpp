@@ -32,8 +32,9 @@ PresetValues defaultValues() {
   return values;
 }
 
-/// Without an IMU P_FG is lower: the direction of parallax is not known, and evidence connected to the image's
-/// border is muted. Thresholds found on DAVIS and UAVDT; Gull2, where nothing moves, stays clean with them.
+/// Without an IMU P_FG is lower: the direction of parallax is not known, and evidence connected to the
+/// image's border is muted. Thresholds found on DAVIS and UAVDT; Gull2, where nothing moves, stays clean with
+/// them.
 PresetValues visionOnlyValues() {
   return {{"detection.objects.threshold", "0.25"}, {"detection.objects.extent_threshold", "0.12"}};
 }

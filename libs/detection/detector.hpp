@@ -1,8 +1,8 @@
 // The seam between a frame and what moves in it: every detector, ours, the paper's and the rivals, is a class
 // behind this interface and a line in detector_factory.cpp.
 //
-// Images share their memory when they are assigned (OpenCV): nobody writes to an image of a FrameInput, a detector
-// may keep one, and a DetectorOutput belongs to the caller.
+// Images share their memory when they are assigned (OpenCV): nobody writes to an image of a FrameInput, a
+// detector may keep one, and a DetectorOutput belongs to the caller.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,9 +32,9 @@ struct DetectorNeeds {
 struct FrameInput {
   int64_t utime_previous = 0;  ///< us, of the frame that ground, front, motion and tracks start from
   int64_t utime = 0;           ///< us
-  cv::Size size;      ///< of the image that homographies, points and output are of; empty: grey's
-  cv::Mat1b grey;     ///< empty where the image is damaged
-  cv::Mat3b colour;   ///< BGR, of grey's size; may be empty unless the detector needs it
+  cv::Size size;               ///< of the image that homographies, points and output are of; empty: grey's
+  cv::Mat1b grey;              ///< empty where the image is damaged
+  cv::Mat3b colour;            ///< BGR, of grey's size; may be empty unless the detector needs it
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix of an image of `size` [px]
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current [px]
   std::optional<Eigen::Matrix3d> front;             ///< the front plane's; nothing where there is none
@@ -73,8 +73,8 @@ class Detector {
   virtual DetectorOutput step(const FrameInput& input) = 0;
 };
 
-/// Constructs the detector that `parameters.method` names, and no other. Throws std::invalid_argument for a name
-/// that is none of detectorNames().
+/// Constructs the detector that `parameters.method` names, and no other. Throws std::invalid_argument for a
+/// name that is none of detectorNames().
 std::unique_ptr<Detector> makeDetector(const DetectionParameters& parameters);
 /// In alphabetical order.
 std::vector<std::string> detectorNames();

@@ -1,29 +1,33 @@
-// The tunables of detection, a struct for each part. The configuration file has the same names, in the groups of
-// `detection`.
+// The tunables of detection, a struct for each part. The configuration file has the same names, in the groups
+// of `detection`.
 #pragma once
 
 #include <string>
 
 namespace redbee {
 
-/// Motion from dense flow against the camera's motion: flow between a frame and an earlier one, after the ground's
-/// (and above the horizon the rotation's) motion has been taken out. libs/README.md, "Parallax".
+/// Motion from dense flow against the camera's motion: flow between a frame and an earlier one, after the
+/// ground's (and above the horizon the rotation's) motion has been taken out. libs/README.md, "Parallax".
 struct ParallaxParameters {
   int work_downscale = 2;  ///< 1, 2 or 4: all of it on an image this much smaller
   /// 1, 2 or 4: the flow on an image this much smaller than the camera's, never larger than work_downscale
   /// makes it: its patches of 8 px are to be no larger than the smallest mover.
   int flow_downscale = 2;
-  double baseline_s = 0.083;  ///< s: to the reference frame; longer shows slower objects and makes the flow harder
-  bool use_short_baseline = true;  ///< use the previous frame as reference while large, fast objects are in view
-  bool use_epipolar = true;        ///< accept as static any flow that some depth explains, not the ground's alone
-  double noise_px = 0.5;           ///< px, one sigma of the flow over good texture, at the full-size image
-  double min_gradient = 1.6;       ///< grey levels a px, of an image four times smaller: texture at which the
-                                   ///< flow's variance doubles
-  double direction_error = 0.05;   ///< rad, one sigma of the direction of travel; scales with the parallax
-  double nearest_depth_fraction = 0.15;  ///< of the height: no static surface is nearer to the camera than this
+  double baseline_s =
+      0.083;  ///< s: to the reference frame; longer shows slower objects and makes the flow harder
+  bool use_short_baseline =
+      true;                   ///< use the previous frame as reference while large, fast objects are in view
+  bool use_epipolar = true;   ///< accept as static any flow that some depth explains, not the ground's alone
+  double noise_px = 0.5;      ///< px, one sigma of the flow over good texture, at the full-size image
+  double min_gradient = 1.6;  ///< grey levels a px, of an image four times smaller: texture at which the
+                              ///< flow's variance doubles
+  double direction_error = 0.05;  ///< rad, one sigma of the direction of travel; scales with the parallax
+  double nearest_depth_fraction =
+      0.15;                      ///< of the height: no static surface is nearer to the camera than this
   double evidence_sigmas = 2.5;  ///< distance from the parallax segment, in sigmas, that is half the evidence
-  double evidence_rate = 0.2;    ///< learning rate of the evidence propagated along the flow; 1: no propagation
-  bool use_registration = true;  ///< estimate and remove the residual homography error before testing for motion
+  double evidence_rate = 0.2;  ///< learning rate of the evidence propagated along the flow; 1: no propagation
+  bool use_registration =
+      true;  ///< estimate and remove the residual homography error before testing for motion
   /// Of the image's width: without an IMU, evidence connected to so long a stretch of the image's border
   /// belongs to a static structure; 0: off.
   double border_stretch = 0.05;
@@ -37,12 +41,13 @@ struct ParallaxParameters {
 
 /// The appearance difference to the background, which the parallax's evidence is multiplied by.
 struct AppearanceParameters {
-  bool enabled = true;            ///< false: P_FG from motion alone
-  int downscale = 2;              ///< 1, 2 or 4: the background model is on an image this much smaller
-  double span_s = 0.5;            ///< s: over which it is averaged
-  double noise = 20.0;            ///< grey levels: differences of this size are noise
-  double edge_tolerance_px = 3;   ///< px: tolerance for misaligned edges of the background
-  bool use_surface_reset = true;  ///< reset the background where the surface it was learned from has moved away
+  bool enabled = true;           ///< false: P_FG from motion alone
+  int downscale = 2;             ///< 1, 2 or 4: the background model is on an image this much smaller
+  double span_s = 0.5;           ///< s: over which it is averaged
+  double noise = 20.0;           ///< grey levels: differences of this size are noise
+  double edge_tolerance_px = 3;  ///< px: tolerance for misaligned edges of the background
+  bool use_surface_reset =
+      true;  ///< reset the background where the surface it was learned from has moved away
 };
 
 /// Cast shadows, excluded from the appearance difference.
@@ -73,17 +78,19 @@ struct ObjectParameters {
   int opening_px = 3;             ///< px: diameter of the disc that removes specks; 0: none
   int closing_px = 7;             ///< px: diameter of the disc that closes holes; 0: none
   double min_area_px = 30;        ///< px^2: smaller components are no objects
-  int max_missed_frames = 24;  ///< frames a track survives without a component; as many again that are skipped
-  int confirm_frames = 2;      ///< frames before a track is confirmed
+  int max_missed_frames =
+      24;                  ///< frames a track survives without a component; as many again that are skipped
+  int confirm_frames = 2;  ///< frames before a track is confirmed
 };
 
 /// The paper's background (III.A): a mixture of Gaussians per pixel (Zivkovic) for each plane.
 struct TwoPlaneParameters {
-  int mixture_history = 500;       ///< frames that the mixture remembers
-  double mixture_threshold = 16.0; ///< squared Mahalanobis distance beyond which a pixel is not its background
-  double canvas_margin = 0.0;      ///< fraction of the image's width: border of the canvas that a model is kept
-                                   ///< on; 0: the model is carried along, into every new frame
-  bool use_front_plane = true;     ///< model the front plane's background beside the ground's
+  int mixture_history = 500;  ///< frames that the mixture remembers
+  double mixture_threshold =
+      16.0;                     ///< squared Mahalanobis distance beyond which a pixel is not its background
+  double canvas_margin = 0.0;   ///< fraction of the image's width: border of the canvas that a model is kept
+                                ///< on; 0: the model is carried along, into every new frame
+  bool use_front_plane = true;  ///< model the front plane's background beside the ground's
 };
 
 struct DetectionParameters {

@@ -6,7 +6,8 @@
 namespace redbee {
 
 /// Raises `level` to what its pixels reach: at each pixel the highest level at which a path of neighbours (of
-/// four) leads to a pixel of `level` without ever falling below it in `limit`. Of one size; level <= limit. Paths that wind more often than structures or objects do are not followed to their end.
+/// four) leads to a pixel of `level` without ever falling below it in `limit`. Of one size; level <= limit.
+/// Paths that wind more often than structures or objects do are not followed to their end.
 void reconstruct(const cv::Mat1f& limit, cv::Mat1f& level);
 
 /// `map` (0..1) with its holes filled: what is enclosed by an outline of higher values is raised to

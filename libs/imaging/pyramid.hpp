@@ -10,9 +10,9 @@ namespace redbee {
 /// One level: pixel (x, y) of level l lies at (x, y) * 2^l of the image.
 struct PyramidLevel {
   cv::Mat1b padded;  ///< margin on all sides (mirrored)
-  int margin = 0;  ///< px
-  int width = 0;   ///< px, without the margin
-  int height = 0;  ///< px, without the margin
+  int margin = 0;    ///< px
+  int width = 0;     ///< px, without the margin
+  int height = 0;    ///< px, without the margin
 
   /// Address of a pixel; -margin <= x < width + margin, y alike.
   const uint8_t* at(int x, int y) const { return padded.ptr(y + margin) + x + margin; }

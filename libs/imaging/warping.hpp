@@ -1,8 +1,8 @@
 // Images and maps warped by homographies.
 //
-// The rule for all of imaging and detection: images share their memory when they are assigned (OpenCV). A function
-// does not write to an image that it takes by const reference and returns one with memory of its own; what it takes
-// by reference it changes in place.
+// The rule for all of imaging and detection: images share their memory when they are assigned (OpenCV). A
+// function does not write to an image that it takes by const reference and returns one with memory of its
+// own; what it takes by reference it changes in place.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@ namespace redbee {
 
 cv::Matx33d toMatx(const Eigen::Matrix3d& H);
 
-/// An image or a map of any type as the current frame sees it: out(x) = map(H^-1 x), H previous to current. 0 where
-/// the map does not reach. `interpolation` is one of OpenCV's. The result has memory of its own.
+/// An image or a map of any type as the current frame sees it: out(x) = map(H^-1 x), H previous to current. 0
+/// where the map does not reach. `interpolation` is one of OpenCV's. The result has memory of its own.
 cv::Mat carryMap(const cv::Mat& map, const cv::Matx33d& H, int interpolation);
 cv::Mat carryMap(const cv::Mat& map, const Eigen::Matrix3d& H, int interpolation);
 

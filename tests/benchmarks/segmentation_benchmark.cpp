@@ -107,8 +107,7 @@ BENCHMARK(denseFlowHalfSize)->Unit(benchmark::kMillisecond);
 
 void travelHalfSize(benchmark::State& state) {
   const cv::Size half(320, 240);
-  const FrameEvidence now{cv::Mat2f(half, cv::Vec2f(1, 0)),
-                          cv::Mat2f(half, cv::Vec2f(0.5F, 0))};
+  const FrameEvidence now{cv::Mat2f(half, cv::Vec2f(1, 0)), cv::Mat2f(half, cv::Vec2f(0.5F, 0))};
   TravellingEvidence evidence{{}};
   const cv::Mat unseen = cv::Mat::zeros(half, CV_8U);
   for (auto _ : state) {

@@ -45,8 +45,9 @@ TEST_F(ConfigurationTest, AnEquidistantLensHasFourCoefficients) {
 
 TEST_F(ConfigurationTest, RenamedKeysLeadToKeysThatExist) {
   Configuration configuration;
-  for (const char* old_key : {"segmentation.threshold", "segmentation.use_shadow_test", "segmentation.edge_doubt_px",
-                              "visual.min_sharpness_share", "channels.inertial_state"}) {
+  for (const char* old_key :
+       {"segmentation.threshold", "segmentation.use_shadow_test", "segmentation.edge_doubt_px",
+        "visual.min_sharpness_share", "channels.inertial_state"}) {
     std::string message;
     try {
       applySetting(configuration, old_key, "1");
@@ -78,8 +79,10 @@ TEST_F(ConfigurationTest, ThePaperPresetHasThePapersValues) {
 }
 
 TEST_F(ConfigurationTest, APresetWinsOverIncludesAndLosesToItsOwnFile) {
-  write("base.yaml", std::string(kCamera) + "fusion: {noise: propagated}\ndetection: {refinement: {alpha: 0.9}}\n");
-  const auto configuration = load("include: base.yaml\npreset: paper\ndetection: {refinement: {beta: 0.7}}\n");
+  write("base.yaml",
+        std::string(kCamera) + "fusion: {noise: propagated}\ndetection: {refinement: {alpha: 0.9}}\n");
+  const auto configuration =
+      load("include: base.yaml\npreset: paper\ndetection: {refinement: {beta: 0.7}}\n");
   EXPECT_EQ(configuration.fusion.noise, FusionNoise::kPaper);
   EXPECT_EQ(configuration.detection.refinement.alpha, 0.4);
   EXPECT_EQ(configuration.detection.refinement.beta, 0.7);

@@ -1,9 +1,8 @@
-#include "redbee/detection/detector.hpp"
-
 #include <gtest/gtest.h>
 
 #include <iostream>
 
+#include "redbee/detection/detector.hpp"
 #include "redbee/imaging/warping.hpp"
 #include "redbee/simulation/scenarios.hpp"
 #include "tests/support/detector_flight.hpp"

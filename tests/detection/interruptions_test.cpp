@@ -46,8 +46,7 @@ class Interruptions : public testing::TestWithParam<const char*> {
   int next_ = 0;
 };
 
-INSTANTIATE_TEST_SUITE_P(Methods, Interruptions,
-                         testing::Values("two_planes", "parallax"));
+INSTANTIATE_TEST_SUITE_P(Methods, Interruptions, testing::Values("two_planes", "parallax"));
 
 TEST_P(Interruptions, LearnsBeforeTheFirstMask) {
   for (int k = 0; k < parameters().learning_frames; ++k) {

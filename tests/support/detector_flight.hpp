@@ -75,8 +75,8 @@ struct PixelCounts {
 
 /// `change` may alter an input before it is used (drop the motion). The first frames, while things settle, do
 /// not count.
-inline PixelCounts detect(const DetectorFlight& flight, const DetectionParameters& parameters,
-                          size_t patch, const std::function<void(FrameInput&)>& change = {}) {
+inline PixelCounts detect(const DetectorFlight& flight, const DetectionParameters& parameters, size_t patch,
+                          const std::function<void(FrameInput&)>& change = {}) {
   const auto detector = makeDetector(parameters);
   PixelCounts counts;
   const size_t settled = 2 * static_cast<size_t>(parameters.learning_frames);

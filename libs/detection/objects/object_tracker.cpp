@@ -10,8 +10,8 @@
 namespace redbee {
 namespace {
 
-constexpr double kVelocityRate = 0.3;     // of the newest step in an object's velocity
-constexpr double kUnseenVelocity = 0.85;  // fraction of its velocity that a missed object keeps per frame
+constexpr double kVelocityRate = 0.3;       // of the newest step in an object's velocity
+constexpr double kUnseenVelocity = 0.85;    // fraction of its velocity that a missed object keeps per frame
 constexpr double kReachInDiagonals = 0.75;  // of the larger box: how far apart a match may be
 constexpr double kReach_px = 4;             // and this much further; one more for each missed frame
 constexpr int kUnmatched = -1;
@@ -29,7 +29,8 @@ cv::Rect boxAt(const cv::Rect& box, const Eigen::Vector2d& centre) {
 /// Distance of a component from an object: 0 on top of each other, above 1 no match. It is relative to the
 /// larger of the two boxes, and the gate opens with the number of missed frames.
 double misfit(const Eigen::Vector2d& centre, const cv::Rect& box, int missed, const Detection& component) {
-  const double reach = kReachInDiagonals * std::max(diagonal(box), diagonal(component.box)) + kReach_px + missed;
+  const double reach =
+      kReachInDiagonals * std::max(diagonal(box), diagonal(component.box)) + kReach_px + missed;
   return (centre - centreOf(component.box)).norm() / reach;
 }
 
@@ -38,7 +39,7 @@ cv::Mat1b disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPS
 /// What exceeds the lower threshold, opened and closed. Most images are empty but for a corner, so only the
 /// part around the foreground is worked on; `part` says which.
 cv::Mat1b foregroundPart(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                       const ObjectParameters& parameters, cv::Rect& part) {
+                         const ObjectParameters& parameters, cv::Rect& part) {
   cv::Mat1b mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
   mask.setTo(0, unknown);
   const int reach = std::max(parameters.opening_px, parameters.closing_px);

@@ -1,5 +1,5 @@
-// Our detector: dense flow against the camera's motion; foreground is what no depth explains and what differs from
-// the background's appearance.
+// Our detector: dense flow against the camera's motion; foreground is what no depth explains and what differs
+// from the background's appearance.
 #pragma once
 
 #include "redbee/detection/ground_detector.hpp"

@@ -58,7 +58,8 @@ void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<
   frames_.carry(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
 }
 
-cv::Mat1f ParallaxEvidence::learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full) {
+cv::Mat1f ParallaxEvidence::learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
+                                  cv::Size full) {
   cv::Mat1b small;
   cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::Mat1f found;
@@ -73,8 +74,8 @@ cv::Mat1f ParallaxEvidence::learn(int64_t utime, const cv::Mat1b& grey, const Ei
   return found;
 }
 
-cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
-                                   double frames) {
+cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b& grey,
+                                     const Eigen::Matrix3d& K, double frames) {
   const int margin = static_cast<int>(std::lround(kMarginPx / scale_));
   const AlignedImage reference = alignImage(frame, K, margin);
   unknown_ = reference.unknown;

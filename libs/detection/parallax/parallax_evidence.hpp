@@ -43,7 +43,8 @@ class ParallaxEvidence {
   const cv::Mat2f& speed() const { return speed_; }
 
  private:
-  cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K, double frames);
+  cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
+                     double frames);
   FrameEvidence frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey, const cv::Mat2f& flow,
                               double frames);
   /// Whether much of the image moves so fast that the previous frame is a better reference than an earlier

@@ -49,7 +49,7 @@ ParallaxSegment::Ray ParallaxSegment::ray(const cv::Vec2f& ground) const {
 cv::Vec2f ParallaxSegment::direction(const cv::Vec2f& ground) const { return ray(ground).direction; }
 
 ParallaxSegment::Residual ParallaxSegment::residual(const cv::Vec2f& ground, const cv::Vec2f& flow,
-                                                float noise_variance) const {
+                                                    float noise_variance) const {
   const auto [direction, length] = ray(ground);
   if (length == 0) return {{0, 0}, flow * (1 / std::sqrt(noise_variance))};
   const float along = flow.dot(direction);

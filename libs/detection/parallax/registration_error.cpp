@@ -21,8 +21,8 @@ struct Constraint {
   float variance;  ///< px^2
 };
 
-std::vector<Constraint> constraintsOf(const cv::Mat2f& flow, const cv::Mat1f& variance, const cv::Mat1b& unknown,
-                                      const ParallaxSegment& segment) {
+std::vector<Constraint> constraintsOf(const cv::Mat2f& flow, const cv::Mat1f& variance,
+                                      const cv::Mat1b& unknown, const ParallaxSegment& segment) {
   const HomographyFlow units(flow.size());
   std::vector<Constraint> constraints;
   for (int y = kStep_px / 2; y < flow.rows; y += kStep_px) {

@@ -71,7 +71,8 @@ void TravellingEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d&
 cv::Mat1f TravellingEvidence::motion() const {
   // Averaging leaves about half of the variance that a single vector has.
   constexpr double kAveragedVariance = 0.5;
-  const auto half2 = static_cast<float>(kAveragedVariance * parameters_.evidence_sigmas * parameters_.evidence_sigmas);
+  const auto half2 =
+      static_cast<float>(kAveragedVariance * parameters_.evidence_sigmas * parameters_.evidence_sigmas);
   cv::Mat1f motion(moving_.size());
   for (int y = 0; y < motion.rows; ++y) {
     const cv::Vec4f* sum = moving_[y];

@@ -56,7 +56,7 @@ void paintHull(cv::Mat1b& map, const std::vector<cv::Point2f>& points, float mar
 }
 
 cv::Mat1b paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
-                      const ClusterParameters& parameters, const ClusterChoice& choose) {
+                        const ClusterParameters& parameters, const ClusterChoice& choose) {
   cv::Mat1b map = cv::Mat1b::zeros(image);
   std::vector<StrayPoint> stray = points;
   for (size_t level = 0; level < kDecisionLevels; ++level) {

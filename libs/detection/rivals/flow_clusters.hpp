@@ -41,7 +41,7 @@ using ClusterChoice = std::function<std::vector<FlowCluster>(size_t level, std::
 /// method's own, and a pixel's score is that of the strictest at which a cluster's hull holds it. At
 /// kDecisionScore the map is the method's own decision.
 cv::Mat1b paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
-                      const ClusterParameters& parameters, const ClusterChoice& choose = {});
+                        const ClusterParameters& parameters, const ClusterChoice& choose = {});
 inline constexpr size_t kDecisionLevels = 13;
 
 }  // namespace redbee

@@ -33,8 +33,8 @@ GreyGaussian blendGaussians(const std::array<GreyGaussian, 4>& models, const std
 
 /// The Gaussian that the pixels of a block are compared with.
 struct BlockBackground {
-  float mean;      ///< grey levels, of model 0 once it has learned from the block, if it has
-  float variance;  ///< grey levels^2, of model 0 before
+  float mean;       ///< grey levels, of model 0 once it has learned from the block, if it has
+  float variance;   ///< grey levels^2, of model 0 before
   bool classifies;  ///< false: model 0 is too young
 };
 

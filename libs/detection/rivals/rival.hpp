@@ -22,8 +22,8 @@ struct RivalScore {
   cv::Matx33d background = cv::Matx33d::eye();
 };
 
-/// Masks are the components of scores from kDecisionScore on, cleaned and tracked as the configuration has it;
-/// objects.threshold and objects.extent_threshold do not apply.
+/// Masks are the components of scores from kDecisionScore on, cleaned and tracked as the configuration has
+/// it; objects.threshold and objects.extent_threshold do not apply.
 class Rival : public Detector {
  public:
   /// Frames further apart than this are not consecutive [us].

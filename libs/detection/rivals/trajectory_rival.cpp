@@ -45,8 +45,7 @@ cv::Mat1b fillFromNearest(cv::Size image, const Eigen::MatrixXd& X, const std::v
   cv::Mat1b map = cv::Mat1b::zeros(image);
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.cols; ++x) {
-      if (distance(y, x) <= kReachPx)
-        map(y, x) = score_of_cell[static_cast<size_t>(cell(y, x))];
+      if (distance(y, x) <= kReachPx) map(y, x) = score_of_cell[static_cast<size_t>(cell(y, x))];
     }
   }
   return map;
@@ -135,7 +134,10 @@ Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, int cell_px) {
 
 TrajectoryRival::TrajectoryRival(const ObjectParameters& objects, TrajectoryClustering clustering,
                                  const TrajectoryRivalParameters& parameters)
-    : Rival(objects), clustering_(std::move(clustering)), parameters_(parameters), window_(TrajectoryWindowParameters{}) {}
+    : Rival(objects),
+      clustering_(std::move(clustering)),
+      parameters_(parameters),
+      window_(TrajectoryWindowParameters{}) {}
 
 RivalScore TrajectoryRival::scoreFrame(const FrameInput& input) {
   RivalScore scored;

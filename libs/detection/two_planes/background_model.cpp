@@ -61,8 +61,7 @@ ForegroundMaps BackgroundModel::learn(const cv::Mat1b& grey) {
     cv::warpPerspective(from, to, toMatx(H), size, interpolation);
     return to;
   };
-  const cv::Mat1b valid =
-      warp(cv::Mat1b(image_, 255), canvas_, current_to_canvas, cv::INTER_NEAREST);
+  const cv::Mat1b valid = warp(cv::Mat1b(image_, 255), canvas_, current_to_canvas, cv::INTER_NEAREST);
   const cv::Mat1b known_canvas = ~mixture_.unknown(learning_frames_);
   const cv::Mat1b foreground_canvas =
       mixture_.update(warp(grey, canvas_, current_to_canvas, cv::INTER_LINEAR), valid);

@@ -14,9 +14,10 @@ namespace redbee {
 double histogramEntropy(const std::vector<int>& histogram);
 
 /// Reciprocal entropy of the flow's direction per cell of entropy_cell_points^2 sample points, after the
-/// ground's motion has been taken out: floor / max(entropy, floor), in (0, 1], of the image's size. `sample_grid_px`: px between the sample points.
-/// Points that moved less than flow_noise_px do not vote. A cell without votes gets the smallest value, that
-/// of a flat histogram, for nothing in it moves together; a cell without tracks is no evidence and gets 1.
+/// ground's motion has been taken out: floor / max(entropy, floor), in (0, 1], of the image's size.
+/// `sample_grid_px`: px between the sample points. Points that moved less than flow_noise_px do not vote. A
+/// cell without votes gets the smallest value, that of a flat histogram, for nothing in it moves together; a
+/// cell without tracks is no evidence and gets 1.
 cv::Mat1f flowOrder(const PointTracks& tracks, int sample_grid_px, const Eigen::Matrix3d& ground,
                     cv::Size image, const RefinementParameters& parameters);
 

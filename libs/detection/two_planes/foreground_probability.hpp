@@ -16,8 +16,8 @@ class ForegroundProbability {
   void reset();
   /// The camera moves by the ground homography (previous to current).
   void carry(const Eigen::Matrix3d& ground);
-  /// `foreground`: 0..1, the D_t of (13) and (14); `order`: 0..1, the E_t of (15), empty for none. Returns P_FG
-  /// (16), 0..1.
+  /// `foreground`: 0..1, the D_t of (13) and (14); `order`: 0..1, the E_t of (15), empty for none. Returns
+  /// P_FG (16), 0..1.
   cv::Mat1f update(const cv::Mat1f& foreground, const cv::Mat1f& order);
 
  private:

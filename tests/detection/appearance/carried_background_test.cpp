@@ -55,7 +55,8 @@ double mean(const cv::Mat& map, const cv::Rect& where) { return cv::mean(map(whe
 
 class Background : public testing::Test {
  protected:
-  CarriedBackground background_{AppearanceParameters{}, ShadowParameters{}, ParallaxParameters{}.evidence_sigmas};
+  CarriedBackground background_{AppearanceParameters{}, ShadowParameters{},
+                                ParallaxParameters{}.evidence_sigmas};
 };
 
 TEST_F(Background, KnowsNothingAtFirst) {
@@ -87,7 +88,8 @@ TEST_F(Background, DistinguishesColoursOfOneGreyValue) {
 
 /// How foreign the uncovered place looks after something stood on it for six images.
 double ghost(bool told_to_move) {
-  CarriedBackground background{AppearanceParameters{}, ShadowParameters{}, ParallaxParameters{}.evidence_sigmas};
+  CarriedBackground background{AppearanceParameters{}, ShadowParameters{},
+                               ParallaxParameters{}.evidence_sigmas};
   for (int k = 0; k < kImages; ++k) background.learn(scene(0), nothingMoves(), allAt(0), kFrame_s);
   cv::Mat covered = scene(0);
   covered(kPatch).setTo(opaque(10, 10, 10));
@@ -125,7 +127,8 @@ TEST_F(Background, UncertainPixelsAccuseLess) {
 /// How foreign the ground looks that a post of this speed has stood before and now leaves, `known_px` being
 /// how well the ground's own speed is known.
 double foreignAfterPost(double post_speed, double known_px, int images_later) {
-  CarriedBackground background{AppearanceParameters{}, ShadowParameters{}, ParallaxParameters{}.evidence_sigmas};
+  CarriedBackground background{AppearanceParameters{}, ShadowParameters{},
+                               ParallaxParameters{}.evidence_sigmas};
   cv::Mat with_post = scene(0);
   with_post(kPatch).setTo(opaque(10, 10, 10));
   SurfaceSpeed speed = allAt(0);

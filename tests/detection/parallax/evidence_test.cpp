@@ -42,13 +42,15 @@ TEST(FlowEntropy, OrderedFlowScoresOneAndDisorderedFlowLittle) {
   const cv::Size image(64, 64);
   EXPECT_FLOAT_EQ(flowOrder(cellOf(2, true), kGrid_px, kStill, image, parameters).at<float>(30, 30), 1);
   const double flattest = parameters.entropy_floor / std::log2(parameters.entropy_bins);
-  EXPECT_LT(flowOrder(cellOf(2, false), kGrid_px, kStill, image, parameters).at<float>(30, 30), 1.1 * flattest);
+  EXPECT_LT(flowOrder(cellOf(2, false), kGrid_px, kStill, image, parameters).at<float>(30, 30),
+            1.1 * flattest);
 }
 
 TEST(FlowEntropy, FlowBelowTheNoiseHasNoDirection) {
   const RefinementParameters parameters;
   const float order =
-      flowOrder(cellOf(0.5 * parameters.flow_noise_px, true), kGrid_px, kStill, {64, 64}, parameters).at<float>(30, 30);
+      flowOrder(cellOf(0.5 * parameters.flow_noise_px, true), kGrid_px, kStill, {64, 64}, parameters)
+          .at<float>(30, 30);
   EXPECT_FLOAT_EQ(order, static_cast<float>(parameters.entropy_floor / std::log2(parameters.entropy_bins)));
 }
 
@@ -100,7 +102,7 @@ class Parallax : public testing::Test {
     const Eigen::Vector2d flow = now - ground;
     return ParallaxSegment(motion_, K_, {})
         .residual({static_cast<float>(ground.x()), static_cast<float>(ground.y())},
-               {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance);
+                  {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance);
   }
 
   Eigen::Matrix3d K_;
@@ -141,7 +143,7 @@ TEST_F(Parallax, ASecondPlaneShowsWhereStaticSurfacesGo) {
     const Eigen::Vector2d flow = project(motion_.R_ba * X + motion_.t_ba) + moved - on_ground;
     return segment
         .residual({static_cast<float>(on_ground.x()), static_cast<float>(on_ground.y())},
-               {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance)
+                  {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance)
         .squaredMahalanobis();
   };
   const Eigen::Vector2d parallax = transfer(planeHomography(K_, facade), before) - on_ground;
@@ -218,8 +220,7 @@ class Travelling : public testing::Test {
 
   /// Evidence of a square of 9 px at x that has moved by `off` standard deviations and `step` px.
   void see(int x, float off, float step) {
-    FrameEvidence now{cv::Mat2f::zeros(kSize, kSize),
-                      cv::Mat2f::zeros(kSize, kSize)};
+    FrameEvidence now{cv::Mat2f::zeros(kSize, kSize), cv::Mat2f::zeros(kSize, kSize)};
     const cv::Rect square(x, 20, 9, 9);
     now.normalized_residual(square).setTo(cv::Scalar(off, 0));
     now.back_step(square).setTo(cv::Scalar(-step, 0));
