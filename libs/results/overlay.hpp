@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "redbee/detection/motion_segmenter.hpp"
+#include "redbee/detection/detector.hpp"
 
 namespace redbee {
 
