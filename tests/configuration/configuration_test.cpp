@@ -55,7 +55,7 @@ TEST_F(ConfigurationTest, RenamedKeysLeadToKeysThatExist) {
       message = error.what();
     }
     const std::string announced = "was renamed to ";
-    ASSERT_THAT(message, HasSubstr(announced)) << old_key;
+    ASSERT_THAT(message, testing::HasSubstr(announced)) << old_key;
     const std::string new_key = message.substr(message.find(announced) + announced.size());
     EXPECT_THAT(configurationKeys(), testing::Contains(new_key)) << old_key;
   }

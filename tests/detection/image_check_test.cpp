@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/detection/parameters.hpp"
 #include "tests/support/textured_images.hpp"
 
 namespace redbee::test {
