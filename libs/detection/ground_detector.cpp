@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "redbee/detection/two_planes/flow_entropy.hpp"
+#include "redbee/detection/refinement/flow_entropy.hpp"
 #include "redbee/imaging/warping.hpp"
 
 namespace redbee {

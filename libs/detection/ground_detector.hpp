@@ -7,7 +7,7 @@
 #include "redbee/detection/detector.hpp"
 #include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/image_check.hpp"
-#include "redbee/detection/two_planes/foreground_probability.hpp"
+#include "redbee/detection/refinement/foreground_probability.hpp"
 
 namespace redbee {
 

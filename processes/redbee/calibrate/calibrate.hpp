@@ -7,6 +7,10 @@
 
 namespace redbee {
 
+inline constexpr const char* kCalibrateName = "calibrate";
+inline constexpr const char* kCalibrateDescription =
+    "estimate camera-IMU rotation, time shift and height above ground from a recording";
+
 struct CalibrateOptions {
   std::filesystem::path log;  ///< LCM log with images and IMU; or the next two
   std::filesystem::path

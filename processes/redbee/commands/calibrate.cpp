@@ -36,9 +36,7 @@ void setUp(CLI::App& command) {
   command.callback([options] { runCalibrate(*options); });
 }
 
-const Command kCalibrate(CommandGroup::kFlights, "calibrate",
-                         "estimate camera-IMU rotation, time shift and height above ground from a recording",
-                         setUp);
+const Command kCalibrateCommand(CommandGroup::kFlights, kCalibrateName, kCalibrateDescription, setUp);
 
 }  // namespace
 }  // namespace redbee

@@ -9,7 +9,7 @@
 namespace redbee {
 namespace {
 
-const Command kCompare(
+const Command kCompareCommand(
     CommandGroup::kEvaluation, "compare", "make tables and a page of the runs of scripts/evaluate",
     [](CLI::App& command) {
       auto options = std::make_shared<CompareOptions>();

@@ -10,7 +10,7 @@
 namespace redbee {
 namespace {
 
-const Command kConfiguration(
+const Command kConfigurationCommand(
     CommandGroup::kVehicle, "configuration",
     "print the value of every configuration key, with includes and defaults resolved", [](CLI::App& command) {
       auto file = std::make_shared<std::filesystem::path>();

@@ -10,7 +10,7 @@
 namespace redbee {
 namespace {
 
-const Command kDetect(
+const Command kDetectCommand(
     CommandGroup::kFlights, "detect",
     "run the whole stack over a recorded flight, in one process, without losing a frame",
     [](CLI::App& command) {

@@ -9,7 +9,7 @@
 namespace redbee {
 namespace {
 
-const Command kDoctor(
+const Command kDoctorCommand(
     CommandGroup::kVehicle, "doctor",
     "check whether the stack can run here, and print a fix for each failed check", [](CLI::App& command) {
       auto options = std::make_shared<DoctorOptions>();

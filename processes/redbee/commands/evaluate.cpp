@@ -9,7 +9,7 @@
 namespace redbee {
 namespace {
 
-const Command kEvaluate(
+const Command kEvaluateCommand(
     CommandGroup::kEvaluation, "evaluate", "measure the maps of a run against ground-truth masks",
     [](CLI::App& command) {
       auto options = std::make_shared<EvaluateOptions>();

@@ -51,12 +51,12 @@ void addImporter(CLI::App& import, const Importer& importer) {
   });
 }
 
-const Command kImport(CommandGroup::kFlights, "import",
-                      "turn a recording into an LCM log and a vehicle configuration beside it",
-                      [](CLI::App& command) {
-                        command.require_subcommand(1);
-                        for (const Importer& importer : importers()) addImporter(command, importer);
-                      });
+const Command kImportCommand(CommandGroup::kFlights, "import",
+                             "turn a recording into an LCM log and a vehicle configuration beside it",
+                             [](CLI::App& command) {
+                               command.require_subcommand(1);
+                               for (const Importer& importer : importers()) addImporter(command, importer);
+                             });
 
 }  // namespace
 }  // namespace redbee

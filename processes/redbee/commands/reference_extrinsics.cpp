@@ -33,7 +33,7 @@ void setUp(CLI::App& command) {
   });
 }
 
-const Command kReferenceExtrinsics(
+const Command kReferenceExtrinsicsCommand(
     CommandGroup::kEvaluation, "reference-extrinsics",
     "write a configuration with a rendered clip's true extrinsics plus the error a calibration would leave",
     setUp);

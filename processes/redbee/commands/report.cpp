@@ -9,17 +9,17 @@
 namespace redbee {
 namespace {
 
-const Command kReport(CommandGroup::kFlights, "report", "write one page of figures and images about a run",
-                      [](CLI::App& command) {
-                        auto options = std::make_shared<ReportOptions>();
-                        addLogOption(command, options->log)->required();
-                        addConfigurationOption(command, options->configuration);
-                        addResultsOption(command, options->results);
-                        addOutOption(command, options->page, "page to write, HTML");
-                        command.add_option("--truth", options->truth,
-                                           "folder of ground-truth masks, to measure the run against");
-                        command.callback([options] { writeReport(*options); });
-                      });
+const Command kReportCommand(CommandGroup::kFlights, "report",
+                             "write one page of figures and images about a run", [](CLI::App& command) {
+                               auto options = std::make_shared<ReportOptions>();
+                               addLogOption(command, options->log)->required();
+                               addConfigurationOption(command, options->configuration);
+                               addResultsOption(command, options->results);
+                               addOutOption(command, options->page, "page to write, HTML");
+                               command.add_option("--truth", options->truth,
+                                                  "folder of ground-truth masks, to measure the run against");
+                               command.callback([options] { writeReport(*options); });
+                             });
 
 }  // namespace
 }  // namespace redbee

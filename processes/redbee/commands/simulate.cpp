@@ -8,7 +8,7 @@
 namespace redbee {
 namespace {
 
-const Command kSimulate(
+const Command kSimulateCommand(
     CommandGroup::kFlights, "simulate", "simulate a flight with exact ground truth", [](CLI::App& command) {
       auto options = std::make_shared<SimulateOptions>();
       command.add_option("--scenario", options->scenario, "one of: " + scenarioNames())

@@ -54,7 +54,7 @@ void runStack(const StackOptions& options) {
   }
 }
 
-const Command kStack(
+const Command kStackCommand(
     CommandGroup::kVehicle, "stack", "print the table of processes, for people and for scripts",
     [](CLI::App& command) {
       auto options = std::make_shared<StackOptions>();

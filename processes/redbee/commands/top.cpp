@@ -9,25 +9,24 @@
 namespace redbee {
 namespace {
 
-const Command kTop(CommandGroup::kVehicle, "top",
-                   "show the health of the running processes, until q is pressed", [](CLI::App& command) {
-                     auto options = std::make_shared<TopOptions>();
-                     addLcmUrlOption(command, options->url);
-                     command.add_option("--channel", options->channel, "channel of the health messages")
-                         ->capture_default_str();
-                     auto* once =
-                         command.add_flag("--once", options->once,
-                                          "print one table and end; exit code 1 if no process is running");
-                     command
-                         .add_option("--listen", options->listen_s,
-                                     "with --once: how long to wait for health messages, s")
-                         ->check(CLI::PositiveNumber)
-                         ->needs(once)
-                         ->capture_default_str();
-                     command.callback([options] {
-                       if (runTop(*options) == 0 && options->once) throw CLI::RuntimeError(1);
-                     });
-                   });
+const Command kTopCommand(
+    CommandGroup::kVehicle, "top", "show the health of the running processes, until q is pressed",
+    [](CLI::App& command) {
+      auto options = std::make_shared<TopOptions>();
+      addLcmUrlOption(command, options->url);
+      command.add_option("--channel", options->channel, "channel of the health messages")
+          ->capture_default_str();
+      auto* once = command.add_flag("--once", options->once,
+                                    "print one table and end; exit code 1 if no process is running");
+      command
+          .add_option("--listen", options->listen_s, "with --once: how long to wait for health messages, s")
+          ->check(CLI::PositiveNumber)
+          ->needs(once)
+          ->capture_default_str();
+      command.callback([options] {
+        if (runTop(*options) == 0 && options->once) throw CLI::RuntimeError(1);
+      });
+    });
 
 }  // namespace
 }  // namespace redbee

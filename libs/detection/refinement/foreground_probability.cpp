@@ -1,4 +1,4 @@
-#include "redbee/detection/two_planes/foreground_probability.hpp"
+#include "redbee/detection/refinement/foreground_probability.hpp"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,4 +1,4 @@
-#include "redbee/detection/two_planes/flow_entropy.hpp"
+#include "redbee/detection/refinement/flow_entropy.hpp"
 
 #include <gtest/gtest.h>
 
