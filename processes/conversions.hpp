@@ -8,10 +8,14 @@
 #include <vector>
 
 #include "redbee/filter_snapshot_t.hpp"
+#include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/row_major.hpp"
 #include "redbee/geometry/time.hpp"
+#include "redbee/homography_t.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
 #include "redbee/node/frame_time.hpp"
+#include "redbee/plane_motion_t.hpp"
+#include "redbee/tracks_t.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
@@ -80,27 +84,26 @@ inline FilterSnapshot snapshotOf(const filter_snapshot_t& message) {
   return known;
 }
 
-/// For messages that carry the four coordinate arrays of sample points.
-template <typename Message>
-void fillTracks(Message& message, const PointTracks& tracks) {
-  message.n = static_cast<int32_t>(tracks.current.size());
-  for (auto* array : {&message.x_previous, &message.y_previous, &message.x, &message.y}) {
-    array->resize(tracks.current.size());
-  }
-  for (size_t i = 0; i < tracks.current.size(); ++i) {
+/// `tracks.inlier` is all 0 where `inlier` is empty.
+inline void fill(tracks_t& message, const PointTracks& tracks, const std::vector<uint8_t>& inlier = {}) {
+  const size_t n = tracks.current.size();
+  message.n = static_cast<int32_t>(n);
+  for (auto* array : {&message.x_previous, &message.y_previous, &message.x, &message.y}) array->resize(n);
+  for (size_t i = 0; i < n; ++i) {
     message.x_previous[i] = tracks.previous[i].x;
     message.y_previous[i] = tracks.previous[i].y;
     message.x[i] = tracks.current[i].x;
     message.y[i] = tracks.current[i].y;
   }
+  message.inlier = inlier;
+  message.inlier.resize(n);
 }
 
 /// px: no image is larger; what lies beyond is damage, and would not fit an int.
 constexpr float kMaxCoordinate = 1e5F;
 
 /// The points that lie where points can; damaged ones (not a number, far beyond any image) are left out.
-template <typename Message>
-PointTracks tracksOf(const Message& message) {
+inline PointTracks tracksOf(const tracks_t& message) {
   PointTracks tracks;
   const auto plausible = [](float x, float y) {
     return std::abs(x) < kMaxCoordinate && std::abs(y) < kMaxCoordinate;  // false for what is not a number
@@ -117,15 +120,30 @@ PointTracks tracksOf(const Message& message) {
   return tracks;
 }
 
-/// True where the message speaks of two frames at times that a clock can show.
+inline PlaneMotion motionOf(const plane_motion_t& message) {
+  return {matrix3(message.R), vector3(message.t), vector3(message.normal), message.distance};
+}
+inline void fill(plane_motion_t& message, const PlaneMotion& motion) {
+  fill(message.R, motion.R_ba);
+  fill(message.t, motion.t_ba);
+  fill(message.normal, motion.m_a);
+  message.distance = motion.h_a;
+}
+
+inline void fill(homography_t& message, const Eigen::Matrix3d& H,
+                 const Eigen::Matrix<double, 8, 8>& covariance) {
+  fill(message.H, H);
+  fill(message.covariance, covariance);
+}
+
+/// True where the message is about two frames at times that a clock can show.
 template <typename Message>
 bool plausibleTimes(const Message& message) {
   return isPlausibleTime(timeOf(message)) && isPlausibleTime(previousTimeOf(message));
 }
 
-/// True where every number that a homography message promises is finite.
-template <typename Message>
-bool finiteHomography(const Message& message) {
+/// True where all numbers of a homography are finite.
+inline bool isFinite(const homography_t& message) {
   return matrix3(message.H).allFinite() && matrix8(message.covariance).allFinite() && message.H[8] != 0;
 }
 

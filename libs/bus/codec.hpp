@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "redbee/bus/wire_shape.hpp"
+#include "redbee/message_types.hpp"
 
 namespace redbee {
 
@@ -35,11 +35,7 @@ std::vector<uint8_t> encodeMessage(const Message& message) {
 template <typename Message>
 bool decodeMessage(const uint8_t* data, int size, Message& message) {
   if (!startsWithHash(data, size, Message::getHash())) return false;
-  if constexpr (WireShape<Message>::kLayout.empty()) {
-    if (size != message.getEncodedSize()) return false;
-  } else {
-    if (!matchesLayout(WireShape<Message>::kLayout, data + kHashBytes, size - kHashBytes)) return false;
-  }
+  if (!matchesLayout(WireShape<Message>::kLayout, data + kHashBytes, size - kHashBytes)) return false;
   return message.decode(data, 0, size) == size;
 }
 

@@ -105,13 +105,13 @@ std::optional<cv::Mat> decodeColour(const image_t& message) { return decodeColou
 std::optional<cv::Mat> decodeGrey(const image_t& message, int downscale) {
   if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
   switch (message.pixelformat) {
-    case kGray:
+    case image_t::GRAY:
       return convertRaw(message, 1, -1, downscale);
-    case kRgb:
+    case image_t::RGB:
       return convertRaw(message, 3, cv::COLOR_RGB2GRAY, downscale);
-    case kBgr:
+    case image_t::BGR:
       return convertRaw(message, 3, cv::COLOR_BGR2GRAY, downscale);
-    case kMjpeg:
+    case image_t::MJPEG:
       return decodeJpeg(message, false, downscale);
     default:
       return std::nullopt;
@@ -121,13 +121,13 @@ std::optional<cv::Mat> decodeGrey(const image_t& message, int downscale) {
 std::optional<cv::Mat> decodeColour(const image_t& message, int downscale) {
   if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
   switch (message.pixelformat) {
-    case kGray:
+    case image_t::GRAY:
       return convertRaw(message, 1, cv::COLOR_GRAY2BGR, downscale);
-    case kRgb:
+    case image_t::RGB:
       return convertRaw(message, 3, cv::COLOR_RGB2BGR, downscale);
-    case kBgr:
+    case image_t::BGR:
       return convertRaw(message, 3, -1, downscale);
-    case kMjpeg:
+    case image_t::MJPEG:
       return decodeJpeg(message, true, downscale);
     default:
       return std::nullopt;
@@ -140,7 +140,7 @@ image_t rawGreyMessage(int64_t utime, const cv::Mat& grey) {
   message.width = grey.cols;
   message.height = grey.rows;
   message.row_stride = grey.cols;
-  message.pixelformat = kGray;
+  message.pixelformat = image_t::GRAY;
   const cv::Mat whole = grey.isContinuous() ? grey : grey.clone();
   message.data.assign(whole.data, whole.data + whole.total());
   message.size = static_cast<int32_t>(message.data.size());
@@ -154,7 +154,7 @@ image_t jpegMessage(int64_t utime, const cv::Mat& image, int quality) {
   message.width = image.cols;
   message.height = image.rows;
   message.row_stride = 0;
-  message.pixelformat = kMjpeg;
+  message.pixelformat = image_t::MJPEG;
   cv::imencode(".jpg", image, message.data, {cv::IMWRITE_JPEG_QUALITY, quality});
   message.size = static_cast<int32_t>(message.data.size());
   message.nmetadata = 0;

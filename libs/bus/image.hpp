@@ -10,14 +10,6 @@
 
 namespace redbee {
 
-/// bot_core's fourcc numbers.
-enum PixelFormat : int32_t {
-  kGray = 1497715271,
-  kRgb = 859981650,
-  kBgr = 861030210,
-  kMjpeg = 1196444237,
-};
-
 /// Width and height that a JPEG's header declares; nothing where there is no such header. Decodes nothing.
 std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size);
 

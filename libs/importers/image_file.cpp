@@ -40,7 +40,7 @@ image_t untouchedJpeg(const std::filesystem::path& file, int64_t utime, std::vec
   message.utime = utime;
   message.width = size->width;
   message.height = size->height;
-  message.pixelformat = kMjpeg;
+  message.pixelformat = image_t::MJPEG;
   message.size = static_cast<int32_t>(bytes.size());
   message.data = std::move(bytes);
   return message;

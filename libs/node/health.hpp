@@ -61,8 +61,13 @@ class LatencyWindow {
   std::deque<double> values_;
 };
 
-/// Numbers as in process_health_t.
-enum class HealthState : int8_t { kStarting = 0, kGood = 1, kDegraded = 2, kStopping = 3, kDead = 4 };
+enum class HealthState : int8_t {
+  kStarting = process_health_t::STARTING,
+  kGood = process_health_t::GOOD,
+  kDegraded = process_health_t::DEGRADED,
+  kStopping = process_health_t::STOPPING,
+  kDead = process_health_t::DEAD,
+};
 /// "starting", "good", "degraded", "stopping", "dead".
 const char* toString(HealthState state);
 /// Nothing for a word that names no state.

@@ -60,6 +60,14 @@ const char* toString(VisualStatus status) {
   return "unknown";
 }
 
+HomographyPrediction compose(const HomographyPrediction& later, const HomographyPrediction& earlier,
+                             const ImageScaling& scaling) {
+  const auto J = composeJacobians(scaling.scale(later.H), scaling.scale(earlier.H));
+  return {normaliseHomography(later.H * earlier.H),
+          J.by_left * later.covariance * J.by_left.transpose() +
+              J.by_right * earlier.covariance * J.by_right.transpose()};
+}
+
 VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& parameters,
                                                      const cv::Mat& unseen)
     : parameters_(parameters), tracker_(parameters.tracker, unseen) {}

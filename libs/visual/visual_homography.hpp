@@ -36,6 +36,10 @@ struct HomographyPrediction {
   Matrix8d covariance;  ///< scaled
 };
 
+/// `earlier`, then `later`; their errors are taken as independent. `scaling`: that of both covariances.
+HomographyPrediction compose(const HomographyPrediction& later, const HomographyPrediction& earlier,
+                             const ImageScaling& scaling);
+
 struct VisualHomography {
   CameraTime time_previous{};
   CameraTime time{};

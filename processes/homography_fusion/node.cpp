@@ -11,11 +11,9 @@ namespace redbee {
 namespace {
 
 constexpr size_t kMaxPending = 64;
-constexpr int8_t kVisualGood = 0;
-constexpr auto kInertialInitialising = static_cast<int8_t>(InertialStatus::kInitialising);
 
 VisualInput inputOf(const visual_homography_t& visual) {
-  return {previousTimeOf(visual), matrix3(visual.H), matrix8(visual.covariance), visual.inliers,
+  return {previousTimeOf(visual), matrix3(visual.ground.H), matrix8(visual.ground.covariance), visual.inliers,
           visual.outliers};
 }
 
@@ -41,8 +39,8 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
 }
 
 bool HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
-  if (!plausibleTimes(message) || (!finiteHomography(message) && message.valid != 0)) return false;
-  if (message.valid == 0 && message.status == kInertialInitialising) {
+  if (!plausibleTimes(message) || (!isFinite(message.ground) && message.valid != 0)) return false;
+  if (message.valid == 0 && message.status == inertial_homography_t::INITIALISING) {
     inertial_at_first_frame_ = true;
   }
   expect(timeOf(message));
@@ -51,8 +49,8 @@ bool HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
 }
 
 bool HomographyFusionNode::takeVisual(const visual_homography_t& message) {
-  const bool is_good = message.status == kVisualGood;
-  if (!plausibleTimes(message) || (!finiteHomography(message) && is_good)) return false;
+  const bool is_good = message.status == visual_homography_t::GOOD;
+  if (!plausibleTimes(message) || (!isFinite(message.ground) && is_good)) return false;
   expect(timeOf(message));
   visual_.put(timeOf(message), message);
   return true;
@@ -117,29 +115,26 @@ void HomographyFusionNode::fuse(CameraTime time) {
   const visual_homography_t* visual = visual_.find(time);
   std::optional<InertialInput> inertial_input;
   if (inertial != nullptr && inertial->valid != 0) {
-    inertial_input =
-        InertialInput{previousTimeOf(*inertial), matrix3(inertial->H), matrix8(inertial->covariance)};
+    inertial_input = InertialInput{previousTimeOf(*inertial), matrix3(inertial->ground.H),
+                                   matrix8(inertial->ground.covariance)};
   }
   std::optional<VisualInput> visual_input;
-  if (visual != nullptr && visual->status == kVisualGood) visual_input = inputOf(*visual);
+  if (visual != nullptr && visual->status == visual_homography_t::GOOD) visual_input = inputOf(*visual);
   const FusedHomography fused = fusion_.step(time, inertial_input, visual_input);
   if (fused.has_innovation && inertial_input && visual_input) {
     validateCalibration(fused, *inertial_input, *visual_input);
   }
   const bool same_step = visual != nullptr && previousTimeOf(*visual) == fused.time_previous;
-  const PointTracks tracks = same_step ? tracksOf(*visual) : PointTracks{};
+  const PointTracks tracks = same_step ? tracksOf(visual->tracks) : PointTracks{};
   std::optional<HomographyEstimate> front;
   if (same_step && fused.source != FusionSource::kNone) front = front_plane_.estimate(tracks, fused.H_step);
 
   fused_homography_t message = messageOf(fused);
   if (inertial_input && inertial_input->time_previous == fused.time_previous) {
     message.has_motion = 1;
-    fill(message.R, matrix3(inertial->R));
-    fill(message.t, vector3(inertial->t));
-    fill(message.normal, vector3(inertial->normal));
-    message.plane_distance = inertial->plane_distance;
+    message.motion = inertial->motion;
   }
-  fillTracks(message, tracks);
+  fill(message.tracks, tracks);
   if (same_step && visual_input) addObservation(message, *visual_input);
   if (front) addFrontPlane(message, *front);
   noteAnswered();
@@ -167,10 +162,9 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
   message.utime_anchor = toUtime(fused.time_anchor);
   message.width = camera_.width;
   message.height = camera_.height;
-  fill(message.H, fused.H_step);
-  fill(message.covariance, fused.covariance_step);
-  fill(message.H_anchor, fused.H_anchor);
-  fill(message.covariance_anchor, fused.covariance_anchor);
+  message.calibration = calibration_.verdict();
+  fill(message.step, fused.H_step, fused.covariance_step);
+  fill(message.anchor, fused.H_anchor, fused.covariance_anchor);
   message.has_innovation = fused.has_innovation ? 1 : 0;
   if (fused.has_innovation) {
     fill(message.innovation, fused.innovation);
@@ -182,8 +176,7 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
 
 void HomographyFusionNode::addObservation(fused_homography_t& message, const VisualInput& visual) const {
   message.has_observation = 1;
-  fill(message.H_observed, visual.H);
-  fill(message.covariance_observed, measurementCovariance(visual, configuration_.fusion));
+  fill(message.observed, visual.H, measurementCovariance(visual, configuration_.fusion));
 }
 
 void HomographyFusionNode::addFrontPlane(fused_homography_t& message, const HomographyEstimate& front) {

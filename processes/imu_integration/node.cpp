@@ -59,6 +59,7 @@ bool ImuIntegrationNode::takeImu(const ins_t& message) {
 
 bool ImuIntegrationNode::takeFused(const fused_homography_t& message) {
   if (!plausibleTimes(message)) return false;
+  health().setCalibration(message.calibration);
   feedback_.put(timeOf(message), message);
   return true;
 }
@@ -102,8 +103,8 @@ void ImuIntegrationNode::applyFeedback() {
   if (!last_frame_) return;
   const fused_homography_t* fused = feedback_.find(*last_frame_);
   if (fused == nullptr || fused->has_observation == 0) return;
-  const HomographyObservation observation{previousTimeOf(*fused), timeOf(*fused), matrix3(fused->H_observed),
-                                          matrix8(fused->covariance_observed)};
+  const HomographyObservation observation{previousTimeOf(*fused), timeOf(*fused), matrix3(fused->observed.H),
+                                          matrix8(fused->observed.covariance)};
   if (!observation.H.allFinite() || !observation.covariance.allFinite()) {
     health().noteDamaged();
     return;
@@ -138,12 +139,8 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   message.valid = result.valid ? 1 : 0;
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
-  fill(message.H, result.H);
-  fill(message.covariance, result.covariance);
-  fill(message.R, result.motion.R_ba);
-  fill(message.t, result.motion.t_ba);
-  fill(message.normal, result.motion.m_a);
-  message.plane_distance = result.motion.h_a;
+  fill(message.ground, result.H, result.covariance);
+  fill(message.motion, result.motion);
   fill(message.rotation_covariance, result.rotation_covariance);
   fill(message.down, result.direction_of_gravity);
   message.camera_height = result.height_m;

@@ -12,8 +12,6 @@
 namespace redbee {
 namespace {
 
-constexpr int8_t kVisualGood = 0;
-
 /// How much smaller an image may be decoded.
 int imageDownscale(const DetectorNeeds& needs, const CameraIntrinsics& camera) {
   const auto divides = [&](const CameraIntrinsics& of) {
@@ -41,12 +39,13 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
   const auto& channels = configuration_.channels;
   if (!needs_.camera_motion) return;
   on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) {
-    if (!finiteHomography(m)) return false;
+    if (!isFinite(m.step)) return false;
     companions().put(timeOf(m), m);
+    health().setCalibration(m.calibration);
     return true;
   });
   on<visual_homography_t>(channels.visual_homography, [this](const visual_homography_t& m) {
-    if (finiteHomography(m)) visual_.put(timeOf(m), m);
+    if (isFinite(m.ground)) visual_.put(timeOf(m), m);
   });
 }
 
@@ -63,22 +62,21 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_
   input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
   input.sample_grid_px = configuration_.visual.tracker.grid_px;
   if (!last_) return input;
-  if (fused == nullptr || fused->source == 0) {
+  if (fused == nullptr || fused->source == fused_homography_t::NONE) {
     addVisual(input);
     return input;
   }
   if (fused->utime_previous == last_->utime) {
-    input.ground = matrix3(fused->H);
-    input.tracks = tracksOf(*fused);
+    input.ground = matrix3(fused->step.H);
+    input.tracks = tracksOf(fused->tracks);
     if (fused->has_front != 0) input.front = matrix3(fused->H_front);
     if (fused->has_motion != 0) {
-      input.motion =
-          PlaneMotion{matrix3(fused->R), vector3(fused->t), vector3(fused->normal), fused->plane_distance};
+      input.motion = motionOf(fused->motion);
     }
   } else if (fused->epoch == last_->epoch && fused->utime_anchor == last_->utime_anchor) {
     // A frame between was missed: the anchor homographies bridge it (libs/README.md, equation 25). A
     // restarted fusion counts its epochs from 0 again, so the anchor's time is compared as well.
-    input.ground = normaliseHomography(matrix3(fused->H_anchor) * last_->H_anchor.inverse());
+    input.ground = normaliseHomography(matrix3(fused->anchor.H) * last_->H_anchor.inverse());
   }
   return input;
 }
@@ -87,9 +85,11 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_
 /// keeps background and identities.
 void MotionSegmentationNode::addVisual(FrameInput& input) const {
   const visual_homography_t* visual = visual_.find(timeOf(input));
-  if (visual == nullptr || visual->status != kVisualGood || visual->utime_previous != last_->utime) return;
-  input.ground = matrix3(visual->H);
-  input.tracks = tracksOf(*visual);
+  if (visual == nullptr || visual->status != visual_homography_t::GOOD ||
+      visual->utime_previous != last_->utime)
+    return;
+  input.ground = matrix3(visual->ground.H);
+  input.tracks = tracksOf(visual->tracks);
 }
 
 void MotionSegmentationNode::work(const image_t& message) {
@@ -101,7 +101,7 @@ void MotionSegmentationNode::work(const image_t& message) {
   publishOutput(message, input, output);
   noteState(output.status, fused != nullptr);
   if (fused != nullptr) {
-    last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->H_anchor)};
+    last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->anchor.H)};
   } else {
     last_ = Last{message.utime, -1, 0, Eigen::Matrix3d::Identity()};
   }
@@ -110,7 +110,7 @@ void MotionSegmentationNode::work(const image_t& message) {
 }
 
 void MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {
-  const bool is_colour = needs_.colour && message.pixelformat != kGray;
+  const bool is_colour = needs_.colour && message.pixelformat != image_t::GRAY;
   const IdealImage image = camera_.ideal(message, is_colour, health());
   input.grey = image.grey;
   input.colour = image.colour;

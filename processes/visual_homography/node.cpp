@@ -6,11 +6,6 @@
 #include "redbee/geometry/time.hpp"
 
 namespace redbee {
-namespace {
-
-constexpr int8_t kImageDoesNotFit = 4;
-
-}  // namespace
 VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& configuration)
     : ImageStage(bus, programName(kVisualHomography), configurationHash(configuration),
                  configuration.channels.camera, configuration.waits.max_backlog,
@@ -21,7 +16,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
       estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual, rectifier_.unseen())) {
   on<inertial_homography_t>(configuration_.channels.inertial_homography,
                             [this](const inertial_homography_t& m) {
-                              const bool plausible = plausibleTimes(m) && finiteHomography(m);
+                              const bool plausible = plausibleTimes(m) && isFinite(m.ground);
                               if (plausible) companions().put(timeOf(m), m);
                               return plausible;
                             });
@@ -39,7 +34,7 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime 
   for (CameraTime at = time; at > *from;) {
     const inertial_homography_t* link = companions().find(at);
     if (link == nullptr || link->valid == 0 || previousTimeOf(*link) >= at) return std::nullopt;
-    const HomographyPrediction step{matrix3(link->H), matrix8(link->covariance)};
+    const HomographyPrediction step{matrix3(link->ground.H), matrix8(link->ground.covariance)};
     if (!chain) {
       chain = step;
     } else {
@@ -74,7 +69,7 @@ void VisualHomographyNode::refuse(const image_t& image) {
   const CameraIntrinsics& camera = configuration_.camera;
   visual_homography_t message{};
   message.utime_previous = toUtime(estimator_->previousTime().value_or(timeOf(image)));
-  message.status = kImageDoesNotFit;
+  message.status = visual_homography_t::IMAGE_DOES_NOT_FIT;
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
   publish(configuration_.channels.visual_homography, message);
@@ -91,15 +86,12 @@ void VisualHomographyNode::publishResult(const VisualHomography& result) {
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
   message.sampled = result.tracks.sampled;
-  fillTracks(message, result.tracks);
-  message.inlier.assign(result.tracks.current.size(), 0);
+  fill(message.tracks, result.tracks, result.ground ? result.ground->inlier : std::vector<uint8_t>{});
   if (result.ground) {
-    fill(message.H, result.ground->H);
-    fill(message.covariance, result.ground->covariance);
+    fill(message.ground, result.ground->H, result.ground->covariance);
     message.inliers = result.ground->inliers;
     message.outliers = result.ground->outliers;
     message.rms = result.ground->rms_px;
-    message.inlier.assign(result.ground->inlier.begin(), result.ground->inlier.end());
   }
   publish(configuration_.channels.visual_homography, message);
   const bool good = result.status == VisualStatus::kGood;

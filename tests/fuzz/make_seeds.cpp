@@ -16,6 +16,7 @@
 #include "redbee/ins_t.hpp"
 #include "redbee/process_health_t.hpp"
 #include "redbee/results/video_writer.hpp"
+#include "tests/bus/sample_messages.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 #include "tests/fuzz/small_vehicle.hpp"
 
@@ -134,18 +135,17 @@ void writeMessageSeeds(const fs::path& folder, const std::vector<Event>& flight,
   }
   appendRecord(begun, keptState(flight));
   write(folder / "messages" / "warm_start", begun);
-  std::map<uint8_t, Event> one_of_each;
-  for (const auto* events : {&flight, &output}) {
-    for (const Event& event : *events) one_of_each.insert_or_assign(event.channel, event);
-  }
-  const auto writeCodecSeed = [&](uint8_t type, const Event& event) {
-    Bytes seed = {type};
-    seed.insert(seed.end(), event.data.begin() + kHashBytes, event.data.end());
-    write(folder / "codec" / event.name, seed);
+}
+
+template <typename... Messages>
+void writeCodecSeeds(const fs::path& folder, TypeList<Messages...>) {
+  uint8_t pick = 0;
+  const auto seedOf = [&](const Bytes& encoded) {
+    Bytes seed = {pick++};
+    seed.insert(seed.end(), encoded.begin() + kHashBytes, encoded.end());
+    return seed;
   };
-  for (const auto& [channel, event] : one_of_each) writeCodecSeed(channel, event);
-  constexpr uint8_t kStateType = 9;
-  writeCodecSeed(kStateType, keptState(flight));
+  (write(folder / "codec" / Messages::getTypeName(), seedOf(encodeMessage(test::sample<Messages>()))), ...);
 }
 
 void writeLogSeed(const fs::path& folder, const std::vector<Event>& flight) {
@@ -228,6 +228,7 @@ int main(int argc, char** argv) {
   const fs::path folder = argv[1];
   const auto flight = inputs();
   writeMessageSeeds(folder, flight, outputs(flight));
+  writeCodecSeeds(folder, redbee::MessageTypes{});
   writeLogSeed(folder, flight);
   writeTableSeeds(folder);
   writeGpmfSeed(folder);

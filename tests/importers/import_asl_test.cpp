@@ -30,7 +30,7 @@ TEST_F(ImportAslTest, AWholeFlightBecomesALogInTheOrderOfTime) {
   ASSERT_EQ(frames.size(), 5u);
   // 600 ns past the microsecond: rounded up, not cut off.
   EXPECT_EQ(frames[0].utime, kAslStart / 1000 + 1);
-  EXPECT_EQ(frames[0].pixelformat, kMjpeg);
+  EXPECT_EQ(frames[0].pixelformat, image_t::MJPEG);
   const std::string original = readText(images_[0]);
   EXPECT_EQ(std::string(frames[0].data.begin(), frames[0].data.end()), original)
       << "the JPEG's bytes were touched";
@@ -87,7 +87,7 @@ TEST_F(ImportAslTest, GreyPngsKeepEveryPixel) {
   import();
   const auto frames = messagesOn<image_t>(readEvents(log()), "CAMERA");
   ASSERT_EQ(frames.size(), 5u);
-  EXPECT_EQ(frames[2].pixelformat, kGray);
+  EXPECT_EQ(frames[2].pixelformat, image_t::GRAY);
   const auto grey = decodeGrey(frames[2]);
   ASSERT_TRUE(grey);
   EXPECT_EQ(cv::norm(*grey, texture(64, 48, 2, 1), cv::NORM_INF), 0);

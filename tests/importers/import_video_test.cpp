@@ -81,7 +81,7 @@ TEST_F(ImportVideoTest, AChosenWidthKeepsTheAspect) {
   ASSERT_EQ(frames.size(), static_cast<size_t>(kFrames));
   EXPECT_EQ(frames[0].width, 48);
   EXPECT_EQ(frames[0].height, 32);
-  EXPECT_EQ(frames[0].pixelformat, kGray);
+  EXPECT_EQ(frames[0].pixelformat, image_t::GRAY);
   EXPECT_EQ(frames[0].size, 48 * 32);
 }
 

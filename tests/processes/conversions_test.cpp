@@ -4,13 +4,13 @@
 
 #include <limits>
 
-#include "redbee/visual_homography_t.hpp"
+#include "redbee/tracks_t.hpp"
 
 namespace redbee {
 namespace {
 
 TEST(Conversions, PointsThatLieNowhereAreLeftOut) {
-  visual_homography_t message{};
+  tracks_t message{};
   message.x_previous = {1, std::numeric_limits<float>::quiet_NaN(), 3, 4};
   message.y_previous = {1, 2, 3, 4};
   message.x = {1, 2, std::numeric_limits<float>::infinity(), 4};

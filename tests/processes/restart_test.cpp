@@ -185,8 +185,8 @@ TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
     fused.source = static_cast<int8_t>(FusionSource::kVisual);
     fused.epoch = 1;
     fused.utime_anchor = utime_anchor;
-    fill(fused.H, walk().homographies[static_cast<size_t>(k)]);
-    fill(fused.H_anchor, walk().homographies[static_cast<size_t>(k)]);
+    fill(fused.step.H, walk().homographies[static_cast<size_t>(k)]);
+    fill(fused.anchor.H, walk().homographies[static_cast<size_t>(k)]);
     bus->publish("FUSED_HOMOGRAPHY", fused);
     for (const SensorMessage& sent : walk().messages) {
       if (sent.channel == "CAMERA" && sent.utime == utimeOf(k)) bus->publish(sent.channel, sent.data);

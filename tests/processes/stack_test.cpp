@@ -111,8 +111,8 @@ TEST(Stack, TwoRunsAgreeToTheBit) {
   for (const auto& [utime, foreground] : first.foreground) {
     EXPECT_EQ(foreground.mask, second.foreground.at(utime).mask);
     EXPECT_EQ(foreground.probability, second.foreground.at(utime).probability);
-    EXPECT_TRUE(std::equal(std::begin(first.fused.at(utime).H), std::end(first.fused.at(utime).H),
-                           std::begin(second.fused.at(utime).H)));
+    EXPECT_TRUE(std::equal(std::begin(first.fused.at(utime).step.H), std::end(first.fused.at(utime).step.H),
+                           std::begin(second.fused.at(utime).step.H)));
   }
 }
 
@@ -223,10 +223,11 @@ TEST(Stack, ACalibrationThatDoesNotFitIsReported) {
       expSO3({0, 0, M_PI / 2}) *
       flight.configuration.inertial.extrinsics.R_CI;  // axes swapped, the usual mistake
   const StackOutput wrong = StackRun(flight).run();
-  const std::string fusion = programName(kHomographyFusion);
-  EXPECT_EQ(right.health.at(fusion).calibration, "fits");
-  EXPECT_NE(wrong.health.at(fusion).calibration, "fits");
-  std::cout << wrong.health.at(fusion).calibration << '\n';
+  // The fusion decides; its message carries the verdict to the processes that work with it.
+  for (const ProcessDescription* process : {&kImuIntegration, &kHomographyFusion, &kMotionSegmentation}) {
+    EXPECT_EQ(right.health.at(programName(*process)).calibration, "fits") << process->name;
+    EXPECT_NE(wrong.health.at(programName(*process)).calibration, "fits") << process->name;
+  }
 }
 
 TEST(Stack, RandomBytesOnEveryChannelAreCountedAndChangeNothing) {

@@ -83,7 +83,7 @@ TEST(WarmStart, AStateThatVisionContradictsIsNotPublished) {
     // The image rolls to and fro while the gyro measures no such rotation.
     const Eigen::Vector3d roll(0, 0, k % 2 == 0 ? 0.5 : -0.5);
     const Eigen::Matrix3d K = camera().K();
-    fill(m.H, normaliseHomography(K * expSO3(roll) * K.inverse() * matrix3(m.H)));
+    fill(m.ground.H, normaliseHomography(K * expSO3(roll) * K.inverse() * matrix3(m.ground.H)));
   };
   const RunResult result = run(flight, faults);
   int after = 0;

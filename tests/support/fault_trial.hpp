@@ -60,7 +60,7 @@ inline bool agrees(const StackOutput& output, const StackOutput& expected, int64
   const fused_homography_t& calm = expected.fused.at(utime);
   if (fused->second.source != calm.source || fused->second.utime_previous != calm.utime_previous)
     return false;
-  const Eigen::Matrix3d H = Eigen::Map<const RowMajor3d>(calm.H);
+  const Eigen::Matrix3d H = Eigen::Map<const RowMajor3d>(calm.step.H);
   if (groundError(fused->second, H) > kSamePx || foreground->second.status != 0) return false;
   const cv::Mat mask = maskOf(foreground->second);
   const cv::Mat calm_mask = maskOf(expected.foreground.at(utime));

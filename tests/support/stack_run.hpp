@@ -107,7 +107,7 @@ class StackRun {
 };
 
 inline double groundError(const fused_homography_t& fused, const Eigen::Matrix3d& truth) {
-  return meanTransferError(Eigen::Map<const RowMajor3d>(fused.H), truth, fused.width, fused.height);
+  return meanTransferError(Eigen::Map<const RowMajor3d>(fused.step.H), truth, fused.width, fused.height);
 }
 
 }  // namespace redbee::test

@@ -151,8 +151,7 @@ class WarmStartRun {
     vision.height = kHeight;
     const HomographyObservation seen = noisyHomography(
         frame_ > 0 ? flight_.step(frame_) : Eigen::Matrix3d::Identity().eval(), kNoise_px, random_);
-    fill(vision.H, seen.H);
-    fill(vision.covariance, seen.covariance);
+    fill(vision.ground, seen.H, seen.covariance);
     vision.inliers = 48;
     if (faults_.corrupt_vision) faults_.corrupt_vision(frame_, vision);
     return vision;
@@ -182,7 +181,7 @@ struct Errors {
 };
 
 inline double error_px(const WarmStartFlight& flight, const RunResult& result, int k) {
-  return meanTransferError(matrix3(result.homographies.at(k).H), flight.step(k), kWidth, kHeight);
+  return meanTransferError(matrix3(result.homographies.at(k).ground.H), flight.step(k), kWidth, kHeight);
 }
 
 inline Errors errorsFrom(const WarmStartFlight& flight, const RunResult& result, int first) {

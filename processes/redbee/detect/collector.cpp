@@ -78,9 +78,7 @@ void ResultCollector::takeForeground(const foreground_t& message) {
 void ResultCollector::takeFused(const fused_homography_t& message) {
   fused_sequence_.note(message.sequence);
   fused_homography_t& kept = homographies_[message.utime] = message;
-  kept.n = 0;
-  for (auto* array : {&kept.x_previous, &kept.y_previous, &kept.x, &kept.y})
-    std::vector<float>().swap(*array);
+  kept.tracks = {};
 }
 
 void ResultCollector::writeDetections() const {
@@ -102,7 +100,7 @@ void ResultCollector::writeHomographies() const {
   for (const auto& [utime, fused] : homographies_) {
     FrameHomographies row;
     row.epoch = fused.epoch;
-    if (fused.source != 0) row.ground = matrix3(fused.H);
+    if (fused.source != fused_homography_t::NONE) row.ground = matrix3(fused.step.H);
     if (fused.has_front != 0) row.front = matrix3(fused.H_front);
     row.source = toString(static_cast<FusionSource>(fused.source));
     csv.write(utime, row);

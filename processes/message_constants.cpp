@@ -1,0 +1,44 @@
+// The libraries know no messages, so their states and the messages' constants are compared here.
+#include <cstdint>
+
+#include "redbee/detection/detector.hpp"
+#include "redbee/foreground_t.hpp"
+#include "redbee/fused_homography_t.hpp"
+#include "redbee/fusion/fused_homography.hpp"
+#include "redbee/inertial/inertial_homography.hpp"
+#include "redbee/inertial_homography_t.hpp"
+#include "redbee/visual/visual_homography.hpp"
+#include "redbee/visual_homography_t.hpp"
+
+namespace redbee {
+namespace {
+
+template <typename State>
+constexpr bool is(State state, int8_t constant) {
+  return static_cast<int8_t>(state) == constant;
+}
+
+static_assert(is(InertialStatus::kGood, inertial_homography_t::GOOD));
+static_assert(is(InertialStatus::kInitialising, inertial_homography_t::INITIALISING));
+static_assert(is(InertialStatus::kImuGap, inertial_homography_t::IMU_GAP_BRIDGED));
+static_assert(is(InertialStatus::kNoImu, inertial_homography_t::NO_IMU));
+static_assert(is(InertialStatus::kClockJump, inertial_homography_t::CLOCK_JUMP));
+static_assert(is(InertialStatus::kBadSamples, inertial_homography_t::IMPLAUSIBLE_SAMPLES));
+
+static_assert(is(VisualStatus::kGood, visual_homography_t::GOOD));
+static_assert(is(VisualStatus::kFirstFrame, visual_homography_t::FIRST_FRAME));
+static_assert(is(VisualStatus::kNoTexture, visual_homography_t::NO_TEXTURE));
+static_assert(is(VisualStatus::kNoPlane, visual_homography_t::NO_PLANE));
+
+static_assert(is(FusionSource::kNone, fused_homography_t::NONE));
+static_assert(is(FusionSource::kInertial, fused_homography_t::INERTIAL));
+static_assert(is(FusionSource::kVisual, fused_homography_t::VISUAL));
+static_assert(is(FusionSource::kFused, fused_homography_t::FUSED));
+
+static_assert(is(DetectorStatus::kGood, foreground_t::GOOD));
+static_assert(is(DetectorStatus::kLearning, foreground_t::LEARNING));
+static_assert(is(DetectorStatus::kNoHomography, foreground_t::NO_HOMOGRAPHY));
+static_assert(is(DetectorStatus::kBadImage, foreground_t::BAD_IMAGE));
+
+}  // namespace
+}  // namespace redbee
