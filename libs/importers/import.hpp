@@ -40,6 +40,9 @@ struct ImportOptions {
   /// [rad/s], ax ay az [m/s^2, specific force]. Other columns are ignored. The axes are the IMU's; the
   /// vehicle's R_CI relates the camera to them.
   std::optional<std::filesystem::path> imu;
+  /// Kalibr's camchain.yaml or camchain-imucam.yaml; what it states counts before what the recording states.
+  std::optional<std::filesystem::path> camchain;
+  std::string camchain_camera = "cam0";  ///< its section of the camchain
 };
 
 /// What a recording states about its vehicle. The rest stays empty and is taken from the reference
@@ -51,6 +54,7 @@ struct VehicleDescription {
   std::optional<CameraIntrinsics> intrinsics;
   std::optional<Eigen::Matrix3d> R_CI;  ///< turns IMU coordinates into camera coordinates
   std::optional<Eigen::Vector3d> p_IC;  ///< m, camera centre in the IMU frame
+  std::optional<double> timeshift_s;    ///< t_imu = t_cam + timeshift
   std::optional<ImuNoise> noise;
   bool has_imu = false;
   std::optional<AltitudeSample> start_height;  ///< altimeter at the first frame

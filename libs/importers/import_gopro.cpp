@@ -34,7 +34,6 @@ ImportSummary importGopro(const ImportOptions& options, Progress& progress) {
   FlightMerger merger(options.log, options.channels, readImu(options.source), {});
   addVideoFrames(options, merger, summary, progress);
   merger.close(summary);
-  assumeIntrinsics(summary);
   return summary;
 }
 

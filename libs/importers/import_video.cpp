@@ -120,7 +120,6 @@ ImportSummary importVideo(const ImportOptions& options, Progress& progress) {
     addVideoFrames(options, merger, summary, progress);
   }
   merger.close(summary);
-  assumeIntrinsics(summary);
   return summary;
 }
 

@@ -1,14 +1,62 @@
 #include "redbee/importers/importer.hpp"
 
+#include <cmath>
+
+#include "redbee/files/input_error.hpp"
 #include "redbee/importers/import_asl.hpp"
 #include "redbee/importers/import_gopro.hpp"
 #include "redbee/importers/import_video.hpp"
+#include "redbee/importers/sensor_yaml.hpp"
 
 namespace redbee {
+namespace {
+
+std::string sizeOf(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+/// The vehicle's camera is the calibrated one at the images' size.
+void setCamera(const CamchainCamera& calibrated, const std::filesystem::path& file,
+               VehicleDescription& vehicle) {
+  CameraIntrinsics camera = calibrated.intrinsics;
+  const double scale = static_cast<double>(vehicle.width) / camera.width;
+  if (std::abs(scale * camera.height - vehicle.height) > 1) {
+    throw InputError(file, "resolution: is " + sizeOf(camera.width, camera.height) + ", the images are " +
+                               sizeOf(vehicle.width, vehicle.height) +
+                               ": another camera, or cropped; calibrate in the mode that records");
+  }
+  camera.width = vehicle.width;
+  camera.height = vehicle.height;
+  camera.fx *= scale;
+  camera.fy *= scale;
+  // Pixel (0, 0) is the middle of the first pixel, half a pixel from the image's corner.
+  camera.cx = scale * (camera.cx + 0.5) - 0.5;
+  camera.cy = scale * (camera.cy + 0.5) - 0.5;
+  vehicle.intrinsics = camera;
+  if (calibrated.R_CI) vehicle.R_CI = calibrated.R_CI;
+  if (calibrated.p_IC) vehicle.p_IC = calibrated.p_IC;
+  if (calibrated.timeshift_s) vehicle.timeshift_s = calibrated.timeshift_s;
+}
+
+}  // namespace
 
 const std::vector<Importer>& importers() {
   static const std::vector<Importer> all{aslImporter(), videoImporter(), goproImporter()};
   return all;
+}
+
+ImportSummary importRecording(const Importer& importer, const ImportOptions& options, Progress& progress) {
+  std::optional<CamchainCamera> calibrated;
+  if (options.camchain) calibrated = readCamchain(*options.camchain, options.camchain_camera);
+  ImportSummary summary = importer.import(options, progress);
+  if (calibrated) {
+    try {
+      setCamera(*calibrated, *options.camchain, summary.vehicle);
+    } catch (const InputError&) {
+      std::filesystem::remove(options.log);
+      throw;
+    }
+  }
+  if (!summary.vehicle.intrinsics) assumeIntrinsics(summary);
+  return summary;
 }
 
 }  // namespace redbee

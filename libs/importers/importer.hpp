@@ -28,4 +28,9 @@ struct Importer {
 
 const std::vector<Importer>& importers();
 
+/// Imports, then completes the camera: by the camchain where there is one, its intrinsics scaled to the
+/// images' size; by an assumed focal length where the recording states none (assumeIntrinsics()). Throws
+/// InputError, and then there is no log.
+ImportSummary importRecording(const Importer& importer, const ImportOptions& options, Progress& progress);
+
 }  // namespace redbee

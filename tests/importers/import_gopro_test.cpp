@@ -6,6 +6,7 @@
 
 #include "redbee/image_t.hpp"
 #include "redbee/importers/gopro_imu.hpp"
+#include "redbee/importers/importer.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/results/video_writer.hpp"
 #include "tests/support/log_events.hpp"
@@ -51,7 +52,7 @@ TEST(ImportGoproTest, AKarmaFlight) {
   options.source = *flight / "karma.mp4";
   options.log = folder / "karma.lcm";
   Progress progress("importing", "frames", true);
-  const ImportSummary summary = goproImporter().import(options, progress);
+  const ImportSummary summary = importRecording(goproImporter(), options, progress);
   std::cout << summary.frames << " frames, gyro " << summary.imu_rate_hz << " Hz, " << summary.imu_samples
             << " samples\n";
   EXPECT_EQ(summary.frames, 362);

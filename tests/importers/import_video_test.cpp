@@ -6,6 +6,7 @@
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/importers/importer.hpp"
 #include "redbee/importers/video_reader.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/results/video_writer.hpp"
@@ -32,7 +33,7 @@ class ImportVideoTest : public testing::Test {
   }
   ImportSummary import() const {
     Progress progress("importing", "frames", true);
-    return videoImporter().import(options_, progress);
+    return importRecording(videoImporter(), options_, progress);
   }
   std::string complaint() const {
     std::string line = complaintOf([&] { import(); });

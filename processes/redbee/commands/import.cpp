@@ -45,9 +45,13 @@ void addImporter(CLI::App& import, const Importer& importer) {
   if (importer.takes.fps)
     command->add_option("--fps", options->fps, "frames per second of a folder of images");
   addOutOption(*command, options->log, "log to write; the vehicle's configuration goes beside it");
-  command->callback([options, import = importer.import] {
+  command->add_option("--camchain", options->camchain,
+                      "the camera's calibration: Kalibr's camchain.yaml or camchain-imucam.yaml");
+  command->add_option("--camera", options->camchain_camera, "the camera's section of the camchain")
+      ->capture_default_str();
+  command->callback([options, importer] {
     Progress progress("importing " + options->source.string(), "frames");
-    printSummary(import(*options, progress), options->log);
+    printSummary(importRecording(importer, *options, progress), options->log);
   });
 }
 

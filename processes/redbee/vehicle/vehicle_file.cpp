@@ -29,6 +29,10 @@ void setCamera(const VehicleDescription& vehicle, Configuration& configuration, 
     extrinsics.p_IC = *vehicle.p_IC;
     append(keys, {"camera.p_IC"});
   }
+  if (vehicle.timeshift_s) {
+    extrinsics.timeshift_s = *vehicle.timeshift_s;
+    append(keys, {"camera.timeshift_s"});
+  }
 }
 
 }  // namespace
