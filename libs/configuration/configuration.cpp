@@ -34,6 +34,14 @@ Configuration loadConfiguration(const std::filesystem::path& file) {
   return loader.configuration();
 }
 
+Configuration loadConfiguration(const std::filesystem::path& file, const ConfigurationOverrides& overrides) {
+  configuration::Loader loader;
+  loader.loadFile(file);
+  loader.applyOverrides(overrides);
+  loader.checkWhole(file);
+  return loader.configuration();
+}
+
 void applySetting(Configuration& configuration, const std::string& key, const std::string& text) {
   const auto* setting = configuration::findSetting(key);
   if (setting == nullptr)
@@ -45,13 +53,6 @@ void applySetting(Configuration& configuration, const std::string& key, const st
   } catch (const YAML::Exception& error) {
     throw ConfigurationError("command line: " + key + ": " + error.msg);
   }
-}
-
-bool applyPreset(Configuration& configuration, const std::string& name) {
-  const auto* preset = configuration::findPreset(name);
-  if (preset == nullptr) return false;
-  for (const auto& [key, text] : *preset) applySetting(configuration, key, text);
-  return true;
 }
 
 std::vector<std::string> presetNames() { return configuration::presetNames(); }

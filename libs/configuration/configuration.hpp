@@ -76,11 +76,16 @@ class ConfigurationError : public UserError {
 /// threshold above its threshold, files that include each other.
 Configuration loadConfiguration(const std::filesystem::path& file);
 
-/// Sets one key (`detection.objects.threshold`) from YAML text, as a command line gives it. Throws
-/// ConfigurationError.
+/// What a command line sets over the file, the preset first.
+struct ConfigurationOverrides {
+  std::string preset;                 ///< empty: none
+  std::vector<std::string> settings;  ///< KEY=VALUE, `detection.objects.threshold=0.5`
+};
+/// The same, with the same checks of the whole.
+Configuration loadConfiguration(const std::filesystem::path& file, const ConfigurationOverrides& overrides);
+
+/// Sets one key from YAML text. Checks its own rule, not the whole. Throws ConfigurationError.
 void applySetting(Configuration& configuration, const std::string& key, const std::string& text);
-/// Sets all keys of a preset. False for a name that is no preset.
-bool applyPreset(Configuration& configuration, const std::string& name);
 /// In alphabetical order.
 std::vector<std::string> presetNames();
 

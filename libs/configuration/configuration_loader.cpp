@@ -33,7 +33,8 @@ std::string listOf(const std::vector<std::string>& names) {
 }  // namespace
 
 void Loader::fail(const Place& place, const std::string& key, const std::string& what) {
-  throw ConfigurationError(place.file + ":" + std::to_string(place.line) + ": " + oneLine(key + ": " + what));
+  const std::string line = place.line > 0 ? ":" + std::to_string(place.line) : "";
+  throw ConfigurationError(place.file + line + ": " + oneLine(key + ": " + what));
 }
 
 Loader::Place Loader::placeOf(const YAML::Node& node) const {
@@ -80,9 +81,29 @@ void Loader::includeOne(const YAML::Node& name) {
 void Loader::applyPreset(const YAML::Node& root) {
   const YAML::Node name = root["preset"];
   if (!name) return;
-  const PresetValues* preset = name.IsScalar() ? findPreset(name.Scalar()) : nullptr;
-  if (preset == nullptr) fail(placeOf(name), "preset", "must be one of " + listOf(presetNames()));
-  for (const auto& [key, text] : *preset) apply(key, YAML::Load(text), placeOf(name));
+  applyPreset(name.IsScalar() ? name.Scalar() : "", placeOf(name));
+}
+
+void Loader::applyPreset(const std::string& name, const Place& place) {
+  const PresetValues* preset = findPreset(name);
+  if (preset == nullptr) fail(place, "preset", "must be one of " + listOf(presetNames()));
+  for (const auto& [key, text] : *preset) apply(key, YAML::Load(text), place);
+}
+
+void Loader::applyOverrides(const ConfigurationOverrides& overrides) {
+  const Place place{"command line", 0};
+  if (!overrides.preset.empty()) applyPreset(overrides.preset, place);
+  for (const std::string& setting : overrides.settings) {
+    const size_t equals = setting.find('=');
+    if (equals == std::string::npos) fail(place, setting, "expected key=value");
+    const std::string key = setting.substr(0, equals);
+    if (findSetting(key) == nullptr) fail(place, key, unknownKey(key));
+    try {
+      apply(key, YAML::Load(setting.substr(equals + 1)), place);
+    } catch (const YAML::Exception& error) {
+      fail(place, key, error.msg);
+    }
+  }
 }
 
 void Loader::applySection(const YAML::Node& section, const std::string& prefix) {

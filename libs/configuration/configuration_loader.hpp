@@ -17,6 +17,7 @@ class Loader {
  public:
   /// All functions throw ConfigurationError.
   void loadFile(const std::filesystem::path& file);
+  void applyOverrides(const ConfigurationOverrides& overrides);
   /// Checks of the whole: a camera that is not described, a lens with the wrong number of coefficients,
   /// channels with the same name, waits in the wrong order, an extent threshold above its threshold.
   void checkWhole(const std::filesystem::path& file) const;
@@ -25,7 +26,7 @@ class Loader {
  private:
   struct Place {
     std::string file;
-    int line = 1;
+    int line = 1;  ///< 0: not of a file
   };
 
   void checkCamera() const;
@@ -34,6 +35,7 @@ class Loader {
   void applyIncludes(const YAML::Node& root);
   void includeOne(const YAML::Node& name);
   void applyPreset(const YAML::Node& root);
+  void applyPreset(const std::string& name, const Place& place);
   void applySection(const YAML::Node& section, const std::string& prefix);
   void applyEntry(const YAML::Node& name, const YAML::Node& value, const std::string& key);
   void apply(const std::string& key, const YAML::Node& value, const Place& place);

@@ -27,13 +27,8 @@ const std::vector<LogEvent>& flight() {
 }
 
 Configuration configurationOf(const std::string& preset, const std::vector<std::string>& settings) {
-  Configuration configuration = loadConfiguration(REDBEE_SOURCE_DIR "/config/park1.yaml");
-  applyPreset(configuration, preset);
+  Configuration configuration = loadConfiguration(REDBEE_SOURCE_DIR "/config/park1.yaml", {preset, settings});
   configuration.overlay_period_frames = 0;
-  for (const std::string& setting : settings) {
-    const size_t equals = setting.find('=');
-    applySetting(configuration, setting.substr(0, equals), setting.substr(equals + 1));
-  }
   return configuration;
 }
 

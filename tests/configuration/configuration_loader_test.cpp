@@ -4,6 +4,7 @@
 namespace redbee::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -115,6 +116,27 @@ TEST_F(ConfigurationLoader, FilesThatIncludeEachOtherAreRefused) {
   EXPECT_THAT(complaint(std::string("include: other.yaml\n") + kCamera),
               StartsWith("other.yaml:2: include: "));
   EXPECT_THAT(complaint("include: vehicle.yaml\n"), StartsWith("vehicle.yaml:1: include: "));
+}
+
+TEST_F(ConfigurationLoader, TheCommandLineIsCheckedWithTheWhole) {
+  const fs::path file = write("vehicle.yaml", kCamera);
+  const auto faultOf = [&](const std::string& preset, const std::string& setting) -> std::string {
+    try {
+      loadConfiguration(file, {preset, {setting}});
+    } catch (const ConfigurationError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(faultOf("vision_only", "visual.tracker.grid_px=16"), "");
+  EXPECT_THAT(
+      faultOf("", "detection.objects.extent_threshold=0.9"),
+      AllOf(StartsWith("command line: detection.objects.extent_threshold: "), HasSubstr("must not exceed")));
+  EXPECT_THAT(faultOf("", "waits.visual_s=3"), HasSubstr("must be longer"));
+  EXPECT_THAT(faultOf("", "visual.tracker.grid_px"), HasSubstr("expected key=value"));
+  EXPECT_THAT(faultOf("", "segmentation.threshold=0.5"), HasSubstr("was renamed to"));
+  EXPECT_THAT(faultOf("", "visual.tracker.grid_px=[1"), StartsWith("command line: visual.tracker.grid_px: "));
+  EXPECT_THAT(faultOf("nonsense", "visual.tracker.grid_px=16"), HasSubstr("must be one of"));
 }
 
 }  // namespace

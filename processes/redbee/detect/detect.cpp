@@ -42,21 +42,17 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 Configuration configurationFor(const DetectOptions& options) {
-  Configuration configuration = loadConfiguration(options.configuration);
   if (!contains(methodNames(), options.method)) {
     throw InputError("--method " + options.method + ": unknown; known are " + methodList());
   }
+  ConfigurationOverrides overrides;
   if (contains(detectorNames(), options.method)) {
-    applySetting(configuration, "detection.method", options.method);
-  } else {
-    applyPreset(configuration, options.method);
+    overrides.settings.push_back("detection.method=" + options.method);
+  } else if (contains(presetNames(), options.method)) {
+    overrides.preset = options.method;
   }
-  for (const std::string& assignment : options.settings) {
-    const size_t equals = assignment.find('=');
-    if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected key=value");
-    applySetting(configuration, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
-  return configuration;
+  overrides.settings.insert(overrides.settings.end(), options.settings.begin(), options.settings.end());
+  return loadConfiguration(options.configuration, overrides);
 }
 
 bool isInput(const Channels& channels, const std::string& channel) {
