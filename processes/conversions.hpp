@@ -136,13 +136,13 @@ inline void fill(homography_t& message, const Eigen::Matrix3d& H,
   fill(message.covariance, covariance);
 }
 
-/// True where the message is about two frames at times that a clock can show.
+/// True if the message is about two frames at times that a clock can show.
 template <typename Message>
 bool plausibleTimes(const Message& message) {
   return isPlausibleTime(timeOf(message)) && isPlausibleTime(previousTimeOf(message));
 }
 
-/// True where all numbers of a homography are finite.
+/// True if all numbers of a homography are finite.
 inline bool isFinite(const homography_t& message) {
   return matrix3(message.H).allFinite() && matrix8(message.covariance).allFinite() && message.H[8] != 0;
 }

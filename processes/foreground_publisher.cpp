@@ -31,7 +31,7 @@ detections_t detectionsMessage(const DetectorOutput& output) {
   return message;
 }
 
-/// Box on the raw grid around a box on the ideal grid; empty where the raw image does not show it.
+/// Box on the raw grid around a box on the ideal grid; empty if the raw image does not show it.
 cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
   const cv::Rect image(0, 0, camera.intrinsics().width, camera.intrinsics().height);
   Eigen::Vector2d low(image.width, image.height);

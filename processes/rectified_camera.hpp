@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// On the grid of the ideal camera divided by the downscale; both empty where there is no image.
+/// On the grid of the ideal camera divided by the downscale; both empty if there is no image.
 struct IdealImage {
   cv::Mat grey;    ///< CV_8U
   cv::Mat colour;  ///< CV_8UC3, BGR; empty unless asked for

@@ -1,5 +1,5 @@
-// Messages behind a small interface, so that a node runs over UDP multicast, in one process on memq://, or on
-// a fake.
+// The message bus behind a small interface, so that a node runs over UDP multicast, in one process on
+// memq://, or on a test double.
 #pragma once
 
 #include <chrono>
@@ -20,13 +20,13 @@ class Bus {
 
   virtual ~Bus() = default;
   virtual void publish(const std::string& channel, const std::vector<uint8_t>& data) = 0;
-  /// `channel` is a name, not a pattern. `capacity`: messages that wait for the handler before the newest is
+  /// `channel` is a name, not a pattern. `capacity`: queue length; when the queue is full, new messages are
   /// dropped. The handler is called until the subscription ends.
   virtual Subscription subscribe(const std::string& channel, int capacity, Handler handler) = 0;
-  /// Waits up to `timeout` for a message, then hands out all that are waiting. Number of messages handed out;
-  /// 0 after the timeout or a signal. No exception of a handler passes.
+  /// Waits up to `timeout` for a message, then dispatches all queued ones. Returns the number of messages
+  /// dispatched; 0 after the timeout or a signal. Exceptions thrown by handlers are caught.
   virtual int handle(std::chrono::milliseconds timeout) = 0;
-  /// Exceptions thrown by handlers so far: each was logged and cost its message.
+  /// Number of exceptions thrown by handlers so far; each was logged and its message lost.
   virtual int64_t handlerFailures() const { return 0; }
 
   template <typename Message>
@@ -34,7 +34,7 @@ class Bus {
     publish(channel, encodeMessage(message));
   }
 
-  /// Hands out messages that decode; calls `damaged` (if any) for those that do not.
+  /// Calls `handler` for each message that decodes, and `damaged` (if any) for each that does not.
   template <typename Message>
   Subscription subscribe(const std::string& channel, int capacity,
                          std::function<void(const Message&)> handler, std::function<void()> damaged = {}) {

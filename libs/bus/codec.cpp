@@ -12,7 +12,8 @@ uint32_t bigEndian32(const uint8_t* data) {
          static_cast<uint32_t>(data[2]) << 8 | static_cast<uint32_t>(data[3]);
 }
 
-/// Goes over a layout and the bytes in step; every step fails rather than pass the end of the bytes.
+/// Walks through a layout and the bytes together; each step fails instead of reading past the end of the
+/// bytes.
 class LayoutWalker {
  public:
   LayoutWalker(const uint8_t* data, int64_t size) : data_(data), left_(size) {}
@@ -27,7 +28,7 @@ class LayoutWalker {
   }
 
  private:
-  /// Takes the first item off `layout`.
+  /// Removes and returns the first item of `layout`.
   bool walkItem(std::string_view& layout) {
     const char first = layout.front();
     if (std::isdigit(static_cast<unsigned char>(first)) != 0) return skip(takeNumber(layout));

@@ -1,4 +1,4 @@
-// Messages to bytes and back, without trust in the bytes.
+// Encoding and decoding of messages; received bytes are not trusted.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace redbee {
 /// Bytes of the hash that every LCM message starts with.
 constexpr int kHashBytes = 8;
 
-/// True when the first eight of `size` bytes are this hash (big-endian).
+/// True if the first eight of `size` bytes are this hash (big-endian).
 bool startsWithHash(const uint8_t* data, int size, int64_t hash);
 
 /// Throws std::invalid_argument where a count member disagrees with its array or a string holds a NUL.
@@ -30,8 +30,8 @@ std::vector<uint8_t> encodeMessage(const Message& message) {
   return data;
 }
 
-/// False (and `message` is then meaningless) unless the bytes are exactly one message of this type. Throws
-/// nothing; allocates no more than a small multiple of `size`, whatever lengths the bytes claim.
+/// Returns false, and leaves `message` unspecified, unless the bytes are exactly one message of this type.
+/// Does not throw; allocates at most a small multiple of `size`, whatever lengths the message declares.
 template <typename Message>
 bool decodeMessage(const uint8_t* data, int size, Message& message) {
   if (!startsWithHash(data, size, Message::getHash())) return false;

@@ -163,7 +163,7 @@ image_t jpegMessage(int64_t utime, const cv::Mat& image, int quality) {
 
 std::vector<uint8_t> encodePng(const cv::Mat& map) {
   std::vector<uint8_t> bytes;
-  // Without parameters OpenCV writes for speed; naming any level makes libpng try every filter on every row.
+  // By default OpenCV compresses for speed; setting any level makes libpng try every filter on every row.
   cv::imencode(".png", map, bytes);
   return bytes;
 }

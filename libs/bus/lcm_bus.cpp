@@ -17,10 +17,10 @@
 namespace redbee {
 namespace {
 
-/// LCM's receivers refuse from 256 MiB on; no image comes near this.
+/// LCM's receivers refuse messages of 256 MiB or more; no image comes close to this limit.
 constexpr size_t kMaxMessageBytes = size_t{64} << 20;
 constexpr size_t kMaxChannelName = 63;
-/// A sender that is faster than we are must not keep a process from its work for ever.
+/// Limits one batch, so that a fast sender cannot keep a process from its work.
 constexpr int kMaxBatch = 10000;
 
 struct LcmDeleter {
@@ -37,7 +37,7 @@ struct Entry {
 
 bool isInProcess(const std::string& url) { return url.rfind("memq://", 0) == 0; }
 
-/// LCM takes subscription names as regular expressions.
+/// LCM interprets subscription names as regular expressions.
 std::string escapePattern(const std::string& channel) {
   std::string escaped;
   for (const char c : channel) {
@@ -53,7 +53,7 @@ void checkChannel(const std::string& channel) {
   }
 }
 
-/// Handlers' exceptions end here: in LCM's C code they would abort the process.
+/// Exceptions must not propagate into LCM's C code, where they would abort the process.
 void dispatch(const lcm_recv_buf_t* received, const char*, void* user) noexcept {
   auto& entry = *static_cast<Entry*>(user);
   if (entry.ended) return;
@@ -125,7 +125,7 @@ class LcmBus : public Bus {
     return result > 0;
   }
 
-  /// LCM unsubscribes nothing inside a handler: what ends there is erased after it.
+  /// LCM cannot unsubscribe inside a handler: subscriptions that end there are erased afterwards.
   void end(std::list<Entry>::iterator entry) {
     entry->ended = true;
     has_ended_ = true;

@@ -1,4 +1,5 @@
-// Datagrams that the kernel dropped at this process' UDP sockets: LCM loses such messages silently.
+// Datagrams that the kernel dropped at this process's UDP sockets. LCM does not report the messages lost with
+// them.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +8,11 @@
 
 namespace redbee {
 
-/// Packets dropped, for want of room in the receive buffer, at all UDP sockets of this process since they
-/// were opened; 0 where /proc has no such entry.
+/// Packets dropped because the receive buffer was full, over all UDP sockets of this process since they were
+/// opened; 0 if /proc has no such entry.
 int64_t droppedPackets();
 
-/// The same from a table in the form of /proc/net/udp, of the sockets with these inodes.
+/// The same for the sockets with these inodes, from a table in the format of /proc/net/udp.
 int64_t droppedPackets(std::istream& table, const std::set<uint64_t>& inodes);
 
 }  // namespace redbee

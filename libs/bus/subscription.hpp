@@ -1,4 +1,4 @@
-// A subscription that ends with its owner.
+// A subscription that ends when its owner is destroyed (RAII).
 #pragma once
 
 #include <functional>
@@ -6,8 +6,8 @@
 
 namespace redbee {
 
-/// No handler is called after this is gone. Belongs to the thread that calls Bus::handle(); may end inside a
-/// handler, its own included, and may outlive its bus.
+/// The handler is not called after destruction. To be used by the thread that calls Bus::handle(); may be
+/// destroyed inside a handler, its own included, and may outlive its bus.
 class [[nodiscard]] Subscription {
  public:
   Subscription() = default;

@@ -115,7 +115,7 @@ struct Diagnostics {
 struct CalibrationResult {
   CalibratedValues values;
   std::vector<ParameterReport> parameters;
-  std::vector<SplitHalfEntry> split_half;  ///< empty where a half is too short
+  std::vector<SplitHalfEntry> split_half;  ///< empty if a half is too short
   Excitation excitation;
   double vision_sigma_scale =
       1;  ///< factor of the homographies' standard deviations that makes their residuals consistent
@@ -137,7 +137,7 @@ struct CalibrationResult {
   const ParameterReport& parameter(const std::string& name) const;
 };
 
-/// Throws CalibrationError where the input is insufficient: no IMU during the frames, too little texture, too
+/// Throws CalibrationError if the input is insufficient: no IMU during the frames, too little texture, too
 /// few frames. `progress` is called with the fraction done, 0 to 1.
 CalibrationResult calibrate(const CalibrationInput& input, const std::function<void(double)>& progress = {});
 

@@ -25,7 +25,7 @@ struct GroundPrediction {
   double normal_sigma_rad = 0.01;
 };
 
-/// Frame indices are not filled. Nothing where too few points lie on the predicted plane or they do not
+/// Frame indices are not filled. std::nullopt if too few points lie on the predicted plane or they do not
 /// spread over the image.
 std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& ideal,
                                           const GroundPrediction& prediction);

@@ -26,7 +26,7 @@ class ImuHistory {
   size_t size() const { return samples_.size(); }
   double begin_s() const { return samples_.front().t_s; }
   double end_s() const { return samples_.back().t_s; }
-  /// True where samples reach from one time to the other without a gap longer than `max_gap_s`.
+  /// True if samples reach from one time to the other without a gap longer than `max_gap_s`.
   bool covers(double from_s, double to_s, double max_gap_s) const;
 
   /// Samples on [from, to], from < to, both ends interpolated linearly. Precondition: covered.

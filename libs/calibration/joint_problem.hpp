@@ -106,7 +106,7 @@ class JointProblem {
   /// this object.
   JointProblem(const JointInput& input, JointState& state);
 
-  /// False where Ceres found no usable solution.
+  /// False if Ceres found no usable solution.
   bool solve();
   /// At the current state. Robust losses count as weights.
   JointAnalysis analyse();

@@ -34,7 +34,7 @@ struct Recording {
   bool hasTarget() const { return !target.empty(); }
 };
 
-/// Throws CalibrationError where the input is insufficient.
+/// Throws CalibrationError if the input is insufficient.
 Recording prepareRecording(const CalibrationInput& input);
 /// Frames [begin, end) alone.
 Recording partOf(const Recording& whole, size_t begin, size_t end);

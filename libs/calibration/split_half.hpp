@@ -8,7 +8,7 @@
 
 namespace redbee::calibration {
 
-/// Starts both halves at the whole's solution. Empty where a half is too short or not solvable.
+/// Starts both halves at the whole's solution. Empty if a half is too short or not solvable.
 std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const CalibrationInput& input,
                                       const FlightSolution& whole);
 

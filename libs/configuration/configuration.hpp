@@ -1,4 +1,4 @@
-// One vehicle's configuration: the content of its YAML file, checked.
+// One vehicle's configuration: the validated content of its YAML file.
 #pragma once
 
 #include <cstdint>
@@ -33,21 +33,21 @@ struct Channels {
 };
 
 /// How long each process waits for the companions of a frame, in message time. A process that waits for one
-/// which itself waits for another must have the longer patience, or one death makes both time out: checked
+/// which itself waits for another must have the longer timeout, or one death makes both time out: checked
 /// against the process table when a configuration is loaded.
 struct WaitParameters {
-  double inertial_s = 0.25;      ///< s, for the fused homography of the frame before
+  double inertial_s = 0.25;      ///< s, for the fused homography of the previous frame
   double visual_s = 0.25;        ///< s, for the inertial homography
   double fusion_s = 0.3;         ///< s, for either homography
   double segmentation_s = 0.45;  ///< s, for the fused homography
-  int max_backlog = 14;          ///< frames that may wait; beyond it the oldest are skipped
+  int max_backlog = 14;          ///< frames that may queue up; beyond this the oldest are skipped
 };
 
 struct Configuration {
   std::string vehicle = "unnamed";
   CameraIntrinsics camera;
-  bool has_imu = true;        ///< false: vision only, nothing waits for the IMU
-  bool has_altimeter = true;  ///< false: altimeter messages are not listened to
+  bool has_imu = true;        ///< false: vision only, no process waits for the IMU
+  bool has_altimeter = true;  ///< false: altimeter messages are ignored
   InertialParameters inertial;
   VisualParameters visual;
   FrontPlaneParameters front;
@@ -55,7 +55,7 @@ struct Configuration {
   DetectionParameters detection;
   Channels channels;
   WaitParameters waits;
-  int overlay_period_frames = 4;  ///< every how many frames OVERLAY shows one; 0: never
+  int overlay_period_frames = 4;  ///< OVERLAY is published for every n-th frame; 0: never
 };
 
 /// what() is one line: `file:line: key: what is wrong`.
@@ -64,43 +64,42 @@ class ConfigurationError : public UserError {
   using UserError::UserError;
 };
 
-/// Reads a vehicle's file. Keys that it leaves out keep the values of the files it includes, else the
+/// Reads a vehicle file. Keys that it does not set keep the values of the included files, otherwise the
 /// defaults above.
 ///   include: FILE or [FILE, ...]   relative to the including file; read first, so the including file wins
-///   preset: default | paper | vision_only    wins over included files, and the keys of the file that names
-///   it win
-///                                  over it. `paper`: the paper's own fusion noise and detector;
-///                                  `vision_only`: thresholds for a vehicle without an IMU
-/// Throws ConfigurationError on the first fault: unknown, renamed or repeated keys, wrong types, impossible
-/// values, a camera that is not described, channels that share a name, waits in the wrong order, an extent
-/// threshold above its threshold, files that include each other.
+///   preset: default | paper | vision_only   overrides included files; overridden by the keys of its own
+///   file.
+///                                  `paper`: the paper's fusion noise and detector; `vision_only`: thresholds
+///                                  for a vehicle without an IMU
+/// Throws ConfigurationError on the first error: unknown, renamed or duplicate keys, wrong types, invalid
+/// values, a missing camera, duplicate channel names, timeouts in the wrong order, an extent threshold above
+/// its threshold, circular includes.
 Configuration loadConfiguration(const std::filesystem::path& file);
 
-/// What a command line sets over the file, the preset first.
+/// Overrides from the command line; the preset is applied first.
 struct ConfigurationOverrides {
   std::string preset;                 ///< empty: none
-  std::vector<std::string> settings;  ///< KEY=VALUE, `detection.objects.threshold=0.5`
+  std::vector<std::string> settings;  ///< KEY=VALUE, e.g. `detection.objects.threshold=0.5`
 };
-/// The same, with the same checks of the whole.
+/// The same with overrides.
 Configuration loadConfiguration(const std::filesystem::path& file, const ConfigurationOverrides& overrides);
 
-/// Sets one key from YAML text. Checks its own rule, not the whole. Throws ConfigurationError.
+/// Sets one key from YAML text. Checks only the rule of this key. Throws ConfigurationError.
 void applySetting(Configuration& configuration, const std::string& key, const std::string& text);
 /// In alphabetical order.
 std::vector<std::string> presetNames();
 
-/// The whole configuration as YAML, which loads back to the same hash.
+/// The whole configuration as YAML; loading it gives the same hash.
 std::string emitYaml(const Configuration& configuration);
 /// Only these keys, in the order of the whole; for files that are to be included beside others. Throws
 /// std::invalid_argument where there is no such key.
 std::string emitYaml(const Configuration& configuration, const std::vector<std::string>& keys);
 
-/// 16 hexadecimal digits that are equal for equal contents, however the files were written (FNV-1a of
-/// emitYaml).
+/// 16 hexadecimal digits (FNV-1a of emitYaml()): equal for equal values, however the files are written.
 std::string configurationHash(const Configuration& configuration);
 
-/// Every key a file may have (`camera.fx`), in the order of emitYaml. `include` and `preset` are not among
-/// them.
+/// All keys that a file may have (such as `camera.fx`), in the order of emitYaml(); without `include` and
+/// `preset`.
 std::vector<std::string> configurationKeys();
 
 }  // namespace redbee

@@ -154,8 +154,8 @@ void Loader::checkWhole(const std::filesystem::path& file) const {
   checkThresholds();
 }
 
-/// Otherwise the death of one process would make both the process that waits for it and whoever waits for
-/// that one time out.
+/// Otherwise the failure of one process would make both the process that waits for it and the next one in the
+/// chain time out.
 void Loader::checkWaits() const {
   for (const WaitOrder& order : waitOrders()) {
     const double longer = waitOf(configuration_, order.longer);

@@ -1,4 +1,4 @@
-// From YAML files to a Configuration; internal to the configuration.
+// Loads YAML files into a Configuration; internal to the configuration.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -12,14 +12,14 @@
 
 namespace redbee::configuration {
 
-/// Reads a file and its includes; records where every key was set last, for errors that concern several keys.
+/// Reads a file and its includes; records where each key was last set, for errors that involve several keys.
 class Loader {
  public:
   /// All functions throw ConfigurationError.
   void loadFile(const std::filesystem::path& file);
   void applyOverrides(const ConfigurationOverrides& overrides);
-  /// Checks of the whole: a camera that is not described, a lens with the wrong number of coefficients,
-  /// channels with the same name, waits in the wrong order, an extent threshold above its threshold.
+  /// Checks that involve several keys: a missing camera, the wrong number of distortion coefficients,
+  /// duplicate channel names, timeouts in the wrong order, an extent threshold above its threshold.
   void checkWhole(const std::filesystem::path& file) const;
   const Configuration& configuration() const { return configuration_; }
 

@@ -33,8 +33,8 @@ PresetValues defaultValues() {
 }
 
 /// Without an IMU P_FG is lower: the direction of parallax is not known, and evidence connected to the
-/// image's border is muted. Thresholds found on DAVIS and UAVDT; Gull2, where nothing moves, stays clean with
-/// them.
+/// image's border is suppressed. Thresholds tuned on DAVIS and UAVDT; they give no false alarms on Gull2,
+/// where nothing moves.
 PresetValues visionOnlyValues() {
   return {{"detection.objects.threshold", "0.25"}, {"detection.objects.extent_threshold", "0.12"}};
 }

@@ -1,4 +1,4 @@
-// Presets, as the keys that they set; internal to the configuration.
+// Presets: the keys that each one sets; internal to the configuration.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace redbee::configuration {
 /// Key and YAML text of its value.
 using PresetValues = std::vector<std::pair<std::string, std::string>>;
 
-/// Null for a name that is no preset.
+/// nullptr if there is no preset of this name.
 const PresetValues* findPreset(const std::string& name);
 std::vector<std::string> presetNames();
 

@@ -1,4 +1,4 @@
-// Which values a key may have, and the message for others; internal to the configuration.
+// Which values a key may have, and the error message for others; internal to the configuration.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace redbee::configuration {
 
-/// Values that are allowed, and the message for others.
+/// Predicate of the allowed values, and the error message for others.
 template <typename Predicate>
 struct Rule {
   Predicate holds;
@@ -51,7 +51,7 @@ inline const Rule channelName{[](const std::string& x) {
                               },
                               "must be a name of 1 to 63 bytes without blanks"};
 
-/// A key that fills the member that `access` gives, within its rule.
+/// A key whose value is validated by `rule` and stored in the member that `access` returns.
 template <typename Access, typename Predicate>
 Setting setting(std::string key, Access access, const Rule<Predicate>& rule) {
   using Value = std::decay_t<decltype(access(std::declval<Configuration&>()))>;

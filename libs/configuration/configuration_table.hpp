@@ -11,19 +11,19 @@
 
 namespace redbee::configuration {
 
-/// One key of the file and the member that it fills.
+/// One key of the file and the member that it sets.
 struct Setting {
   std::string key;  ///< with its sections: visual.tracker.grid_px
-  /// Throws ValueError where the value has the wrong type or breaks the key's rule.
+  /// Throws ValueError if the value has the wrong type or violates the key's rule.
   std::function<void(Configuration&, const YAML::Node&)> read;
   std::function<std::string(const Configuration&)> text;
 };
 
-/// Ordered so that the keys of a section stand together.
+/// The keys of a section are adjacent.
 const std::vector<Setting>& settings();
-/// Null where there is no such key.
+/// nullptr if there is no such key.
 const Setting* findSetting(const std::string& key);
-/// True where keys begin with `name` and a dot.
+/// True if any key begins with `name` and a dot.
 bool isSection(const std::string& name);
 
 }  // namespace redbee::configuration

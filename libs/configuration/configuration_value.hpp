@@ -1,4 +1,4 @@
-// Configuration values between YAML text and C++ types; internal to the configuration.
+// Conversion of configuration values between YAML text and C++ types; internal to the configuration.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -13,7 +13,7 @@
 
 namespace redbee::configuration {
 
-/// what() names the fault of a value; the caller adds file and line.
+/// what() states what is wrong with a value; the caller adds file and line.
 class ValueError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -33,7 +33,7 @@ void readValue(const YAML::Node& node, Eigen::Vector3d& value);
 void readValue(const YAML::Node& node, Eigen::Matrix3d& value);
 void readValue(const YAML::Node& node, Vector8d& value);
 
-/// YAML text that reads back to the same value, to the bit.
+/// YAML text that reads back to exactly the same value.
 std::string valueText(double value);
 std::string valueText(int value);
 std::string valueText(uint32_t value);

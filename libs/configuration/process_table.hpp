@@ -1,4 +1,4 @@
-// The table of all processes: what scripts, tests and `redbee stack` know about them comes from here.
+// The table of all processes, the single source for scripts, tests and `redbee stack`.
 #pragma once
 
 #include <array>
@@ -31,21 +31,21 @@ struct ProcessDescription {
   std::string_view subcommand{};
   KeyList publishes{};                 ///< channels, by their keys in the section `channels`
   KeyList waits_for{};                 ///< channels whose message of the same frame it waits for
-  KeyList waits_for_previous{};        ///< channels whose message of the frame before it waits for
-  std::string_view patience{};         ///< key in the section `waits`: how long
+  KeyList waits_for_previous{};        ///< channels whose message of the previous frame it waits for
+  std::string_view timeout{};          ///< key of its timeout in the section `waits`
   int64_t memory_limit = 600'000'000;  ///< bytes of data, enforced by scripts/limited
   int priority = 10;                   ///< supervisor starts the lower first and stops it last
-  int niceness = 0;                    ///< as nice(1) takes it
+  int niceness = 0;                    ///< as for nice(1)
   bool has_configuration = true;       ///< takes --config
   bool keeps_state = false;            ///< takes --state-dir, for what survives a restart
-  bool is_recorder = false;  ///< takes --out, starts where REDBEE_RECORD asks for it, may end by itself
+  bool is_recorder = false;            ///< takes --out, runs only if REDBEE_RECORD is set, may exit by itself
 };
 
 inline constexpr ProcessDescription kImuIntegration = [] {
   ProcessDescription process{"imu-integration"};
   process.publishes = {"inertial_homography", "filter_snapshot"};
   process.waits_for_previous = {"fused_homography"};
-  process.patience = "inertial_s";
+  process.timeout = "inertial_s";
   return process;
 }();
 
@@ -53,7 +53,7 @@ inline constexpr ProcessDescription kVisualHomography = [] {
   ProcessDescription process{"visual-homography"};
   process.publishes = {"visual_homography"};
   process.waits_for = {"inertial_homography"};
-  process.patience = "visual_s";
+  process.timeout = "visual_s";
   return process;
 }();
 
@@ -61,7 +61,7 @@ inline constexpr ProcessDescription kHomographyFusion = [] {
   ProcessDescription process{"homography-fusion"};
   process.publishes = {"fused_homography", "warm_start"};
   process.waits_for = {"inertial_homography", "visual_homography"};
-  process.patience = "fusion_s";
+  process.timeout = "fusion_s";
   return process;
 }();
 
@@ -69,7 +69,7 @@ inline constexpr ProcessDescription kMotionSegmentation = [] {
   ProcessDescription process{"motion-segmentation"};
   process.publishes = {"foreground", "detections", "overlay"};
   process.waits_for = {"fused_homography"};
-  process.patience = "segmentation_s";
+  process.timeout = "segmentation_s";
   process.memory_limit = 1'000'000'000;
   process.keeps_state = true;
   return process;
@@ -92,20 +92,20 @@ inline constexpr ProcessDescription kRecord = [] {
   return process;
 }();
 
-/// The processes that a frame passes through, in the order of the work: each is a node and a program.
+/// The processing stages, in order; each is a node and a program.
 inline constexpr std::array kStages{&kImuIntegration, &kVisualHomography, &kHomographyFusion,
                                     &kMotionSegmentation};
-/// The processes beside them: subcommands of `redbee`.
-inline constexpr std::array kCompanions{&kWatch, &kRecord};
+/// The other processes: subcommands of `redbee`.
+inline constexpr std::array kSupportProcesses{&kWatch, &kRecord};
 
-constexpr bool everyWaitHasItsPatience() {
+constexpr bool everyWaitHasATimeout() {
   for (const ProcessDescription* stage : kStages) {
     const bool waits = !stage->waits_for.empty() || !stage->waits_for_previous.empty();
-    if (waits == stage->patience.empty()) return false;
+    if (waits == stage->timeout.empty()) return false;
   }
   return true;
 }
-static_assert(everyWaitHasItsPatience());
+static_assert(everyWaitHasATimeout());
 
 /// redbee-<name>: the program, and what PROCESS_HEALTH calls the process.
 inline std::string programName(const ProcessDescription& process) {

@@ -1,4 +1,4 @@
-// Keys that had another name; internal to the configuration.
+// Keys of earlier releases; internal to the configuration.
 #pragma once
 
 #include <optional>
@@ -6,11 +6,11 @@
 
 namespace redbee::configuration {
 
-/// What a key of an earlier release is called now; nothing for a key that never had this name.
+/// The current name of a key of an earlier release; std::nullopt if no key had this name.
 std::optional<std::string> renamedKey(const std::string& old_key);
-/// What is wrong with a key that does not exist: its new name, or that it is unknown.
+/// Error message for a key that does not exist: its new name, or that it is unknown.
 std::string unknownKey(const std::string& key);
-/// True where renamed keys begin with `name` and a dot.
+/// True if any renamed key begins with `name` and a dot.
 bool isRenamedSection(const std::string& name);
 
 }  // namespace redbee::configuration

@@ -11,7 +11,7 @@ bool contains(const KeyList& keys, std::string_view key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-std::string waitKey(const ProcessDescription& process) { return "waits." + std::string(process.patience); }
+std::string waitKey(const ProcessDescription& process) { return "waits." + std::string(process.timeout); }
 
 void appendOrdersOf(const ProcessDescription& waiter, std::string_view channel,
                     std::vector<WaitOrder>& orders) {

@@ -1,4 +1,4 @@
-// Which waits must be longer than which; internal to the configuration.
+// The order of the timeouts; internal to the configuration.
 #pragma once
 
 #include <string>
@@ -6,15 +6,15 @@
 
 namespace redbee::configuration {
 
-/// Two keys of the configuration, with the reason for their order.
+/// Two timeouts (keys of the configuration), with the reason for their order.
 struct WaitOrder {
   std::string longer;
   std::string shorter;
   std::string reason;
 };
 
-/// From the process table: a process that waits for another one's message about the same frame must have the
-/// longer patience, if that one waits for a third.
+/// Derived from the process table: a process that waits for another one's message about the same frame needs
+/// a longer timeout than that process has itself.
 std::vector<WaitOrder> waitOrders();
 
 }  // namespace redbee::configuration

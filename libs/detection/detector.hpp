@@ -33,11 +33,11 @@ struct FrameInput {
   int64_t utime_previous = 0;  ///< us, of the frame that ground, front, motion and tracks start from
   int64_t utime = 0;           ///< us
   cv::Size size;               ///< of the image that homographies, points and output are of; empty: grey's
-  cv::Mat1b grey;              ///< empty where the image is damaged
+  cv::Mat1b grey;              ///< empty if the image is damaged
   cv::Mat3b colour;            ///< BGR, of grey's size; may be empty unless the detector needs it
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix of an image of `size` [px]
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current [px]
-  std::optional<Eigen::Matrix3d> front;             ///< the front plane's; nothing where there is none
+  std::optional<Eigen::Matrix3d> front;             ///< the front plane's; std::nullopt if there is none
   std::optional<PlaneMotion> motion;  ///< of the camera, from an IMU: rotation, translation, plane
   PointTracks tracks;                 ///< sample points, for the flow's entropy
   int sample_grid_px = TrackerParameters{}.grid_px;  ///< px between the sample points

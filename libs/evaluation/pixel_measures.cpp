@@ -74,8 +74,8 @@ double PixelMeasures::errorAtHalfRecall() const {
   if (reached == points.end()) return 1.0;
   if (reached == points.begin() || std::prev(reached)->recall == 0) return 1.0 - reached->precision;
   const OperatingPoint& before = *std::prev(reached);
-  const double share = (0.5 - before.recall) / (reached->recall - before.recall);
-  return 1.0 - (before.precision + share * (reached->precision - before.precision));
+  const double fraction = (0.5 - before.recall) / (reached->recall - before.recall);
+  return 1.0 - (before.precision + fraction * (reached->precision - before.precision));
 }
 
 double PixelMeasures::bestF1() const {

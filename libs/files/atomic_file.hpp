@@ -1,4 +1,4 @@
-// A file that appears under its name only when it is whole.
+// A file that appears under its name only when it is complete.
 #pragma once
 
 #include <cstdio>
@@ -8,8 +8,8 @@
 
 namespace redbee {
 
-/// Writes to "<path>.partial" and renames it on close(). Destroyed without close(), it leaves nothing behind.
-/// Every failure to write, such as a full disk, throws InputError with the file's name.
+/// Writes to "<path>.partial" and renames it on close(); the partial file is removed if close() is not
+/// called. Write errors, such as a full disk, throw InputError with the file's name.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -30,7 +30,7 @@ class AtomicFile {
   std::FILE* file_ = nullptr;
 };
 
-/// A whole small file at once.
+/// Writes a small file at once.
 void writeAtomically(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace redbee

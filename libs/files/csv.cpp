@@ -72,7 +72,7 @@ int64_t CsvReader::integer(size_t column) const {
 
 void CsvReader::fail(const std::string& what) const { throw InputError(path_, line_, what); }
 
-void IncreasingTimes::check(const CsvReader& csv, int64_t utime) {
+void IncreasingTimeCheck::check(const CsvReader& csv, int64_t utime) {
   if (any_ && utime == last_) csv.fail("its time repeats that of the row before");
   if (any_ && utime < last_) {
     csv.fail("time runs backwards by " + std::to_string(last_ - utime) + " us");

@@ -1,4 +1,4 @@
-// Numbers from CSV files, with file and line in every error.
+// Reads numbers from CSV files; errors name file and line.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,14 @@ namespace redbee {
 /// skipped.
 class CsvReader {
  public:
-  /// Throws InputError where the file is missing.
+  /// Throws InputError if the file cannot be opened.
   explicit CsvReader(std::filesystem::path path);
 
-  /// False at the end. Throws InputError where the row has not `columns` fields (0: any number).
+  /// Returns false at the end of the file. Throws InputError if the row does not have `columns` fields (0:
+  /// any number).
   bool next(size_t columns);
   const std::vector<std::string>& fields() const { return fields_; }
-  /// The field as a finite number / as an integer; InputError with file and line otherwise.
+  /// The field as a finite number, or as an integer. Throws InputError otherwise.
   double number(size_t column) const;
   int64_t integer(size_t column) const;
   int line() const { return line_; }
@@ -33,8 +34,8 @@ class CsvReader {
   int line_ = 0;
 };
 
-/// Refuses times that run backwards or repeat.
-class IncreasingTimes {
+/// Throws InputError for times that do not strictly increase.
+class IncreasingTimeCheck {
  public:
   void check(const CsvReader& csv, int64_t utime);
 

@@ -1,4 +1,4 @@
-// RAII around ffmpeg's C types. Included by this library's sources only.
+// RAII wrappers of ffmpeg's C types. Included by sources only, not by headers.
 #pragma once
 
 extern "C" {
@@ -36,13 +36,13 @@ struct OutputCloser {
 };
 using Output = std::unique_ptr<AVFormatContext, OutputCloser>;
 
-/// ffmpeg's text for an error code.
+/// ffmpeg's message for an error code.
 inline std::string explain(int error) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
   return av_strerror(error, text, sizeof text) == 0 ? text : "error " + std::to_string(error);
 }
 
-/// Silences ffmpeg's own messages on stderr; errors are exceptions of one line.
+/// Disables ffmpeg's own messages on stderr; errors are reported as exceptions.
 inline void silence() { av_log_set_level(AV_LOG_QUIET); }
 
 }  // namespace redbee::ffmpeg

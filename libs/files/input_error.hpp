@@ -1,4 +1,4 @@
-// Bad input, reported in one line.
+// The error for bad input, reported in one line.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace redbee {
 
-/// what() is one line: "file[:line]: what is wrong". The tool prints it and exits with 2.
+/// what() is one line: "file[:line]: what is wrong". The tool prints it and exits with status 2.
 class InputError : public UserError {
  public:
   explicit InputError(const std::string& line) : UserError(line) {}

@@ -1,4 +1,4 @@
-// JSON files, read and written whole.
+// Reads and writes JSON files.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace redbee {
 
-/// Throws InputError where the file is missing or is not JSON.
+/// Throws InputError if the file is missing or is not JSON.
 nlohmann::json readJson(const std::filesystem::path& file);
-/// Indented by two. Throws InputError where the file cannot be written.
+/// Indented by two. Throws InputError if the file cannot be written.
 void writeJson(const std::filesystem::path& file, const nlohmann::json& json);
 
 }  // namespace redbee

@@ -60,13 +60,13 @@ void LogReader::rewind() {
   position_ = 0;
   damaged_ = 0;
   truncated_ = false;
-  complaint_.clear();
+  damage_report_.clear();
 }
 
 std::optional<LogEvent> LogReader::next() {
   while (position_ < size_) {
     const auto header = headerAt(position_);
-    if (header && endsWhereItSays(*header)) {
+    if (header && hasConsistentLength(*header)) {
       if (auto event = take(*header)) return event;
     }
     skipDamage();
@@ -74,11 +74,11 @@ std::optional<LogEvent> LogReader::next() {
   return std::nullopt;
 }
 
-bool LogReader::endsWhereItSays(const Header& header) {
+bool LogReader::hasConsistentLength(const Header& header) {
   const int64_t end = position_ + header.size();
   if (eventFollows(end)) return true;
   const auto later = resynchronise(position_ + 1);
-  if (!later) return true;  // nothing but damage behind it
+  if (!later) return true;  // no further event follows
   if (*later < end) return false;
   // Either this event's length is wrong or the next one's start is damaged. In the second case an event
   // number is missing.
@@ -102,11 +102,11 @@ void LogReader::skipDamage() {
   const auto resumed = resynchronise(position_ + 1);
   if (resumed) {
     ++damaged_;
-    complain(position_, "damaged event, skipped " + std::to_string(*resumed - position_) + " bytes");
+    reportDamage(position_, "damaged event, skipped " + std::to_string(*resumed - position_) + " bytes");
     position_ = *resumed;
   } else {
     truncated_ = true;
-    complain(position_, "the last event is cut short or damaged");
+    reportDamage(position_, "the last event is cut short or damaged");
     position_ = size_;
   }
 }
@@ -130,7 +130,7 @@ std::optional<LogReader::Header> LogReader::headerAt(int64_t offset) {
 bool LogReader::eventFollows(int64_t offset) {
   if (offset == size_) return true;
   std::array<uint8_t, 4> bytes{};
-  // Fewer bytes than a sync word are the rest of a truncated event: what precedes them is whole.
+  // Fewer bytes than a sync word are the rest of a truncated event; what precedes them is complete.
   const size_t there = static_cast<size_t>(std::min<int64_t>(4, size_ - offset));
   if (!readAt(offset, bytes.data(), there)) return false;
   std::vector<uint8_t> sync;
@@ -152,14 +152,15 @@ std::optional<int64_t> LogReader::resynchronise(int64_t from) {
       const auto header = headerAt(candidate);
       if (header && eventFollows(candidate + header->size())) return candidate;
     }
-    at += static_cast<int64_t>(count) - 3;  // a sync word may lie across two blocks
+    at += static_cast<int64_t>(count) - 3;  // a sync word may span two blocks
     if (count < block.size()) break;
   }
   return std::nullopt;
 }
 
-void LogReader::complain(int64_t offset, const std::string& what) {
-  if (complaint_.empty()) complaint_ = path_.string() + ": byte " + std::to_string(offset) + ": " + what;
+void LogReader::reportDamage(int64_t offset, const std::string& what) {
+  if (damage_report_.empty())
+    damage_report_ = path_.string() + ": byte " + std::to_string(offset) + ": " + what;
 }
 
 bool LogReader::readAt(int64_t offset, void* into, size_t count) {

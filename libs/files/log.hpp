@@ -1,8 +1,8 @@
-// Flights on disk: LCM's own log format, so that lcm-logplayer and lcm-logger read and write the same files.
+// Recorded flights in LCM's log format, compatible with lcm-logplayer and lcm-logger.
 //
 // An event, all numbers big-endian: uint32 0xEDA1DA01, int64 event number, int64 timestamp [us], int32 length
-// of the channel's name, int32 length of the data, name, data. Our events' timestamp is the time inside the
-// message.
+// of the channel's name, int32 length of the data, name, data. The timestamp of events written here is the
+// time inside the message.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct LogEvent {
   std::vector<uint8_t> data;
 };
 
-/// The log appears under its name on close(); if close() is not reached there is none. Throws InputError
-/// where it cannot be written.
+/// The log appears under its name on close(); without close() no file remains. Throws InputError if it cannot
+/// be written.
 class LogWriter {
  public:
   explicit LogWriter(const std::filesystem::path& path) : file_(path) {}
@@ -48,25 +48,25 @@ class LogWriter {
   int64_t bytes_ = 0;
 };
 
-/// Events in the order of the file. A damaged event is skipped: the reader searches for the next position
-/// where a plausible event starts and another one (or the end of the file) follows it. Lengths are compared
-/// with the rest of the file before anything is allocated.
+/// Reads events in file order. A damaged event is skipped: the reader searches for the next position where a
+/// plausible event starts that is followed by another one or by the end of the file. Lengths are compared
+/// with the size of the file before anything is allocated.
 class LogReader {
  public:
-  /// Throws InputError where the file cannot be read or holds no LCM log.
+  /// Throws InputError if the file cannot be read or is not an LCM log.
   explicit LogReader(std::filesystem::path path);
 
-  /// The next whole event; nothing at the end.
+  /// The next complete event; std::nullopt at the end.
   std::optional<LogEvent> next();
   /// Back to the first event; the counts are reset.
   void rewind();
 
   int64_t size() const { return size_; }          ///< bytes
   int64_t position() const { return position_; }  ///< bytes read so far, for progress
-  int64_t damaged() const { return damaged_; }    ///< stretches that were skipped
-  bool truncated() const { return truncated_; }   ///< the last event was cut short
-  /// One line that names file and byte offset of the first damage; empty where there was none.
-  const std::string& complaint() const { return complaint_; }
+  int64_t damaged() const { return damaged_; }    ///< damaged sections that were skipped
+  bool truncated() const { return truncated_; }   ///< the last event is incomplete
+  /// One line with file and byte offset of the first damage; empty if there was none.
+  const std::string& damageReport() const { return damage_report_; }
 
  private:
   struct Header {
@@ -78,11 +78,11 @@ class LogReader {
   };
   std::optional<Header> headerAt(int64_t offset);
   bool eventFollows(int64_t offset);
-  bool endsWhereItSays(const Header& header);
+  bool hasConsistentLength(const Header& header);
   std::optional<LogEvent> take(const Header& header);
   void skipDamage();
   std::optional<int64_t> resynchronise(int64_t from);
-  void complain(int64_t offset, const std::string& what);
+  void reportDamage(int64_t offset, const std::string& what);
   bool readAt(int64_t offset, void* into, size_t count);
 
   std::filesystem::path path_;
@@ -91,7 +91,7 @@ class LogReader {
   int64_t position_ = 0;
   int64_t damaged_ = 0;
   bool truncated_ = false;
-  std::string complaint_;
+  std::string damage_report_;
 };
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// Progress on anything longer than a second.
+// Progress messages for work that takes longer than a second.
 #pragma once
 
 #include <chrono>
@@ -7,19 +7,19 @@
 
 namespace redbee {
 
-/// Prints progress on stderr once the work has taken a second: one line redrawn on a terminal, a line every
-/// few seconds elsewhere. Shorter work prints nothing.
+/// Prints progress on stderr once the work has taken a second: on a terminal one line that is redrawn,
+/// elsewhere a line every few seconds.
 class Progress {
  public:
-  /// `what`: "importing karma.mp4". `unit`: "frames". `quiet` prints nothing at all.
+  /// `what`: "importing karma.mp4". `unit`: "frames". `quiet`: prints nothing.
   Progress(std::string what, std::string unit, bool quiet = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `total` 0: not known.
+  /// `total` 0: unknown.
   void update(int64_t done, int64_t total);
-  /// Ends the line. Called by the destructor too.
+  /// Ends the line. Also called by the destructor.
   void finish();
 
  private:

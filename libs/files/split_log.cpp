@@ -17,7 +17,7 @@ SplitLog::SplitLog(std::filesystem::path prefix, int64_t split_bytes)
   openNext();
 }
 
-void SplitLog::write(const HeardMessage& message) {
+void SplitLog::write(const ReceivedMessage& message) {
   if (bytes_ > split_bytes_) {
     sync();
     openNext();

@@ -1,5 +1,5 @@
-// A recording in flight: LCM logs NAME.00, NAME.01, ..., each readable by itself; joined in order they are
-// one log.
+// A log split into files while it is recorded: LCM logs NAME.00, NAME.01, ..., each readable by itself;
+// concatenated in order they are one log.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace redbee {
 
 /// A message as received.
-struct HeardMessage {
+struct ReceivedMessage {
   int64_t utime = 0;  ///< us, of its arrival
   std::string channel;
   std::vector<uint8_t> data;
@@ -20,16 +20,15 @@ struct HeardMessage {
   int64_t bytes() const { return static_cast<int64_t>(sizeof *this + channel.size() + data.size()); }
 };
 
-/// Unlike LogWriter, which completes a file or leaves none: whatever is written stays, also when the process
-/// is killed. Existing files are never touched; numbering continues after them. Throws InputError where the
-/// disk refuses a write.
+/// Unlike with LogWriter, whatever is written remains on disk even if the process is killed. Existing files
+/// are never overwritten; numbering continues after them. Throws InputError on a write error.
 class SplitLog {
  public:
-  /// A new file begins behind the message with which one exceeds `split_bytes`.
+  /// A new file is started after the message with which the current one exceeds `split_bytes`.
   SplitLog(std::filesystem::path prefix, int64_t split_bytes);
 
-  void write(const HeardMessage& message);
-  /// Flushes everything to the disk and waits for it.
+  void write(const ReceivedMessage& message);
+  /// Flushes all data to disk (fsync).
   void sync();
   const std::filesystem::path& file() const { return file_; }
 

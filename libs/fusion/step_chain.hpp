@@ -23,8 +23,8 @@ class StepChain {
   void beginAt(CameraTime time) { frames_.assign(1, {time, identityEstimate()}); }
   void append(CameraTime time, const Estimate& step);
 
-  /// `since`: from the frame at `time` to one that follows the newest. The part of it after the newest
-  /// frame; nothing where `time` is not a frame of this chain.
+  /// `since`: from the frame at `time` to one that follows the newest. The part of it after the newest frame;
+  /// std::nullopt if `time` is not a frame of this chain.
   std::optional<Estimate> stepOf(CameraTime time, const Estimate& since) const;
 
  private:

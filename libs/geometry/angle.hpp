@@ -1,4 +1,4 @@
-// Degrees, in which people read and write angles; everything computed is in radians.
+// Conversion from degrees, which only user interfaces use; all computations are in radians.
 #pragma once
 
 namespace redbee {

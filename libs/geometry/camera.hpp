@@ -1,4 +1,5 @@
-// A camera as the stages use it: raw pixels, and the ideal pixels that homographies hold between.
+// A camera with its lens model: raw pixels of the recorded image, and ideal (undistorted) pixels, between
+// which homographies hold.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,31 +11,32 @@
 
 namespace redbee {
 
-/// "Raw" pixels are those of the image as recorded; "ideal" pixels are those of the pinhole camera without
-/// distortion that the camera model chooses at the same place: the same size and K for a radial-tangential
-/// lens, its own for a wide one. Homographies hold between ideal pixels.
+/// "Raw" pixels are those of the recorded image. "Ideal" pixels are those of a pinhole camera without
+/// distortion at the same pose: of the same size and K for a radial-tangential lens, of a size and K chosen
+/// by the camera model for a wide-angle lens.
 class Camera {
  public:
   /// Throws std::invalid_argument as makeCameraModel() does.
   explicit Camera(const CameraIntrinsics& intrinsics);
-  /// With another ideal camera than the model chooses; the same pixels where the model needs no
-  /// rectification.
+  /// Uses this ideal camera instead of the model's. If the model needs no rectification, raw and ideal pixels
+  /// are the same.
   Camera(const CameraIntrinsics& intrinsics, const CameraIntrinsics& ideal);
 
-  /// Of the raw image.
+  /// Intrinsics of the raw image.
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
-  /// Of the ideal image, without distortion.
+  /// Intrinsics of the ideal image; no distortion.
   const CameraIntrinsics& ideal() const { return ideal_; }
   const CameraModel& model() const { return *model_; }
-  /// Of the ideal camera.
+  /// Camera matrix of the ideal camera.
   const Eigen::Matrix3d& K() const { return K_; }
   const Eigen::Matrix3d& K_inverse() const { return K_inverse_; }
-  /// False where raw and ideal pixels are the same.
+  /// False if raw and ideal pixels are the same.
   bool isDistorted() const { return !model_->isIdeal(); }
 
-  /// Raw pixel of an ideal pixel; nothing outside the model's domain.
+  /// Raw pixel of an ideal pixel; std::nullopt outside the model's domain.
   std::optional<Eigen::Vector2d> distort(const Eigen::Vector2d& ideal) const;
-  /// Ideal pixel of a raw pixel; nothing outside the model's domain, or where the ray does not point ahead.
+  /// Ideal pixel of a raw pixel; std::nullopt outside the model's domain or if the ray does not point
+  /// forward.
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& raw) const;
 
  private:
@@ -45,7 +47,7 @@ class Camera {
   Eigen::Matrix3d K_inverse_;
 };
 
-/// The ideal camera of the raw one: the size and K of what leaves the rectifier.
+/// Intrinsics of the images that the rectifier produces from this raw camera's.
 CameraIntrinsics idealCamera(const CameraIntrinsics& raw);
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// What a camera's calibration states: image size, pinhole parameters, lens model.
+// Intrinsic calibration of a camera: image size, pinhole parameters, lens model.
 #pragma once
 
 #include <string>
@@ -14,9 +14,10 @@ struct CameraIntrinsics {
   double fy = 0;   ///< px
   double cx = 0;   ///< px
   double cy = 0;   ///< px
-  /// As many as the model takes (camera_model.hpp); all zero or none for a camera without distortion.
+  /// As many coefficients as the model has (camera_model.hpp); all zero or empty for a camera without
+  /// distortion.
   std::vector<double> distortion = std::vector<double>(5, 0.0);
-  std::string model = "radtan";  ///< of the lens: a name that findCameraModel() knows
+  std::string model = "radtan";  ///< lens model: a name known to findCameraModel()
 };
 
 }  // namespace redbee

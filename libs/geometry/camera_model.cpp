@@ -26,7 +26,7 @@ std::string plain(const std::string& name) {
   return text;
 }
 
-/// Slope x / z of the ray of `pixel` along `axis`, limited; the limit where the pixel has no ray ahead of the
+/// Slope x / z of the ray of `pixel` along `axis`, limited; the limit if the pixel has no ray in front of the
 /// camera.
 double limitedSlope(const CameraModel& model, const Eigen::Vector2d& pixel, int axis, double limit) {
   const auto ray = model.unproject(pixel);

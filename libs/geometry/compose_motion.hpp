@@ -4,7 +4,7 @@
 
 namespace redbee {
 
-/// From a to c: first `ba`, then `cb`. The plane is that of `ba`.
+/// Motion from a to c: first `ba`, then `cb`. The plane is that of `ba`.
 PlaneMotion compose(const PlaneMotion& cb, const PlaneMotion& ba);
 
 }  // namespace redbee

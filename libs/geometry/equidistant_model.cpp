@@ -8,8 +8,8 @@
 namespace redbee {
 namespace {
 
-/// Off the axis. Beyond it a pinhole image grows faster than what it shows: at 52.5 degrees the edge already
-/// has 2.7 times the centre's pixels per radian along the radius.
+/// Half the field of view of the ideal camera. A wider pinhole image mostly magnifies its border: at 52.5
+/// degrees the border already has 2.7 times the centre's pixels per radian along the radius.
 constexpr double kIdealHalfAngle = 52.5 * kDegree;
 /// Sine of the angle to the axis below which the ray is taken as paraxial.
 constexpr double kParaxial = 1e-9;
@@ -46,7 +46,7 @@ std::optional<Eigen::Vector2d> EquidistantModel::project(const Eigen::Vector3d& 
     scale_by_r = (d_by_angle * z / squared - scale) / r;
     scale_by_z = -d_by_angle / squared;
   } else if (z < 0) {
-    return std::nullopt;  // straight behind, every direction is as good
+    return std::nullopt;  // straight behind the camera the direction is undefined
   }
   const Eigen::Vector2d focal(intrinsics_.fx, intrinsics_.fy);
   if (J != nullptr) {
@@ -67,7 +67,7 @@ std::optional<Eigen::Vector3d> EquidistantModel::unproject(const Eigen::Vector2d
   const double d = m.norm();
   if (!(d <= distorted(max_angle_))) return std::nullopt;
   if (d == 0) return Eigen::Vector3d::UnitZ();
-  // Newton's method, kept between the bounds by halving.
+  // Newton's method, safeguarded by bisection.
   double low = 0, high = max_angle_, angle = std::min(d, max_angle_);
   constexpr int kIterations = 60;
   for (int i = 0; i < kIterations; ++i) {

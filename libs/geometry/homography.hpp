@@ -1,9 +1,9 @@
-// Plane homographies between two camera frames, and the derivatives that the filters need.
+// Plane homographies between two camera frames, and their derivatives.
 //
-// A homography H_ba takes pixels of frame a to pixels of frame b: x_b ~ H_ba x_a. It is kept scaled to h33 =
-// 1, and its eight free entries are stacked row by row: h11 h12 h13 h21 h22 h23 h31 h32.
+// A homography H_ba maps pixels of frame a to pixels of frame b: x_b ~ H_ba x_a. It is normalised to h33 = 1,
+// and its eight free entries are stacked row by row: h11 h12 h13 h21 h22 h23 h31 h32.
 //
-// In pixels these entries span six orders of magnitude. Covariances are therefore always those of the
+// In pixels these entries span six orders of magnitude. Covariances are therefore always given for the
 // *scaled* homography T H T^-1 (Hartley), with T = ImageScaling(width, height).T: the image's centre at the
 // origin, half its width as the unit. One such unit of h13 or h23 is width / 2 pixels.
 #pragma once
@@ -35,15 +35,15 @@ Eigen::Matrix3d normaliseHomography(const Eigen::Matrix3d& H);
 Vector8d toVector(const Eigen::Matrix3d& H);
 Eigen::Matrix3d fromVector(const Vector8d& h);
 
-/// Where a point goes: the inhomogeneous part of H x.
+/// The point H x in inhomogeneous coordinates.
 Eigen::Vector2d transfer(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
 /// d transfer(H, x) / d toVector(H), for H with h33 = 1.
 Eigen::Matrix<double, 2, 8> transferJacobian(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
 /// d transfer(H, x) / d x.
 Eigen::Matrix2d transferJacobianPoint(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
 
-/// d toVector(A B) / d toVector(A) and / d toVector(B), for A and B with h33 = 1; the division by (A B)_33
-/// included.
+/// d toVector(A B) / d toVector(A) and / d toVector(B), for A and B with h33 = 1; includes the division by (A
+/// B)_33.
 struct ComposeJacobians {
   Matrix8d by_left;
   Matrix8d by_right;
@@ -51,7 +51,7 @@ struct ComposeJacobians {
 ComposeJacobians composeJacobians(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B);
 /// d toVector(H^-1) / d toVector(H), for H with h33 = 1.
 Matrix8d inverseJacobian(const Eigen::Matrix3d& H);
-/// d toVector(M) / d vec(M), vec row by row over all nine entries: the projection onto h33 = 1.
+/// d toVector(M) / d vec(M), vec row by row over all nine entries: the normalisation to h33 = 1.
 Eigen::Matrix<double, 8, 9> projectionJacobian(const Eigen::Matrix3d& M);
 
 /// Relative pose of two camera frames a, b over a plane.
@@ -67,8 +67,8 @@ struct PlaneMotion {
 /// K (R + t m' / h) K^-1, h33 = 1: libs/README.md, equation (1).
 Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion);
 
-/// The translation [m] that takes the motion's rotation and plane to `H` (a to b, any scale): t = h (s K^-1 H
-/// K - R) m, s from the directions within the plane, which a translation does not change.
+/// The translation [m] that, together with the motion's rotation and plane, gives `H` (a to b, any scale): t
+/// = h (s K^-1 H K - R) m, with s from the directions within the plane, which a translation does not change.
 Eigen::Vector3d translationFromHomography(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H,
                                           const PlaneMotion& motion);
 
@@ -82,8 +82,8 @@ struct PlaneHomographyJacobians {
 };
 PlaneHomographyJacobians planeHomographyJacobians(const Eigen::Matrix3d& K, const PlaneMotion& motion);
 
-/// Mean distance [px] between where A and B take the points of a 16-px grid over the image. Points that
-/// either sends to infinity or behind the camera are left out; infinity where none is left.
+/// Mean distance [px] between the points of a 16-px grid over the image mapped by A and by B. Points that
+/// either maps to infinity or behind the camera are left out; infinity if none is left.
 double meanTransferError(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B, int width, int height);
 
 }  // namespace redbee

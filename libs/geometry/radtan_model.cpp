@@ -9,8 +9,8 @@
 namespace redbee {
 namespace {
 
-/// Slope of the steepest ray that is looked at, 89 degrees off the axis; beyond it the model holds where it
-/// holds here.
+/// Slope of the steepest ray that is checked, 89 degrees off the axis; a model that is injective up to there
+/// is taken to be so beyond.
 constexpr double kSteepestSlope = 57.29;
 
 Eigen::Vector2d applyDistortion(const std::array<double, 5>& d, const Eigen::Vector2d& x,
@@ -31,7 +31,7 @@ Eigen::Vector2d applyDistortion(const std::array<double, 5>& d, const Eigen::Vec
 }
 
 double maxRadius(const std::array<double, 5>& d) {
-  // In the angle, whose steps are fine near the axis, where lenses fold over.
+  // In steps of the angle, which are fine near the axis, where distortion polynomials fold over.
   const auto slope = [&d](double angle) {
     const double t = std::tan(angle), r2 = t * t;
     return 1.0 + r2 * (3.0 * d[0] + r2 * (5.0 * d[1] + r2 * 7.0 * d[4]));

@@ -1,4 +1,4 @@
-// Radial-tangential distortion: Brown-Conrady, OpenCV's plumb_bob, Kalibr's radtan.
+// Radial-tangential distortion: Brown-Conrady, ROS's plumb_bob, Kalibr's radtan.
 #pragma once
 
 #include <array>

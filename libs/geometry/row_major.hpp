@@ -1,4 +1,4 @@
-// Matrices as nine numbers, row by row: in messages, files and vectors of entries.
+// 3x3 matrices as nine numbers, row by row, as in messages and files.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,11 +1,11 @@
-// Rotations: the exponential map of SO(3) and what the filters need of its derivatives.
+// Rotations: exponential and logarithm of SO(3) and their derivatives.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace redbee {
 
-/// The cross-product matrix: skew(a) * b == a.cross(b).
+/// Skew-symmetric matrix: skew(a) * b == a.cross(b).
 Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 
 /// Rotation matrix of the rotation vector `phi` [rad].
@@ -14,13 +14,13 @@ Eigen::Matrix3d expSO3(const Eigen::Vector3d& phi);
 /// Rotation vector [rad] of a rotation matrix, its norm in [0, pi].
 Eigen::Vector3d logSO3(const Eigen::Matrix3d& R);
 
-/// J_r with exp(phi + d) ~ exp(phi) exp(J_r(phi) d) for small d.
+/// Right Jacobian J_r: exp(phi + d) ~ exp(phi) exp(J_r(phi) d) for small d.
 Eigen::Matrix3d rightJacobianSO3(const Eigen::Vector3d& phi);
 
-/// The rotation nearest to `M` in the Frobenius norm.
+/// The rotation closest to `M` in the Frobenius norm.
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& M);
 
-/// True where `R` is orthonormal with determinant +1, each entry of R R' - I within `tolerance`.
+/// True if `R` is orthonormal with determinant +1, each entry of R R' - I within `tolerance`.
 bool isRotation(const Eigen::Matrix3d& R, double tolerance = 1e-6);
 
 }  // namespace redbee

@@ -18,7 +18,7 @@ class Rectifier {
   /// 8-bit map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; `outside` where the
   /// raw pixel was not rectified.
   cv::Mat toRaw(const cv::Mat& ideal, uchar outside = 0) const;
-  /// 8-bit, ideal grid: 255 where the raw image shows nothing, or the camera model has no pixel; empty where
+  /// 8-bit, ideal grid: 255 where the raw image shows nothing, or the camera model has no pixel; empty if
   /// every pixel is seen.
   const cv::Mat& unseen() const { return unseen_; }
 

@@ -26,7 +26,7 @@ cv::Mat1b overlapMask(const cv::Size& size, const Eigen::Matrix3d& H);
 /// 255 where a current pixel, or a neighbour of it, was outside of the previous image, else 0.
 cv::Mat1b outsidePrevious(const cv::Matx33d& H, cv::Size size);
 
-/// True where H is finite and can be inverted.
+/// True if H is finite and can be inverted.
 bool isUsableHomography(const Eigen::Matrix3d& H);
 
 /// Full-size pixels to those of an image `downscale` times smaller: a pixel of it is the mean of a block, so

@@ -157,8 +157,8 @@ std::vector<ImuSample> mergeAtGyroTimes(const GoproStreams& streams) {
       sample.accel = streams.accel.back().value;
     } else {
       const TimedVector& before = *std::prev(after);
-      const double share = (gyro.t_s - before.t_s) / (after->t_s - before.t_s);
-      sample.accel = (1 - share) * before.value + share * after->value;
+      const double fraction = (gyro.t_s - before.t_s) / (after->t_s - before.t_s);
+      sample.accel = (1 - fraction) * before.value + fraction * after->value;
     }
     samples.push_back(sample);
   }

@@ -32,7 +32,7 @@ struct GoproStreams {
 /// the batches out; STMP, where the camera writes it, replaces the counting. One payload alone is spread
 /// evenly over its duration.
 ///
-/// Throws GpmfError where a payload is damaged, a unit is not known, or one of the sensors is missing.
+/// Throws GpmfError if a payload is damaged, a unit is not known, or one of the sensors is missing.
 GoproStreams readGoproStreams(const std::vector<DataPacket>& packets);
 
 /// A sample at every gyro time, the accelerometer interpolated linearly; held at the ends.

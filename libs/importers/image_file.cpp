@@ -67,7 +67,7 @@ image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageO
   return jpegMessage(utime, image, options.jpeg_quality);
 }
 
-void OneResolution::check(const std::filesystem::path& file, const image_t& image) {
+void ResolutionCheck::check(const std::filesystem::path& file, const image_t& image) {
   if (width_ == 0) {
     width_ = image.width;
     height_ = image.height;

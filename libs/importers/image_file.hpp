@@ -20,7 +20,7 @@ struct ImageOptions {
 image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options);
 
 /// Refuses an image of another size than the first one's.
-class OneResolution {
+class ResolutionCheck {
  public:
   void check(const std::filesystem::path& file, const image_t& image);
 

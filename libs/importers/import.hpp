@@ -76,7 +76,7 @@ struct ImportSummary {
 /// depends on it little; with an IMU it must be right.
 void assumeIntrinsics(ImportSummary& summary);
 
-/// A line for the summary where the IMU leaves frames uncovered; nothing where it covers all of them.
+/// A line for the summary where the IMU leaves frames uncovered; std::nullopt if it covers all of them.
 std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, CameraTime first_frame,
                                               CameraTime last_frame);
 double meanRate(const std::vector<ImuSample>& imu);

@@ -31,7 +31,7 @@ fs::path findVehicleFolder(const fs::path& folder) {
 
 std::vector<NamedFrame> readFrameList(const fs::path& file) {
   CsvReader csv(file);
-  IncreasingTimes times;
+  IncreasingTimeCheck times;
   std::vector<NamedFrame> frames;
   while (csv.next(2)) {
     const CameraTime time(fromNanoseconds(csv.integer(0)));
@@ -45,7 +45,7 @@ std::vector<NamedFrame> readFrameList(const fs::path& file) {
 
 std::vector<ImuSample> readImu(const fs::path& file) {
   CsvReader csv(file);
-  IncreasingTimes times;
+  IncreasingTimeCheck times;
   std::vector<ImuSample> samples;
   while (csv.next(7)) {
     ImuSample sample;
@@ -65,7 +65,7 @@ std::vector<AltitudeSample> readAltitudes(const fs::path& folder) {
   if (!fs::is_directory(folder)) return {};
   const double sigma = readAltimeterSigma(folder / "sensor.yaml");
   CsvReader csv(folder / "data.csv");
-  IncreasingTimes times;
+  IncreasingTimeCheck times;
   std::vector<AltitudeSample> samples;
   while (csv.next(2)) {
     const ImuTime time(fromNanoseconds(csv.integer(0)));
@@ -146,7 +146,7 @@ ImportSummary importAsl(const ImportOptions& options, Progress& progress) {
   summary.vehicle.start_height = altitudeAt(altitudes, toImu(frames.front().time, Duration(0)));
 
   FlightMerger merger(options.log, options.channels, imu, altitudes);
-  OneResolution resolution;
+  ResolutionCheck resolution;
   for (const NamedFrame& frame : frames) {
     const image_t image = loadListed(list, frame, images);
     resolution.check(list.parent_path() / "data" / frame.name, image);

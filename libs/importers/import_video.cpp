@@ -55,7 +55,7 @@ void addImages(const ImportOptions& options, FlightMerger& merger, ImportSummary
     throw InputError(options.source, "is a folder of images: a frame rate above 0 is needed");
   }
   const std::vector<fs::path> files = listImages(options.source);
-  OneResolution resolution;
+  ResolutionCheck resolution;
   for (size_t i = 0; i < files.size(); ++i) {
     const int64_t utime = std::llround(1e6 * static_cast<double>(i) / options.fps);
     const image_t image = loadImage(files[i], utime, {true, options.jpeg_quality});
@@ -75,7 +75,7 @@ std::vector<ImuSample> readImuCsv(const fs::path& file) {
   if (!csv.next(0)) throw InputError(file, "is empty");
   const auto columns = findColumns(csv);
   const size_t width = csv.fields().size();
-  IncreasingTimes times;
+  IncreasingTimeCheck times;
   std::vector<ImuSample> samples;
   while (csv.next(width)) {
     ImuSample sample;

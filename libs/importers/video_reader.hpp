@@ -44,8 +44,8 @@ class VideoReader {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// All packets of the data track with this four-letter tag ("gpmd"); empty where there is no such track.
-/// Throws InputError where the file is no container or is cut short.
+/// All packets of the data track with this four-letter tag ("gpmd"); empty if there is no such track. Throws
+/// InputError if the file is no container or is cut short.
 std::vector<DataPacket> readDataTrack(const std::filesystem::path& path, const std::string& tag);
 
 }  // namespace redbee

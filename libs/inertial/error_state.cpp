@@ -50,9 +50,9 @@ double square(double x) { return x * x; }
 
 /// White noise over the step. Inside a gap the true motion is constant but unknown: the contributions of its
 /// steps add up to (unknown * gap)^2.
-MovingMatrix processNoise(const Step& step, double hole_s, const PropagationParameters& parameters) {
+MovingMatrix processNoise(const Step& step, double gap_s, const PropagationParameters& parameters) {
   const ImuNoise& noise = parameters.noise;
-  const double hole = hole_s > parameters.max_gap_s ? hole_s : 0.0;
+  const double hole = gap_s > parameters.max_gap_s ? gap_s : 0.0;
   const double gyro = square(noise.gyro_noise_density) + square(kUnknownRate) * hole;
   const double accel = square(noise.accel_noise_density) + square(kUnknownAcceleration) * hole;
   const double dt = step.dt;
@@ -83,7 +83,7 @@ void propagate(NavigationState& state, const ImuKnot& from, const ImuKnot& to,
                const PropagationParameters& parameters) {
   const Step step = makeStep(state, from, to);
   if (step.dt <= 0) return;
-  moveCovariance(state.P, transition(state, step), processNoise(step, to.hole_s, parameters));
+  moveCovariance(state.P, transition(state, step), processNoise(step, to.gap_s, parameters));
 
   // Specific force runs linearly from one knot to the other in G; its integrals are then exact.
   const Eigen::Vector3d gravity(0, 0, -parameters.gravity);

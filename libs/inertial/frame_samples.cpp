@@ -52,11 +52,11 @@ std::vector<ImuSample> FrameSamples::forVertical(CameraTime frame) const {
 }
 
 bool FrameSamples::isMissing(const ImuSpan& span) {
-  return span.measured == 0 && std::max(span.longest_hole_s, span.extrapolated_s) > kCoverageTolerance;
+  return span.measured == 0 && std::max(span.longest_gap_s, span.extrapolated_s) > kCoverageTolerance;
 }
 
 bool FrameSamples::hasGap(const ImuSpan& span) const {
-  return span.longest_hole_s > max_gap_s_ || span.extrapolated_s > kCoverageTolerance;
+  return span.longest_gap_s > max_gap_s_ || span.extrapolated_s > kCoverageTolerance;
 }
 
 void FrameSamples::eraseBefore(CameraTime frame) {

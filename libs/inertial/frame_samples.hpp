@@ -23,7 +23,7 @@ class FrameSamples {
   bool cover(CameraTime frame) const;
   /// s, from a frame to the nearest sample, which may be a later one after a jump of the IMU's clock.
   double outageAt(CameraTime frame) const;
-  /// True where samples were refused in the interval of two frames.
+  /// True if samples were refused in the interval of two frames.
   bool wereRefused(CameraTime from_frame, CameraTime to_frame) const;
   /// Samples for the initial vertical at a frame, oldest first: those just before it, or else the first one
   /// after it.
@@ -32,9 +32,9 @@ class FrameSamples {
   bool empty() const { return imu_.empty(); }
   /// On [begin, end]; precondition: not empty.
   ImuSpan span(ImuTime begin, ImuTime end) const { return imu_.span(begin, end); }
-  /// True where the span has no sample, nor one right beside it.
+  /// True if the span has no sample, nor one right beside it.
   static bool isMissing(const ImuSpan& span);
-  /// True where a gap in the span is long enough to be reported.
+  /// True if a gap in the span is long enough to be reported.
   bool hasGap(const ImuSpan& span) const;
   /// Keeps the samples that a restart at the frame would need.
   void eraseBefore(CameraTime frame);

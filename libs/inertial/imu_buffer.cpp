@@ -64,7 +64,7 @@ ImuSpan ImuBuffer::span(ImuTime begin, ImuTime end) const {
   if (span.knots.back().sample.time < end) {
     span.knots.push_back({at(end), seconds((reaches_beyond ? last->time : end) - before)});
   }
-  for (const ImuKnot& knot : span.knots) span.longest_hole_s = std::max(span.longest_hole_s, knot.hole_s);
+  for (const ImuKnot& knot : span.knots) span.longest_gap_s = std::max(span.longest_gap_s, knot.gap_s);
   if (!reaches_beyond) span.extrapolated_s += seconds(std::max(Duration(0), end - newest()));
   span.extrapolated_s += seconds(std::max(Duration(0), samples_.front().time - begin));
   return span;

@@ -12,15 +12,15 @@ namespace redbee {
 
 /// One end of an integration step.
 struct ImuKnot {
-  ImuSample sample;   ///< measured, or interpolated between its neighbours
-  double hole_s = 0;  ///< time between the two measurements that enclose the step which ends here
+  ImuSample sample;  ///< measured, or interpolated between its neighbours
+  double gap_s = 0;  ///< time between the two measurements that enclose the step which ends here
 };
 
 /// The samples on [begin, end], the ends interpolated (held, where nothing lies beyond them).
 struct ImuSpan {
   std::vector<ImuKnot> knots;  ///< the first at begin, the last at end
   int measured = 0;            ///< samples on (begin, end]
-  double longest_hole_s = 0;   ///< over all steps
+  double longest_gap_s = 0;    ///< over all steps
   double extrapolated_s = 0;   ///< how far the ends reach beyond the first and last sample
 };
 

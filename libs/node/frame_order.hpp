@@ -1,4 +1,4 @@
-// The order of frames in time: one rule for all nodes, so that they agree.
+// Classifies frames by the order of their times; the same rule in all nodes.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,12 @@ namespace redbee {
 
 enum class FrameDecision { kNext, kDiscard, kRestart };
 
-/// A frame that is not newer than the last one came late or twice and is left out, unless time itself was set
-/// back: then the frames go on from an earlier time, and after `kRestartAfter` of them in a row, each newer
-/// than the one before, they are accepted.
+/// A frame that is not newer than the last one is late or a duplicate and is discarded, unless the clock was
+/// set back: after `kRestartAfter` such frames in a row, each newer than the one before, they are accepted.
 class FrameOrder {
  public:
   static constexpr int kRestartAfter = 5;
-  /// A frame this far in the past is a clock that was set back, at once.
+  /// A frame this much older than the last one is a clock that was set back.
   static constexpr Duration kSetBack = std::chrono::seconds(2);
 
   FrameDecision classify(CameraTime time) {
@@ -39,7 +38,7 @@ class FrameOrder {
   }
 
   std::optional<CameraTime> last_;
-  /// The last one left out since a frame was accepted.
+  /// The last frame discarded since one was accepted.
   CameraTime discarded_ = kNone;
   int in_a_row_ = 0;
 };

@@ -78,10 +78,10 @@ void LatencyWindow::note(double milliseconds) {
   if (values_.size() > kWindow) values_.pop_front();
 }
 
-double LatencyWindow::percentile(double share) const {
+double LatencyWindow::percentile(double fraction) const {
   if (values_.empty()) return 0;
   std::vector<double> sorted(values_.begin(), values_.end());
-  const double rank = std::ceil(share * static_cast<double>(sorted.size())) - 1;
+  const double rank = std::ceil(fraction * static_cast<double>(sorted.size())) - 1;
   const auto at = sorted.begin() +
                   static_cast<std::ptrdiff_t>(std::clamp(rank, 0.0, static_cast<double>(sorted.size() - 1)));
   std::nth_element(sorted.begin(), at, sorted.end());
@@ -113,9 +113,9 @@ void HealthMonitor::noteWork(double milliseconds) {
   ++work_count_;
 }
 
-void HealthMonitor::noteCpu(const CpuTime& share) {
-  cpu_.work += share.work;
-  cpu_.publishing += share.publishing;
+void HealthMonitor::noteCpu(const CpuTime& time) {
+  cpu_.work += time.work;
+  cpu_.publishing += time.publishing;
 }
 
 void HealthMonitor::setState(HealthState state, const std::string& message) {
@@ -124,18 +124,18 @@ void HealthMonitor::setState(HealthState state, const std::string& message) {
   state_message_ = message;
 }
 
-void HealthMonitor::setCalibration(const std::string& verdict) {
-  changed_ = changed_ || verdict != calibration_;
-  calibration_ = verdict;
+void HealthMonitor::setCalibration(const std::string& status) {
+  changed_ = changed_ || status != calibration_;
+  calibration_ = status;
 }
 
-void HealthMonitor::setQuiet(double seconds) {
-  const bool was_quiet = isQuiet();
-  quiet_s_ = seconds;
-  changed_ = changed_ || isQuiet() != was_quiet;
+void HealthMonitor::setInputSilence(double seconds) {
+  const bool was_timed_out = isInputTimedOut();
+  input_silence_s_ = seconds;
+  changed_ = changed_ || isInputTimedOut() != was_timed_out;
 }
 
-bool HealthMonitor::takeChange() { return std::exchange(changed_, false); }
+bool HealthMonitor::consumeChange() { return std::exchange(changed_, false); }
 
 int64_t HealthMonitor::lost() const {
   int64_t sum = lost_otherwise_;
@@ -153,11 +153,11 @@ void HealthMonitor::describeState(process_health_t& message) const {
   message.message = state_message_;
   message.rate_in = rate_in_.hertz();
   message.rate_out = rate_out_.hertz();
-  if (!isQuiet()) return;
+  if (!isInputTimedOut()) return;
   message.rate_in = message.rate_out = 0;
   if (state_ == HealthState::kStopping) return;
   if (state_ == HealthState::kGood) message.state = static_cast<int8_t>(HealthState::kDegraded);
-  message.message = "no input for " + std::to_string(static_cast<int64_t>(quiet_s_)) + " s";
+  message.message = "no input for " + std::to_string(static_cast<int64_t>(input_silence_s_)) + " s";
 }
 
 process_health_t HealthMonitor::nextMessage() {

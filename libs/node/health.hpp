@@ -1,4 +1,4 @@
-// How a process fares, in numbers that a ground station can read.
+// Health of a process: state, counters, rates and latencies for PROCESS_HEALTH.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace redbee {
 
-/// Counts the holes in one publisher's sequence numbers (0, 1, 2, ...). A number that comes late takes its
-/// hole back; one that comes twice counts for nothing; a publisher that starts again at 0, or falls back
-/// further than `kReordering`, is a new beginning and no loss.
+/// Counts the messages missing from one publisher's sequence numbers (0, 1, 2, ...). A late message is no
+/// longer counted as missing; a duplicate is ignored; a number of 0, or one more than `kReordering` behind,
+/// is a restart of the publisher, not a loss.
 class SequenceCounter {
  public:
   static constexpr int32_t kReordering = 32;
@@ -30,17 +30,17 @@ class SequenceCounter {
   int64_t lost_ = 0;
   int32_t last_ = -1;
   bool started_ = false;
-  std::set<int32_t> missing_;  ///< recent holes, which a late message may still fill
+  std::set<int32_t> missing_;  ///< recent ones, which may still arrive late
 };
 
-/// Rate of events by the times in their messages, over the newest `kWindow` of them.
+/// Rate of messages by the times inside them, over the newest `kWindow`.
 class MessageRate {
  public:
   static constexpr size_t kWindow = 120;
 
-  /// A time that runs backwards starts the window anew.
+  /// A time that runs backwards restarts the window.
   void note(int64_t utime);
-  /// Hz; 0 before the second event.
+  /// Hz; 0 before the second message.
   double hertz() const;
 
  private:
@@ -53,9 +53,9 @@ class LatencyWindow {
   static constexpr size_t kWindow = 480;
 
   void note(double milliseconds);
-  /// `share`: 0.5 for the median. The value at or below which this share of the window lies; 0 while it is
+  /// The value at or below which this fraction of the window lies (0.5: the median); 0 while the window is
   /// empty.
-  double percentile(double share) const;
+  double percentile(double fraction) const;
 
  private:
   std::deque<double> values_;
@@ -70,23 +70,23 @@ enum class HealthState : int8_t {
 };
 /// "starting", "good", "degraded", "stopping", "dead".
 const char* toString(HealthState state);
-/// Nothing for a word that names no state.
+/// std::nullopt if `name` is not the name of a state.
 std::optional<HealthState> healthStateOf(const std::string& name);
 
-/// Processor time [ms] that a frame took: until its answer was known (decoding included), and to make it into
-/// messages and publish them.
+/// Processor time of a frame [ms]: until its result was computed (decoding included), and to encode and
+/// publish it.
 struct CpuTime {
   double work = 0;
   double publishing = 0;
 };
 
-/// Collects what process_health_t tells. One per node, used by its one thread.
+/// Collects the contents of process_health_t. One per node; not thread-safe.
 class HealthMonitor {
  public:
-  /// `configuration_hash`: configurationHash() of what the process runs with.
+  /// `configuration_hash`: configurationHash() of the process's configuration.
   HealthMonitor(std::string process, std::string configuration_hash);
 
-  /// A message of the input that drives the process (for most: the frames).
+  /// A message of the input that drives the process (for most processes: a frame).
   void noteInput(int64_t utime);
   /// Any other message.
   void noteReceived(int64_t utime);
@@ -94,28 +94,27 @@ class HealthMonitor {
   void noteSkipped(int64_t frames = 1) { skipped_ += frames; }
   void noteDamaged(int64_t messages = 1) { damaged_ += messages; }
   void noteLate(int64_t inputs = 1) { late_ += inputs; }
-  /// Messages that no sequence number tells of.
+  /// Lost messages that sequence numbers do not show.
   void noteLost(int64_t messages) { lost_otherwise_ += messages; }
-  /// `sequence` of a message on `channel`: holes count as lost messages.
+  /// `sequence` of a message on `channel`; missing numbers count as lost messages.
   void noteSequence(const std::string& channel, int32_t sequence) { sequences_[channel].note(sequence); }
-  /// From taking the driving input to publishing what came of it [ms].
+  /// From receiving the driving input to publishing the result [ms].
   void noteLatency(double milliseconds) { latency_.note(milliseconds); }
-  /// Wall time of the work on one frame, waiting left out [ms].
+  /// Wall time of processing one frame, without waiting [ms].
   void noteWork(double milliseconds);
-  void noteCpu(const CpuTime& share);
+  void noteCpu(const CpuTime& time);
 
-  /// `message`: one line that says why, empty when all is well. A change of either is a change to tell at
-  /// once.
+  /// `message`: the reason in one line, empty for a good state. A change of either is published immediately.
   void setState(HealthState state, const std::string& message = "");
-  /// Whether the calibration fits the flight, in words. A change of it is a change to tell at once.
-  void setCalibration(const std::string& verdict);
-  /// The driving input has been away for so long [s, of the reader's clock]. From kQuietAfter_s on that is
-  /// what the health says, and the rates, which know message time only, are zero.
-  void setQuiet(double seconds);
-  static constexpr double kQuietAfter_s = 1.0;
+  /// Result of CalibrationMonitor. A change is published immediately.
+  void setCalibration(const std::string& status);
+  /// Time since the last driving input [s, wall clock]. From kInputTimeout_s on the state is degraded and the
+  /// rates, which are by message time, are reported as zero.
+  void setInputSilence(double seconds);
+  static constexpr double kInputTimeout_s = 1.0;
   HealthState state() const { return state_; }
-  /// True once after each change, and once after construction.
-  bool takeChange();
+  /// Returns true once after each change, and once after construction.
+  bool consumeChange();
 
   /// Messages of the driving input.
   int64_t inputs() const { return inputs_; }
@@ -125,14 +124,14 @@ class HealthMonitor {
   int64_t damaged() const { return damaged_; }
   int64_t late() const { return late_; }
   int64_t lost() const;
-  /// Of one channel; 0 for one that never spoke.
+  /// Of one channel; 0 before its first message.
   int64_t lost(const std::string& channel) const;
   double latencyMedian() const { return latency_.percentile(0.5); }
   double latencyP99() const { return latency_.percentile(0.99); }
   double workMedian() const { return work_.percentile(0.5); }
   double workP99() const { return work_.percentile(0.99); }
 
-  /// Sum over all frames [ms].
+  /// Sum over all frames.
   const CpuTime& cpu() const { return cpu_; }
   const std::string& process() const { return process_; }
 
@@ -140,7 +139,7 @@ class HealthMonitor {
   process_health_t nextMessage();
 
  private:
-  bool isQuiet() const { return quiet_s_ >= kQuietAfter_s; }
+  bool isInputTimedOut() const { return input_silence_s_ >= kInputTimeout_s; }
   void describeState(process_health_t& message) const;
 
   std::string process_;
@@ -151,7 +150,7 @@ class HealthMonitor {
   bool changed_ = true;
   int64_t newest_utime_ = 0;
   int32_t sequence_ = 0;
-  double quiet_s_ = 0;
+  double input_silence_s_ = 0;
   int64_t inputs_ = 0;
   int64_t received_ = 0;
   int64_t published_ = 0;
@@ -169,7 +168,7 @@ class HealthMonitor {
   CpuTime cpu_;
 };
 
-/// Resident memory of this process [bytes]; 0 where /proc does not tell.
+/// Resident memory of this process [bytes]; 0 if /proc is not available.
 int64_t residentBytes();
 
 }  // namespace redbee

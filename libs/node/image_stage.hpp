@@ -1,4 +1,5 @@
-// A stage that works on images, each together with the message of the same frame from another stage.
+// A stage that processes images, each together with the companion message of the same frame from another
+// stage.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +12,12 @@
 
 namespace redbee {
 
-/// Keeps at most `max_backlog` images: beyond it the oldest are skipped, so that a slow process stays with
-/// the present.
+/// Queues at most `max_backlog` images; beyond this the oldest are skipped, so that a slow process does not
+/// fall behind.
 template <typename Companion>
 class ImageStage : public Stage {
  public:
-  /// Works on the images in order, up to the first whose companion is still worth waiting for.
+  /// Processes the images in order, up to the first whose companion is pending.
   void process() final {
     while (!images_.empty() && !isPending(companions_, timeOf(images_.front().content), newest_)) {
       const Arrived<image_t> image = std::move(images_.front());
@@ -35,7 +36,7 @@ class ImageStage : public Stage {
   }
 
   virtual void work(const image_t& image) = 0;
-  /// The camera's clock was set back: forgets what was learned.
+  /// Discards the state; called when the camera's clock was set back.
   virtual void reset() = 0;
   MessageSynchronizer<Companion>& companions() { return companions_; }
   const MessageSynchronizer<Companion>& companions() const { return companions_; }

@@ -1,4 +1,4 @@
-// Waiting for the message that belongs to a frame, but not for ever, and without looking at a clock.
+// Waits for the companion message of a frame, with a timeout in message time.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace redbee {
 
-/// Messages of one channel by frame time. A frame's companion is waited for while its publisher is considered
-/// alive: until a later message of the channel shows that it was lost, or message time has moved on by
-/// `patience`. A publisher that timed out is considered dead until its next message. So the result depends
-/// on the messages alone while none is lost, and a dead publisher costs one wait.
+/// Stores the messages of one channel by frame time. A companion is pending until a later message of the
+/// channel shows that it was lost, or message time has advanced by `timeout`. A publisher that timed out is
+/// considered dead until its next message and is not waited for. So the results depend on the messages only,
+/// and a dead publisher causes only one timeout.
 template <typename Message>
 class MessageSynchronizer {
  public:
   enum class Status { kReady, kPending, kTimedOut };
 
-  /// `expected` false: never waited for (a vehicle without this source).
-  MessageSynchronizer(Duration patience, bool expected, size_t capacity = 64)
-      : patience_(patience), expected_(expected), alive_(expected), capacity_(capacity) {}
+  /// `expected` false: companions never become pending (a vehicle without this source).
+  MessageSynchronizer(Duration timeout, bool expected, size_t capacity = 64)
+      : timeout_(timeout), expected_(expected), alive_(expected), capacity_(capacity) {}
 
-  /// Messages that are later by more than kSetBack are forgotten: either time was set back, or they were
-  /// damaged, and would make every companion look overtaken from then on.
+  /// Erases stored messages that are later by more than kSetBack: either the clock was set back or they were
+  /// damaged; they would make every later companion seem lost.
   void put(CameraTime time, Message message) {
     alive_ = expected_;
     const CameraTime horizon = CameraTime::max() - FrameOrder::kSetBack;
@@ -39,7 +39,7 @@ class MessageSynchronizer {
     if (messages_.count(time) > 0) return Status::kReady;
     if (!alive_) return Status::kTimedOut;
     const bool overtaken = messages_.upper_bound(time) != messages_.end();
-    if (!overtaken && newest - time <= patience_) return Status::kPending;
+    if (!overtaken && newest - time <= timeout_) return Status::kPending;
     if (!overtaken) alive_ = false;
     ++timed_out_;
     return Status::kTimedOut;
@@ -56,7 +56,7 @@ class MessageSynchronizer {
   int64_t timedOut() const { return timed_out_; }
 
  private:
-  Duration patience_;
+  Duration timeout_;
   bool expected_;
   bool alive_;
   size_t capacity_;

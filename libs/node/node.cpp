@@ -14,15 +14,14 @@ namespace {
 constexpr std::chrono::milliseconds kPatience{50};
 constexpr std::chrono::seconds kHealthPeriod{1};
 
-// A signal handler reaches nothing but statics.
+// A signal handler can only access static objects.
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
 extern "C" void requestStop(int) { stop_requested = true; }
 
-/// What escapes one frame's work must not end the flight: the node goes on with the next and says so. But a
-/// process that is out of memory would go on failing for ever: it ends, and is started again with a clean
-/// heap.
+/// An exception while one frame is processed must not end the flight: the node reports it and continues with
+/// the next frame. A process that is out of memory would keep failing: it ends, and supervisor restarts it.
 void guarded(Node& node, void (Node::*work)()) {
   try {
     (node.*work)();
@@ -31,13 +30,13 @@ void guarded(Node& node, void (Node::*work)()) {
   } catch (const std::exception& error) {
     const auto* from_opencv = dynamic_cast<const cv::Exception*>(&error);
     if (from_opencv != nullptr && from_opencv->code == cv::Error::StsNoMem) throw std::bad_alloc();
-    spdlog::error("a frame could not be worked on: {}", error.what());
+    spdlog::error("a frame could not be processed: {}", error.what());
     node.health().setState(HealthState::kDegraded, std::string("internal error: ") + error.what());
   }
 }
 
-/// How long the input that drives a node has been away.
-class QuietTimer {
+/// Time since the last message of the input that drives a node.
+class InputSilenceTimer {
  public:
   using Clock = std::chrono::steady_clock;
 
@@ -56,7 +55,7 @@ class QuietTimer {
 
 void runNode(Bus& bus, Node& node, const std::string& health_channel, const std::atomic<bool>& stop) {
   auto next_health = std::chrono::steady_clock::now();
-  QuietTimer quiet;
+  InputSilenceTimer silence;
   int64_t failures = 0;
   while (!stop) {
     bus.handle(kPatience);
@@ -64,9 +63,9 @@ void runNode(Bus& bus, Node& node, const std::string& health_channel, const std:
     failures = bus.handlerFailures();
     guarded(node, &Node::process);
     const auto now = std::chrono::steady_clock::now();
-    node.health().setQuiet(quiet.seconds(node.health().inputs(), now));
+    node.health().setInputSilence(silence.seconds(node.health().inputs(), now));
     const bool due = now >= next_health;
-    if (node.health().takeChange() || due) bus.publish(health_channel, node.health().nextMessage());
+    if (node.health().consumeChange() || due) bus.publish(health_channel, node.health().nextMessage());
     if (due) next_health = now + kHealthPeriod;
   }
   guarded(node, &Node::finish);

@@ -1,4 +1,4 @@
-// A process's inside: messages in, library call, messages out.
+// A node: messages in, library call, messages out.
 #pragma once
 
 #include <atomic>
@@ -10,25 +10,25 @@
 
 namespace redbee {
 
-/// A node subscribes in its constructor; its handlers only take messages in, and process() does the work. So
-/// a burst of messages is seen whole before any of them is worked on.
+/// A node subscribes in its constructor. Handlers only store messages; process() does the work, so that all
+/// messages of a burst are received before the first one is processed.
 class Node {
  public:
   virtual ~Node() = default;
-  /// Works off what has arrived, as far as it can be. Called after every batch of messages.
+  /// Processes what is ready. Called after every batch of messages.
   virtual void process() = 0;
-  /// No message will come any more: works off what is left without waiting for companions.
+  /// No more messages will arrive: processes what is left without waiting for companions.
   virtual void finish() = 0;
   virtual HealthMonitor& health() = 0;
-  /// Keeps in this folder, from now on, what the process that takes its place needs. Most need nothing.
+  /// Persists in this folder what must survive a restart of the process. Most nodes have no such state.
   virtual void keepStateIn(const std::filesystem::path&) {}
 };
 
-/// Live: until `stop` is set, hands out messages, lets the node work and publishes its health. An exception
-/// costs a frame; only std::bad_alloc gets through.
+/// The main loop of a process: until `stop` is set, dispatches messages, lets the node process them and
+/// publishes its health. An exception costs one frame; only std::bad_alloc propagates.
 void runNode(Bus& bus, Node& node, const std::string& health_channel, const std::atomic<bool>& stop);
 
-/// SIGINT and SIGTERM set the flag that this returns.
+/// Returns a flag that SIGINT and SIGTERM set.
 const std::atomic<bool>& stopOnSignals();
 
 }  // namespace redbee

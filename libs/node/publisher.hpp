@@ -1,4 +1,4 @@
-// Publishes what a node found out about a frame.
+// Publishes a node's messages about a frame.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,9 @@ class Publisher {
  public:
   explicit Publisher(Bus& bus) : bus_(bus) {}
 
-  /// `time`: of the frame that the messages from here on are about.
+  /// `time`: of the frame that the following messages are about.
   void beginFrame(CameraTime time) { time_ = time; }
-  /// Fills in the frame's time and, where the type has one, the sequence number; each channel counts for
-  /// itself.
+  /// Fills in the frame's time and, if the type has one, the sequence number of the channel.
   template <typename Message>
   void publish(const std::string& channel, Message message) {
     message.utime = toUtime(time_);

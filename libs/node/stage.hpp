@@ -1,5 +1,5 @@
-// What the nodes of all stages have in common: subscriptions that end with the node, sequence numbers, order
-// of the frames, time-outs and health.
+// Base class of the processing stages: subscriptions that end with the node, sequence numbers, order of
+// frames, timeouts and health.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace redbee {
 
-/// Messages that wait for their handler before the newest is dropped: some seconds of each kind.
+/// Queue length of a subscription: some seconds of each message type.
 template <typename Message>
 inline constexpr int kQueueLength = 64;
 template <>
@@ -27,7 +27,7 @@ inline constexpr int kQueueLength<ins_t> = 4000;
 template <>
 inline constexpr int kQueueLength<altimeter_t> = 4000;
 
-/// A stage subscribes in its constructor with on(), and does the work on each frame inside workOn().
+/// A stage subscribes in its constructor with on(), and processes each frame inside workOn().
 class Stage : public Node {
  public:
   HealthMonitor& health() final { return health_; }
@@ -37,33 +37,33 @@ class Stage : public Node {
   /// `process`: its name in PROCESS_HEALTH.
   Stage(Bus& bus, const std::string& process, const std::string& configuration_hash);
 
-  /// `handler` gets each message that decodes. It may return whether the message is plausible. A message that
-  /// does not decode, or is not plausible, is counted as damaged; a hole in the sequence numbers, where the
-  /// type has them, as lost.
+  /// `handler` is called for each message that decodes, and may return whether the message is plausible. A
+  /// message that does not decode or is not plausible is counted as damaged; a missing sequence number, if
+  /// the type has them, as lost.
   template <typename Message, typename Handler>
   void on(const std::string& channel, Handler handler);
 
-  /// Whether to work on a frame that arrived with this time: late and doubled ones are skipped. Calls
-  /// restart() first where the camera's clock was set back.
+  /// Whether to process a frame with this time; late and duplicate frames are skipped. Calls restart() first
+  /// if the camera's clock was set back.
   bool acceptFrame(CameraTime time);
   FrameOrder& frameOrder() { return order_; }
-  /// The camera's clock was set back: drops what waits and forgets what was learned.
+  /// Discards queued messages and state; called when the camera's clock was set back.
   virtual void restart() = 0;
 
-  /// Whether the message for the frame at `time` is still worth waiting for; never after the last message.
-  /// Counts time-outs. `newest`: the latest message time that the node has seen on any channel.
+  /// Whether the message for the frame at `time` is pending; never after the last message. Counts timeouts.
+  /// `newest`: the latest message time that the node has seen on any channel.
   template <typename Message>
   bool isPending(MessageSynchronizer<Message>& messages, CameraTime time, CameraTime newest);
-  /// No message will come any more: process() works off what is left.
+  /// No more messages will arrive: process() handles what is left.
   bool isFinishing() const { return finishing_; }
 
-  /// Calls `work` for one frame and notes in the health what it took. `arrival`: since the frame was
-  /// received.
+  /// Calls `work` for one frame and records its latency and processor time. `arrival`: started when the frame
+  /// was received.
   template <typename Work>
   void workOn(CameraTime time, const WorkTimer& arrival, const Work& work);
-  /// Inside workOn(): from here on the frame's answer is known, and is only made into messages.
-  void noteAnswered() { timers_.cpu.answered(); }
-  /// Inside workOn(): a message about the frame.
+  /// Inside workOn(): the frame's result is computed; what follows is encoding and publishing.
+  void noteResultReady() { timers_.cpu.resultReady(); }
+  /// Inside workOn(): publishes a message about the frame.
   template <typename Message>
   void publish(const std::string& channel, Message message) {
     publisher_.publish(channel, std::move(message));

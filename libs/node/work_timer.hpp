@@ -1,4 +1,4 @@
-// What the work on one frame took. For the figures only: no answer depends on it.
+// Timers for one frame. For statistics only: no result depends on them.
 #pragma once
 
 #include <chrono>
@@ -19,15 +19,15 @@ class WorkTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Processor time of this thread: unlike wall time it is the same on a busy machine, or nearly.
+/// Processor time of this thread: unlike wall time it hardly depends on the machine's load.
 class CpuTimer {
  public:
-  /// From here on the frame's answer is known, and is only made into messages.
-  void answered() { answered_ = now(); }
-  CpuTime share() const {
+  /// The frame's result is computed; what follows is encoding and publishing.
+  void resultReady() { result_ready_ = now(); }
+  CpuTime elapsed() const {
     const double end = now();
-    const double answered = answered_ > 0 ? answered_ : end;
-    return {answered - start_, end - answered};
+    const double ready = result_ready_ > 0 ? result_ready_ : end;
+    return {ready - start_, end - ready};
   }
 
  private:
@@ -38,25 +38,25 @@ class CpuTimer {
   }
 
   double start_ = now();
-  double answered_ = 0;
+  double result_ready_ = 0;
 };
 
-/// Of the work on one frame, from when it was its turn.
+/// Timers of one frame, from the start of its processing.
 struct FrameTimers {
   WorkTimer wall;
   CpuTimer cpu;
 };
 
-/// `arrival`: since the frame was taken in.
+/// `arrival`: started when the frame was received.
 inline void noteDone(HealthMonitor& health, int64_t utime, const WorkTimer& arrival,
                      const FrameTimers& timers) {
   health.notePublished(utime);
   health.noteLatency(arrival.milliseconds());
   health.noteWork(timers.wall.milliseconds());
-  health.noteCpu(timers.cpu.share());
+  health.noteCpu(timers.cpu.elapsed());
 }
 
-/// Something that waits for its turn.
+/// Something queued, with the time since its arrival.
 template <typename Content>
 struct Arrived {
   Content content;

@@ -6,9 +6,9 @@
 
 namespace redbee {
 
-/// Any image that OpenCV writes as PNG. Throws InputError where it cannot be written.
+/// Any image that OpenCV writes as PNG. Throws InputError if it cannot be written.
 void writePng(const std::filesystem::path& file, const cv::Mat& image);
-/// 8-bit grey. Throws InputError where the file is missing or is not an image.
+/// 8-bit grey. Throws InputError if the file is missing or is not an image.
 cv::Mat1b readGreyPng(const std::filesystem::path& file);
 
 }  // namespace redbee

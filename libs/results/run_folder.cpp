@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Nothing where the name is not that of a map.
+/// std::nullopt if the name is not that of a map.
 std::optional<int64_t> timeOf(const fs::path& file) {
   const std::string stem = file.stem().string();
   int64_t utime = 0;

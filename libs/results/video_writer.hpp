@@ -9,7 +9,7 @@ namespace redbee {
 
 /// Writes "<path>.partial" and renames it on close(); destroyed without close() it leaves nothing. Encodes
 /// with libx264 where ffmpeg has it, else with any other H.264 encoder that opens, else MPEG-4. Throws
-/// InputError where the file cannot be written.
+/// InputError if the file cannot be written.
 class VideoWriter {
  public:
   /// `size` even, as yuv420p needs; `fps` > 0. `quality`: libx264's constant rate factor, lower is better.

@@ -26,7 +26,7 @@ class FrontPlaneEstimator {
       : width_(width), height_(height), parameters_(parameters) {}
 
   /// By RANSAC over the tracks that the ground's homography (previous to current, ideal pixels) does not
-  /// explain. Nothing where they show no plane that moves unlike the ground.
+  /// explain. std::nullopt if they show no plane that moves unlike the ground.
   std::optional<HomographyEstimate> estimate(const PointTracks& tracks, const Eigen::Matrix3d& ground) const;
 
  private:

@@ -22,7 +22,7 @@ struct HomographyEstimate {
   double rms_px = 0;  ///< of the inliers' transfer errors
 };
 
-/// The plane with most inliers; nothing where no plane passes the minima. Least squares on the inliers by
+/// The plane with most inliers; std::nullopt if no plane passes the minima. Least squares on the inliers by
 /// Gauss-Newton.
 std::optional<HomographyEstimate> estimateHomography(const PointTracks& tracks, int width, int height,
                                                      const RansacParameters& parameters);

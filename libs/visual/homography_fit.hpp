@@ -14,7 +14,7 @@
 namespace redbee {
 
 /// The homography through four pairs (Hartley and Zisserman, 2nd ed., 4.1.1, by way of the projective basis);
-/// nothing where three points are nearly in a line or the pairs turn the quadrilateral over, which no plane
+/// std::nullopt if three points are nearly in a line or the pairs turn the quadrilateral over, which no plane
 /// seen from one side does.
 std::optional<Eigen::Matrix3d> homographyThroughFour(const ScaledPairs& pairs,
                                                      const std::array<std::size_t, 4>& sample);
@@ -32,8 +32,8 @@ struct FitPrior {
   Matrix8d information;  ///< inverse covariance, times the variance of a residual
 };
 
-/// Levenberg's method on the transfer errors of the chosen pairs, Huber weights with knee `knee`. Nothing
-/// where the pairs do not determine eight parameters.
+/// Levenberg's method on the transfer errors of the chosen pairs, Huber weights with knee `knee`.
+/// std::nullopt if the pairs do not determine eight parameters.
 std::optional<LeastSquares> fitHomography(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen,
                                           const Eigen::Matrix3d& start, double knee, int iterations,
                                           const FitPrior* prior = nullptr);

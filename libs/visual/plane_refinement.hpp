@@ -16,7 +16,7 @@ namespace redbee {
 /// slide from the predicted ground to a larger plane nearby.
 enum class Selection { kFollowsFit, kFromStart };
 
-/// Of the pairs only those that are `allowed` may be inliers. `start`: scaled. Nothing where the minima of
+/// Of the pairs only those that are `allowed` may be inliers. `start`: scaled. std::nullopt if the minima of
 /// the parameters are not reached.
 std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const std::vector<uint8_t>& allowed,
                                               const Eigen::Matrix3d& start, cv::Size image,

@@ -34,8 +34,8 @@ struct PointTracks {
 /// Keeps the previous frame's pyramid. Assumes grey 8-bit images of one size; a change of size restarts it.
 class PointTracker {
  public:
-  /// `unseen`: 255 where the images show nothing (rectifier.hpp), empty where they are whole; patches that
-  /// touch it are not tracked.
+  /// `unseen`: 255 where the images show nothing (rectifier.hpp), empty if they are whole; patches that touch
+  /// it are not tracked.
   explicit PointTracker(const TrackerParameters& parameters, const cv::Mat& unseen = {});
   ~PointTracker();
 
@@ -48,7 +48,7 @@ class PointTracker {
   PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
     return advance(pyramidOf(grey), guess);
   }
-  /// True where at least `points` grid points of an image have enough texture to be tracked.
+  /// True if at least `points` grid points of an image have enough texture to be tracked.
   bool hasTexture(const Pyramid& image, int points) const;
   void reset();
 

@@ -92,7 +92,7 @@ Ransac::Candidate Ransac::score(const Eigen::Matrix3d& H) {
   return candidate;
 }
 
-/// Least squares on the inliers, twice. True where a new best results.
+/// Least squares on the inliers, twice. True if a new best results.
 bool Ransac::improve(const Eigen::Matrix3d& start, Candidate& best) {
   constexpr int kRounds = 2;
   Eigen::Matrix3d H = start;

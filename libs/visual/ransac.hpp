@@ -56,7 +56,7 @@ class Ransac {
   /// unit.
   Ransac(ScaledPairs candidates, double unit_px, const RansacParameters& parameters, const PlanePrior* prior);
 
-  /// Nothing where no plane has five inliers.
+  /// std::nullopt if no plane has five inliers.
   std::optional<Eigen::Matrix3d> run();
 
  private:

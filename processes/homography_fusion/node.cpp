@@ -137,7 +137,7 @@ void HomographyFusionNode::fuse(CameraTime time) {
   fill(message.tracks, tracks);
   if (same_step && visual_input) addObservation(message, *visual_input);
   if (front) addFrontPlane(message, *front);
-  noteAnswered();
+  noteResultReady();
   publish(configuration_.channels.fused_homography, message);
   inertial_.eraseThrough(time);
   visual_.eraseThrough(time);

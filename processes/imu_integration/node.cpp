@@ -74,9 +74,9 @@ void ImuIntegrationNode::restart() {
 
 bool ImuIntegrationNode::isReadyFor(CameraTime frame) {
   if (isFinishing()) return true;
-  const Duration patience = fromSeconds(configuration_.waits.inertial_s);
+  const Duration timeout = fromSeconds(configuration_.waits.inertial_s);
   if (imu_alive_ && !filter_.covers(frame)) {
-    if (clock_.now() - frame <= patience) return false;
+    if (clock_.now() - frame <= timeout) return false;
     imu_alive_ = false;
   }
   return !last_frame_ || !isPending(feedback_, *last_frame_, clock_.now());
@@ -132,7 +132,7 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   if (last_frame_) feedback_.eraseThrough(*last_frame_);
   const InertialHomography result = filter_.advanceTo(frame);
   last_frame_ = frame;
-  noteAnswered();
+  noteResultReady();
   inertial_homography_t message{};
   message.utime_previous = toUtime(result.time_previous);
   message.status = static_cast<int8_t>(result.status);

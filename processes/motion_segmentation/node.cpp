@@ -97,7 +97,7 @@ void MotionSegmentationNode::work(const image_t& message) {
   FrameInput input = inputFor(message, fused);
   decodeInto(input, message);
   const DetectorOutput output = detector_->step(input);
-  noteAnswered();
+  noteResultReady();
   publishOutput(message, input, output);
   noteState(output.status, fused != nullptr);
   if (fused != nullptr) {

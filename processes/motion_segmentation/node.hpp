@@ -39,7 +39,7 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   /// `fused`: of this frame; null where there is none.
   FrameInput inputFor(const image_t& message, const fused_homography_t* fused) const;
   void addVisual(FrameInput& input) const;
-  /// Images stay empty where there is none of the camera's size.
+  /// Images stay empty if there is none of the camera's size.
   void decodeInto(FrameInput& input, const image_t& message);
   void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output);
   void noteState(DetectorStatus status, bool has_fused);

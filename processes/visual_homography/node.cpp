@@ -58,7 +58,7 @@ void VisualHomographyNode::work(const image_t& message) {
   const CameraTime time = timeOf(message);
   const auto predicted = prediction(time);
   const VisualHomography result = estimator_->step(time, rectifier_.toIdeal(*grey), predicted);
-  noteAnswered();
+  noteResultReady();
   publishResult(result);
   // After an image that nothing could be tracked in, the next one is tracked from an earlier frame: its
   // links are still needed.

@@ -21,8 +21,8 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
   VisualHomographyNode(Bus& bus, const Configuration& configuration);
 
  private:
-  /// The inertial messages from the frame that is tracked from up to this one, composed; nothing where one is
-  /// missing.
+  /// The inertial messages from the frame that is tracked from up to this one, composed; std::nullopt if one
+  /// is missing.
   std::optional<HomographyPrediction> prediction(CameraTime time) const;
   void work(const image_t& message) override;
   void refuse(const image_t& image);

@@ -45,10 +45,10 @@ void fly(benchmark::State& state, const Configuration& configuration) {
       frames += event.channel == configuration.channels.camera ? 1 : 0;
     }
     stack.finish();
-    for (const auto& [stage, share] : stack.cpu()) {
-      sum.work += share.work;
-      sum.publishing += share.publishing;
-      state.counters[stage] += share.work;
+    for (const auto& [stage, time] : stack.cpu()) {
+      sum.work += time.work;
+      sum.publishing += time.publishing;
+      state.counters[stage] += time.work;
     }
   }
   for (auto& [name, counter] : state.counters) counter.value /= static_cast<double>(frames);

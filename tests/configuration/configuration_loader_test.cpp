@@ -65,7 +65,7 @@ TEST_F(ConfigurationLoader, FaultsAreReportedWithFileLineAndKey) {
       {"\"two\\nlines\": 1\n", "2: two lines: ", "unknown key"},
   };
   for (const auto& fault : faults) {
-    const std::string answer = complaint(kCamera + fault.text);
+    const std::string answer = errorMessage(kCamera + fault.text);
     EXPECT_THAT(answer, StartsWith("vehicle.yaml:" + fault.place)) << fault.text;
     EXPECT_THAT(answer, HasSubstr(fault.what)) << fault.text;
   }
@@ -75,22 +75,22 @@ TEST_F(ConfigurationLoader, AnImpossibleCameraIsRefused) {
   const auto camera = [](const std::string& change) {
     return "camera:\n  width: 640\n  height: 480\n  fx: 500\n  fy: 500\n  cx: 319.5\n  " + change + "\n";
   };
-  EXPECT_THAT(complaint(camera("")), StartsWith("vehicle.yaml:1: camera.cy: is missing"));
-  EXPECT_THAT(complaint(camera("cy: 1\n  R_CI: [1, 0, 0, 0, 1, 0, 0, 0, -1]")),
+  EXPECT_THAT(errorMessage(camera("")), StartsWith("vehicle.yaml:1: camera.cy: is missing"));
+  EXPECT_THAT(errorMessage(camera("cy: 1\n  R_CI: [1, 0, 0, 0, 1, 0, 0, 0, -1]")),
               StartsWith("vehicle.yaml:8: camera.R_CI: is no rotation"));
-  EXPECT_THAT(complaint(camera("cy: 1\n  R_CI: [1, 0, 0, 0, 1.01, 0, 0, 0, 1]")),
+  EXPECT_THAT(errorMessage(camera("cy: 1\n  R_CI: [1, 0, 0, 0, 1.01, 0, 0, 0, 1]")),
               HasSubstr("is no rotation"));
-  EXPECT_THAT(complaint(camera("cy: 1\n  fx: 2")),
+  EXPECT_THAT(errorMessage(camera("cy: 1\n  fx: 2")),
               StartsWith("vehicle.yaml:8: camera.fx: stands here for the second time"));
-  EXPECT_THAT(complaint("camera: {width: 0}\n"), StartsWith("vehicle.yaml:1: camera.width: "));
-  EXPECT_THAT(complaint("camera: {fx: -500}\n"), StartsWith("vehicle.yaml:1: camera.fx: must be above 0"));
-  EXPECT_THAT(complaint("camera: {distortion: [1, 2, 3]}\n"), HasSubstr("has 3"));
+  EXPECT_THAT(errorMessage("camera: {width: 0}\n"), StartsWith("vehicle.yaml:1: camera.width: "));
+  EXPECT_THAT(errorMessage("camera: {fx: -500}\n"), StartsWith("vehicle.yaml:1: camera.fx: must be above 0"));
+  EXPECT_THAT(errorMessage("camera: {distortion: [1, 2, 3]}\n"), HasSubstr("has 3"));
 }
 
 TEST_F(ConfigurationLoader, AMissingFileIsNamed) {
   EXPECT_THROW(loadConfiguration(folder_ / "nothing.yaml"), ConfigurationError);
-  EXPECT_THAT(complaint(""), HasSubstr("holds no keys"));
-  EXPECT_THAT(complaint("just words"), HasSubstr("holds no keys"));
+  EXPECT_THAT(errorMessage(""), HasSubstr("holds no keys"));
+  EXPECT_THAT(errorMessage("just words"), HasSubstr("holds no keys"));
 }
 
 TEST_F(ConfigurationLoader, TheIncludingFileWinsAndTheCalibrationIsIncludedUnchanged) {
@@ -108,14 +108,15 @@ TEST_F(ConfigurationLoader, TheIncludingFileWinsAndTheCalibrationIsIncludedUncha
 
 TEST_F(ConfigurationLoader, AFaultInAnIncludedFileNamesThatFile) {
   write("other.yaml", "\nwrong: 1\n");
-  EXPECT_THAT(complaint(std::string("include: other.yaml\n") + kCamera), StartsWith("other.yaml:2: wrong: "));
+  EXPECT_THAT(errorMessage(std::string("include: other.yaml\n") + kCamera),
+              StartsWith("other.yaml:2: wrong: "));
 }
 
 TEST_F(ConfigurationLoader, FilesThatIncludeEachOtherAreRefused) {
   write("other.yaml", "vehicle: a\ninclude: vehicle.yaml\n");
-  EXPECT_THAT(complaint(std::string("include: other.yaml\n") + kCamera),
+  EXPECT_THAT(errorMessage(std::string("include: other.yaml\n") + kCamera),
               StartsWith("other.yaml:2: include: "));
-  EXPECT_THAT(complaint("include: vehicle.yaml\n"), StartsWith("vehicle.yaml:1: include: "));
+  EXPECT_THAT(errorMessage("include: vehicle.yaml\n"), StartsWith("vehicle.yaml:1: include: "));
 }
 
 TEST_F(ConfigurationLoader, TheCommandLineIsCheckedWithTheWhole) {

@@ -16,8 +16,8 @@ using simulation::kPondPatch;
 constexpr int kFrames = 24;
 
 void report(const std::string& what, const PixelCounts& counts) {
-  std::cout << what << ": recall " << counts.recall() << ", false share " << counts.falseFraction()
-            << ", false share of the patch " << counts.falsePatchFraction() << ", P_FG of movers "
+  std::cout << what << ": recall " << counts.recall() << ", false fraction " << counts.falseFraction()
+            << ", false fraction of the patch " << counts.falsePatchFraction() << ", P_FG of movers "
             << counts.moverProbability() << ", of the patch " << counts.patchProbability() << "\n";
   testing::Test::RecordProperty(what + "_recall", std::to_string(counts.recall()));
   testing::Test::RecordProperty(what + "_false_fraction", std::to_string(counts.falseFraction()));

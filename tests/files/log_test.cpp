@@ -125,12 +125,13 @@ TEST(LogTest, AFullDiskIsReported) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
   const ScratchFolder folder;
   fs::create_symlink("/dev/full", folder / "f.lcm.partial");
-  const std::string complaint = complaintOf([&] {
+  const std::string error_message = errorMessageOf([&] {
     LogWriter writer(folder / "f.lcm");
     for (int k = 0; k < 100; ++k) writer.write(k, "A", payload(10000, k));
     writer.close();
   });
-  EXPECT_NE(complaint.find("f.lcm: cannot be written: No space left"), std::string::npos) << complaint;
+  EXPECT_NE(error_message.find("f.lcm: cannot be written: No space left"), std::string::npos)
+      << error_message;
   EXPECT_FALSE(fs::exists(folder / "f.lcm"));
 }
 
@@ -174,8 +175,8 @@ TEST(LogTest, ADamagedEventIsSkippedAndCounted) {
     while (const auto event = reader.next()) numbers.push_back(event->number);
     EXPECT_EQ(numbers, (std::vector<int64_t>{0, 1, 2, 3, 5, 6, 7, 8, 9})) << damage.what;
     EXPECT_EQ(reader.damaged(), 1) << damage.what;
-    EXPECT_NE(reader.complaint().find("f.lcm: byte " + std::to_string(offsets[4])), std::string::npos)
-        << reader.complaint();
+    EXPECT_NE(reader.damageReport().find("f.lcm: byte " + std::to_string(offsets[4])), std::string::npos)
+        << reader.damageReport();
   }
 }
 
@@ -193,11 +194,13 @@ TEST(LogTest, WhatIsNoLogIsRefused) {
   const ScratchFolder folder;
   writeText(folder / "empty.lcm", "");
   writeText(folder / "text.lcm", std::string(100000, 'a'));
-  const auto open = [&](const std::string& name) { return complaintOf([&] { LogReader{folder / name}; }); };
+  const auto open = [&](const std::string& name) {
+    return errorMessageOf([&] { LogReader{folder / name}; });
+  };
   EXPECT_NE(open("empty.lcm").find("empty.lcm: is empty"), std::string::npos);
   EXPECT_NE(open("text.lcm").find("text.lcm: holds no LCM event"), std::string::npos);
   EXPECT_NE(open("none.lcm").find("none.lcm: cannot be opened"), std::string::npos);
-  EXPECT_NE(complaintOf([&] { LogReader{folder.path()}; }).find("is a folder"), std::string::npos);
+  EXPECT_NE(errorMessageOf([&] { LogReader{folder.path()}; }).find("is a folder"), std::string::npos);
 }
 
 TEST(ProgressTest, ShortWorkPrintsNothing) {

@@ -11,7 +11,7 @@
 namespace redbee {
 namespace {
 
-HeardMessage messageOf(int64_t utime, size_t size) {
+ReceivedMessage messageOf(int64_t utime, size_t size) {
   return {utime, "CAMERA", std::vector<uint8_t>(size, static_cast<uint8_t>(utime))};
 }
 

@@ -66,7 +66,7 @@ TEST_F(ImportAslFaults, BadInputIsReportedWithFileAndLine) {
   };
   for (const Case& bad : cases) {
     bad.damage();
-    const std::string line = complaint();
+    const std::string line = errorMessage();
     EXPECT_NE(line.find(bad.file_and_line), std::string::npos) << bad.what << ": " << line;
     EXPECT_NE(line.find(bad.fault), std::string::npos) << bad.what << ": " << line;
     writeText(list, good_list);
@@ -83,10 +83,11 @@ TEST_F(ImportAslFaults, AnEmptyFolderIsRefused) {
   options.log = log();
   fs::create_directories(options.source);
   Progress progress("importing", "frames", true);
-  EXPECT_NE(complaintOf([&] { aslImporter().import(options, progress); }).find("holds neither mav0 nor cam0"),
-            std::string::npos);
+  EXPECT_NE(
+      errorMessageOf([&] { aslImporter().import(options, progress); }).find("holds neither mav0 nor cam0"),
+      std::string::npos);
   options.source = folder_ / "none";
-  EXPECT_NE(complaintOf([&] { aslImporter().import(options, progress); }).find("no such folder"),
+  EXPECT_NE(errorMessageOf([&] { aslImporter().import(options, progress); }).find("no such folder"),
             std::string::npos);
 }
 

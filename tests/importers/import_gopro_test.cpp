@@ -25,8 +25,9 @@ TEST(ImportGoproTest, AVideoWithoutMetadataIsRefused) {
   for (int k = 0; k < 5; ++k) writer.write(texture(64, 64, k, 3));
   writer.close();
   Progress progress("importing", "frames", true);
-  EXPECT_NE(complaintOf([&] { goproImporter().import(options, progress); }).find("v.mp4: has no GPMF track"),
-            std::string::npos);
+  EXPECT_NE(
+      errorMessageOf([&] { goproImporter().import(options, progress); }).find("v.mp4: has no GPMF track"),
+      std::string::npos);
   EXPECT_FALSE(fs::exists(options.log));
 }
 

@@ -35,8 +35,8 @@ class ImportVideoTest : public testing::Test {
     Progress progress("importing", "frames", true);
     return importRecording(videoImporter(), options_, progress);
   }
-  std::string complaint() const {
-    std::string line = complaintOf([&] { import(); });
+  std::string errorMessage() const {
+    std::string line = errorMessageOf([&] { import(); });
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_FALSE(fs::exists(options_.log));
     return line;
@@ -105,7 +105,7 @@ TEST_F(ImportVideoTest, BadImuFilesAreReportedWithTheirLine) {
   options_.imu = folder_ / "imu.csv";
   const auto complaintFor = [&](const std::string& text) {
     writeText(*options_.imu, text);
-    return complaint();
+    return errorMessage();
   };
   const std::string header = "t_s,gx,gy,gz,ax,ay,az\n";
   EXPECT_NE(complaintFor("0,1,2,3,4,5,6\n").find("imu.csv:1: header names no column 't_s'"),
@@ -123,33 +123,33 @@ TEST_F(ImportVideoTest, BadImuFilesAreReportedWithTheirLine) {
 TEST_F(ImportVideoTest, ATruncatedVideoNamesItsLastGoodFrame) {
   const std::string whole = readText(options_.source);
   int named = 0;
-  for (const double share : {0.95, 0.85, 0.8}) {
+  for (const double fraction : {0.95, 0.85, 0.8}) {
     writeText(options_.source,
-              whole.substr(0, static_cast<size_t>(share * static_cast<double>(whole.size()))));
-    const std::string line = complaint();
+              whole.substr(0, static_cast<size_t>(fraction * static_cast<double>(whole.size()))));
+    const std::string line = errorMessage();
     EXPECT_NE(line.find("v.mp4: "), std::string::npos) << line;
     EXPECT_NE(line.find("cut short"), std::string::npos) << line;
     named += line.find("the last good one") != std::string::npos ? 1 : 0;
-    std::cout << share << ": " << line << "\n";
+    std::cout << fraction << ": " << line << "\n";
   }
   EXPECT_EQ(named, 3);
   writeText(options_.source, whole.substr(0, 200));
-  EXPECT_NE(complaint().find("v.mp4: "), std::string::npos);
+  EXPECT_NE(errorMessage().find("v.mp4: "), std::string::npos);
 }
 
 TEST_F(ImportVideoTest, WhatIsNoVideoIsRefused) {
   writeText(options_.source, "hello");
-  EXPECT_NE(complaint().find("v.mp4: is no video"), std::string::npos);
+  EXPECT_NE(errorMessage().find("v.mp4: is no video"), std::string::npos);
   writeText(options_.source, "");
-  EXPECT_NE(complaint().find("v.mp4: "), std::string::npos);
+  EXPECT_NE(errorMessage().find("v.mp4: "), std::string::npos);
   fs::remove(options_.source);
-  EXPECT_NE(complaint().find("v.mp4: no such file"), std::string::npos);
+  EXPECT_NE(errorMessage().find("v.mp4: no such file"), std::string::npos);
 }
 
 TEST_F(ImportVideoTest, AFolderOfImagesIsAVideoToo) {
   options_.source = folder_ / "images";
   fs::create_directories(options_.source);
-  EXPECT_NE(complaintOf([&] {
+  EXPECT_NE(errorMessageOf([&] {
               options_.fps = 10;
               import();
             }).find("holds no JPEG or PNG"),
@@ -158,7 +158,7 @@ TEST_F(ImportVideoTest, AFolderOfImagesIsAVideoToo) {
     cv::imwrite((options_.source / ("0" + std::to_string(k) + ".jpg")).string(), texture(32, 32, k, 3));
   }
   options_.fps = 0;
-  EXPECT_NE(complaint().find("frame rate"), std::string::npos);
+  EXPECT_NE(errorMessage().find("frame rate"), std::string::npos);
   options_.fps = 10;
   EXPECT_EQ(import().frames, 3);
   EXPECT_EQ(messagesOn<image_t>(readEvents(options_.log), "CAMERA")[2].utime, 200'000);

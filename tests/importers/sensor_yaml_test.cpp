@@ -70,11 +70,11 @@ TEST_F(CamchainTest, AnotherCameraOfTheChain) {
 }
 
 TEST_F(CamchainTest, FaultsAreNamedWithFileAndLine) {
-  EXPECT_NE(complaintOf([&] { readCamchain(file(), "cam2"); }).find("holds no 'cam2'"), std::string::npos);
-  EXPECT_NE(complaintOf([&] { readCamchain(mav() / "imu0" / "sensor.yaml"); }).find("is it a camchain?"),
+  EXPECT_NE(errorMessageOf([&] { readCamchain(file(), "cam2"); }).find("holds no 'cam2'"), std::string::npos);
+  EXPECT_NE(errorMessageOf([&] { readCamchain(mav() / "imu0" / "sensor.yaml"); }).find("is it a camchain?"),
             std::string::npos);
   writeText(file(), std::string(kCamchain).replace(std::string(kCamchain).find("0.0006]"), 7, "0.0006, 1]"));
-  EXPECT_NE(complaintOf([&] { readCamchain(file()); }).find("camchain-imucam.yaml:9: distortion_coeffs"),
+  EXPECT_NE(errorMessageOf([&] { readCamchain(file()); }).find("camchain-imucam.yaml:9: distortion_coeffs"),
             std::string::npos);
 }
 
@@ -94,7 +94,7 @@ TEST_F(CamchainTest, AnImportTakesTheCameraFromItAtTheSizeOfTheImages) {
 
 TEST_F(CamchainTest, AnotherAspectRatioIsRefusedAndLeavesNoLog) {
   writeText(file(), std::string(kCamchain).replace(std::string(kCamchain).find("128, 96"), 7, "128, 72"));
-  const std::string complaint = complaintOf([&] { importWithCamchain(); });
+  const std::string complaint = errorMessageOf([&] { importWithCamchain(); });
   EXPECT_NE(complaint.find("is 128x72, the images are 64x48"), std::string::npos) << complaint;
   EXPECT_FALSE(fs::exists(log()));
 }

@@ -109,40 +109,40 @@ TEST(HealthMonitor, ReportsAllThatWasNoted) {
 
 TEST(HealthMonitor, AChangeIsReportedOnce) {
   HealthMonitor health("redbee-test", "");
-  EXPECT_TRUE(health.takeChange()) << "the start is news";
-  EXPECT_FALSE(health.takeChange());
+  EXPECT_TRUE(health.consumeChange()) << "the start is news";
+  EXPECT_FALSE(health.consumeChange());
   health.setState(HealthState::kGood);
-  EXPECT_TRUE(health.takeChange());
+  EXPECT_TRUE(health.consumeChange());
   health.setState(HealthState::kGood);
-  EXPECT_FALSE(health.takeChange());
+  EXPECT_FALSE(health.consumeChange());
   health.setState(HealthState::kGood, "but slow");
-  EXPECT_TRUE(health.takeChange());
+  EXPECT_TRUE(health.consumeChange());
   health.setCalibration("does not fit");
-  EXPECT_TRUE(health.takeChange());
+  EXPECT_TRUE(health.consumeChange());
 }
 
 TEST(HealthMonitor, AMissingInputIsReportedAndHasNoRate) {
   HealthMonitor health("redbee-test", "");
   health.setState(HealthState::kGood);
   for (int i = 0; i < 10; ++i) health.noteInput(1000000 + i * 40000);
-  health.takeChange();
-  health.setQuiet(0.9);
-  EXPECT_FALSE(health.takeChange());
+  health.consumeChange();
+  health.setInputSilence(0.9);
+  EXPECT_FALSE(health.consumeChange());
   EXPECT_NEAR(health.nextMessage().rate_in, 25, 1e-9);
-  health.setQuiet(3.4);
-  EXPECT_TRUE(health.takeChange());
+  health.setInputSilence(3.4);
+  EXPECT_TRUE(health.consumeChange());
   const auto quiet = health.nextMessage();
   EXPECT_EQ(quiet.state, 2);
   EXPECT_EQ(quiet.message, "no input for 3 s");
   EXPECT_EQ(quiet.rate_in, 0);
-  health.setQuiet(0);
-  EXPECT_TRUE(health.takeChange());
+  health.setInputSilence(0);
+  EXPECT_TRUE(health.consumeChange());
   EXPECT_EQ(health.nextMessage().state, 1);
 }
 
 TEST(HealthMonitor, StoppingIsNotOverwrittenByQuiet) {
   HealthMonitor health("redbee-test", "");
-  health.setQuiet(9);
+  health.setInputSilence(9);
   health.setState(HealthState::kStopping);
   EXPECT_EQ(health.nextMessage().state, 3);
   EXPECT_EQ(health.nextMessage().message, "");

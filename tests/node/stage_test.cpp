@@ -32,7 +32,7 @@ class EchoStage : public ImageStage<altimeter_t> {
   void work(const image_t& image) override {
     const altimeter_t* altitude = companions().find(timeOf(image));
     heights.push_back(altitude != nullptr ? altitude->height : -1);
-    noteAnswered();
+    noteResultReady();
     publish("DETECTIONS", detections_t{});
     companions().eraseThrough(timeOf(image));
   }

@@ -20,15 +20,15 @@ StackOutput runLossy(const StackFlight& flight, const PacketFaults& faults, unsi
   return output;
 }
 
-void expectAllKindsSurvived(double share, int within_frames) {
-  const int percent = static_cast<int>(std::lround(100 * share));
+void expectAllKindsSurvived(double probability, int within_frames) {
+  const int percent = static_cast<int>(std::lround(100 * probability));
   const struct {
     const char* name;
     PacketFaults faults;
-  } kinds[] = {{"lost", {share, 0, 0}},
-               {"duplicated", {0, share, 0}},
-               {"reordered", {0, 0, share}},
-               {"lost, duplicated, reordered", {share, share, share}}};
+  } kinds[] = {{"lost", {probability, 0, 0}},
+               {"duplicated", {0, probability, 0}},
+               {"reordered", {0, 0, probability}},
+               {"lost, duplicated, reordered", {probability, probability, probability}}};
   unsigned seed = 1;
   for (const auto& kind : kinds) {
     const StackOutput output = runLossy(calmFlight(), kind.faults, seed++);

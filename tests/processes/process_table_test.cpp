@@ -49,7 +49,7 @@ TEST(ProcessTable, NamesOnlyKeysOfTheConfiguration) {
     EXPECT_THAT(keys, testing::Contains(section + "." + std::string(key)));
   };
   for (const ProcessDescription* stage : kStages) {
-    if (!stage->patience.empty()) expectKey("waits", stage->patience);
+    if (!stage->timeout.empty()) expectKey("waits", stage->timeout);
     for (const KeyList& list : {stage->publishes, stage->waits_for, stage->waits_for_previous}) {
       for (const std::string_view key : list) expectKey("channels", key);
     }

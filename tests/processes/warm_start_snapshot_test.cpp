@@ -11,7 +11,7 @@ namespace {
 struct Corruption {
   const char* name;
   std::function<void(filter_snapshot_t&)> corrupt;
-  const char* complaint;
+  const char* error_message;
 };
 
 class CorruptSnapshot : public testing::TestWithParam<Corruption> {};
@@ -26,7 +26,7 @@ TEST_P(CorruptSnapshot, ChangesNothingAndIsReported) {
   FaultInjection faults;
   faults.corrupt_snapshot = GetParam().corrupt;
   const RunResult result = run(flight, faults);
-  EXPECT_NE(result.log.find(GetParam().complaint), std::string::npos) << result.log;
+  EXPECT_NE(result.log.find(GetParam().error_message), std::string::npos) << result.log;
   for (int k = kBackAt; k < kFrames; ++k) {
     EXPECT_EQ(encodeMessage(result.homographies.at(k)), encodeMessage(without.homographies.at(k))) << k;
   }

@@ -37,7 +37,7 @@ class TrialReport {
   TrialReport(const EndlessFlight& flight, const Observer& observer, const std::vector<Kill>& kills)
       : flight_(flight), observer_(observer), kills_(kills) {}
 
-  /// Prints the figures. False where something that is promised did not hold.
+  /// Prints the figures. False if something that is promised did not hold.
   bool print() {
     std::map<std::string, Figures> figures;
     for (const Kill& kill : kills_) {

@@ -78,7 +78,7 @@ TEST(RunFolder, MapsAreNamedByTimeAndReadBack) {
   EXPECT_FALSE(run.has(RunMap::kProbability, 1'000'000));
   EXPECT_EQ(cv::norm(run.read(RunMap::kMask, 1'000'000), image, cv::NORM_INF), 0);
   EXPECT_EQ(cv::countNonZero(run.readOrZeros(RunMap::kMask, 3, {40, 30})), 0);
-  EXPECT_NE(complaintOf([&] {
+  EXPECT_NE(errorMessageOf([&] {
               run.readOrZeros(RunMap::kMask, 1'000'000, {40, 31});
             }).find("mask/1000000.png: has 40x30 px instead of 40x31"),
             std::string::npos);
@@ -96,17 +96,18 @@ TEST(RunFolder, PreparingRemovesTheMapsOfAnEarlierRun) {
 TEST(RunFolder, ComplaintsNameTheFile) {
   const ScratchFolder folder;
   const RunFolder run(folder.path());
-  EXPECT_NE(complaintOf([&] { run.times(RunMap::kMask); }).find("mask: no such folder"), std::string::npos);
-  EXPECT_NE(complaintOf([&] { run.read(RunMap::kMask, 5); }).find("mask/5.png: no such file"),
+  EXPECT_NE(errorMessageOf([&] { run.times(RunMap::kMask); }).find("mask: no such folder"),
+            std::string::npos);
+  EXPECT_NE(errorMessageOf([&] { run.read(RunMap::kMask, 5); }).find("mask/5.png: no such file"),
             std::string::npos);
   writeText(folder / "mask/6.png", "no image");
-  EXPECT_NE(complaintOf([&] { run.read(RunMap::kMask, 6); }).find("mask/6.png: not a readable image"),
+  EXPECT_NE(errorMessageOf([&] { run.read(RunMap::kMask, 6); }).find("mask/6.png: not a readable image"),
             std::string::npos);
-  EXPECT_NE(complaintOf([&] { run.summary(); }).find("summary.json: cannot be read"), std::string::npos);
+  EXPECT_NE(errorMessageOf([&] { run.summary(); }).find("summary.json: cannot be read"), std::string::npos);
   writeText(folder / "homography.csv", "utime,epoch\n1,2\n");
-  EXPECT_NE(complaintOf([&] { run.homographies(); }).find("homography.csv:1: has 2 columns instead of 21"),
+  EXPECT_NE(errorMessageOf([&] { run.homographies(); }).find("homography.csv:1: has 2 columns instead of 21"),
             std::string::npos);
-  EXPECT_NE(complaintOf([&] {
+  EXPECT_NE(errorMessageOf([&] {
               writePng(folder / "none" / "mask.png", texture(40, 30, 0, 1));
             }).find("mask.png: cannot be written"),
             std::string::npos);
@@ -118,7 +119,7 @@ TEST(RunFolder, TheSummaryReadsBack) {
   run.writeSummary({{"frames", 240}});
   EXPECT_EQ(run.summary().at("frames"), 240);
   writeText(folder / "summary.json", "{");
-  EXPECT_NE(complaintOf([&] { run.summary(); }).find("summary.json: "), std::string::npos);
+  EXPECT_NE(errorMessageOf([&] { run.summary(); }).find("summary.json: "), std::string::npos);
 }
 
 }  // namespace

@@ -58,8 +58,8 @@ class AslFolder : public testing::Test {
     return aslImporter().import(options, progress);
   }
   /// The complaint; fails where it holds more than one line or leaves a log behind.
-  std::string complaint() const {
-    std::string line = complaintOf([&] { import(); });
+  std::string errorMessage() const {
+    std::string line = errorMessageOf([&] { import(); });
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_FALSE(fs::exists(log()));
     EXPECT_FALSE(fs::exists(log().string() + ".partial"));

@@ -25,7 +25,7 @@ class ConfigurationFile : public testing::Test {
   }
   Configuration load(const std::string& text) const { return loadConfiguration(write("vehicle.yaml", text)); }
   /// The complaint about vehicle.yaml, without the folder.
-  std::string complaint(const std::string& text) const {
+  std::string errorMessage(const std::string& text) const {
     try {
       load(text);
     } catch (const ConfigurationError& error) {

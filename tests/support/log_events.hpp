@@ -21,8 +21,8 @@ inline std::vector<LogEvent> readEvents(const std::filesystem::path& path) {
   LogReader reader(path);
   std::vector<LogEvent> events;
   while (auto event = reader.next()) events.push_back(std::move(*event));
-  EXPECT_EQ(reader.damaged(), 0) << reader.complaint();
-  EXPECT_FALSE(reader.truncated()) << reader.complaint();
+  EXPECT_EQ(reader.damaged(), 0) << reader.damageReport();
+  EXPECT_FALSE(reader.truncated()) << reader.damageReport();
   return events;
 }
 
@@ -47,8 +47,8 @@ inline bool isSortedByTime(const std::vector<LogEvent>& events) {
                         [](const LogEvent& a, const LogEvent& b) { return a.utime < b.utime; });
 }
 
-/// The message of the InputError that `work` throws; empty where it throws none.
-inline std::string complaintOf(const std::function<void()>& work) {
+/// The message of the InputError that `work` throws; empty if it throws none.
+inline std::string errorMessageOf(const std::function<void()>& work) {
   try {
     work();
   } catch (const InputError& error) {

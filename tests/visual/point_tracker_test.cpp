@@ -14,7 +14,7 @@ namespace {
 
 struct Accuracy {
   double median_px = 0;
-  double share = 0;  ///< tracked within 1 px, of the grid points that stay in view
+  double fraction = 0;  ///< tracked within 1 px, of the grid points that stay in view
 };
 
 Accuracy accuracyOf(const PointTracks& tracks, const Eigen::Matrix3d& H) {
@@ -53,11 +53,11 @@ TEST(PointTracker, FollowsTwentyPixelsAndFifteenDegreesASecondFromAGuess) {
   guess(0, 2) += 1.5;
   guess(1, 2) -= 1.0;
   const Accuracy a = trackOnce(H, guess);
-  std::cout << "motion " << motion << " px; median error " << a.median_px << " px, share tracked " << a.share
-            << "\n";
+  std::cout << "motion " << motion << " px; median error " << a.median_px << " px, fraction tracked "
+            << a.fraction << "\n";
   EXPECT_GT(motion, 20);
   EXPECT_LT(a.median_px, 0.1);
-  EXPECT_GT(a.share, 0.9);
+  EXPECT_GT(a.fraction, 0.9);
 }
 
 TEST(PointTracker, FollowsTwentyPixelsWithoutAGuess) {
@@ -65,17 +65,17 @@ TEST(PointTracker, FollowsTwentyPixelsWithoutAGuess) {
   H(0, 2) = 17.3;
   H(1, 2) = -11.6;
   const Accuracy a = trackOnce(H, {});
-  std::cout << "median error " << a.median_px << " px, share tracked " << a.share << "\n";
+  std::cout << "median error " << a.median_px << " px, fraction tracked " << a.fraction << "\n";
   EXPECT_LT(a.median_px, 0.1);
-  EXPECT_GT(a.share, 0.9);
+  EXPECT_GT(a.fraction, 0.9);
 }
 
 TEST(PointTracker, IsBlindToExposure) {
   const Eigen::Matrix3d H = groundHomography({3, -4, 2}, {1, 0, 2});
   const Accuracy a = trackOnce(H, {}, 0.8, 30);
-  std::cout << "median error " << a.median_px << " px, share tracked " << a.share << "\n";
+  std::cout << "median error " << a.median_px << " px, fraction tracked " << a.fraction << "\n";
   EXPECT_LT(a.median_px, 0.1);
-  EXPECT_GT(a.share, 0.9);
+  EXPECT_GT(a.fraction, 0.9);
 }
 
 TEST(PointTracker, SurvivesRaggedImages) {

@@ -16,15 +16,15 @@ CameraTime frameTime(int k) { return CameraTime(k * Duration(41667)); }
 
 cv::Mat still(unsigned noise_seed) { return Canvas(8).view(Eigen::Matrix3d::Identity(), 1.5, noise_seed); }
 
-/// Covers a share of the image, in scattered blocks, with a texture that moves by its own ways.
-void scatter(cv::Mat& before, cv::Mat& after, double share, unsigned seed) {
+/// Covers a fraction of the image, in scattered blocks, with a texture that moves by its own ways.
+void scatter(cv::Mat& before, cv::Mat& after, double fraction, unsigned seed) {
   constexpr int kBlock = 40;
   cv::RNG rng(seed);
   const Canvas other(77);
   const cv::Mat strange = other.view(Eigen::Matrix3d::Identity(), 1, 3);
   for (int y = 0; y < kHeight; y += kBlock) {
     for (int x = 0; x < kWidth; x += kBlock) {
-      if (rng.uniform(0.0, 1.0) >= share) continue;
+      if (rng.uniform(0.0, 1.0) >= fraction) continue;
       Eigen::Matrix3d H = Eigen::Matrix3d::Identity();
       H(0, 2) = rng.uniform(-12.0, 12.0);
       H(1, 2) = rng.uniform(-12.0, 12.0);

@@ -137,9 +137,9 @@ void ObjectTracker::miss(Object& object) {
 void ObjectTracker::deleteLostTracks(const cv::Rect& view) {
   const auto lost = [&](const Object& object) {
     // An unconfirmed track is deleted at its first miss.
-    const int patience = object.confirmed ? parameters_.max_missed_frames : 0;
+    const int max_missed = object.confirmed ? parameters_.max_missed_frames : 0;
     const bool in_view = (boxAt(object.last.box, object.centre) & view).area() > 0;
-    return object.missed - object.blind > patience || !in_view;
+    return object.missed - object.blind > max_missed || !in_view;
   };
   objects_.erase(std::remove_if(objects_.begin(), objects_.end(), lost), objects_.end());
 }

@@ -24,8 +24,8 @@ class ForegroundEvidence {
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
              const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K);
 
-  /// Maps of the size `full`, empty where there is no earlier frame. `grey` may be smaller than that;
-  /// `colour`: of grey's size, or empty where the camera has none.
+  /// Maps of the size `full`, empty if there is no earlier frame. `grey` may be smaller than that; `colour`:
+  /// of grey's size, or empty if the camera has none.
   ForegroundMaps learn(int64_t utime, const cv::Mat1b& grey, const cv::Mat3b& colour,
                        const Eigen::Matrix3d& K, cv::Size full);
 

@@ -32,14 +32,13 @@ class ParallaxEvidence {
   /// The camera moves (previous to current; full-size pixels).
   void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
              const std::optional<PlaneMotion>& motion);
-  /// Evidence of motion per pixel of the work, 0..1; empty where there is no earlier frame. Stores the image
+  /// Evidence of motion per pixel of the work, 0..1; empty if there is no earlier frame. Stores the image
   /// (`full` or smaller).
   cv::Mat1f learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full);
 
   /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
   const cv::Mat1b& unknown() const { return unknown_; }
-  /// Flow of the last learn(); the work's pixels (see SurfaceSpeed). Empty where there was no
-  /// earlier frame.
+  /// Flow of the last learn(); the work's pixels (see SurfaceSpeed). Empty if there was no earlier frame.
   const cv::Mat2f& speed() const { return speed_; }
 
  private:

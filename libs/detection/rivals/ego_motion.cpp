@@ -62,8 +62,8 @@ Eigen::Vector2d offSegment(const EgoMotion::Segment& segment, const cv::Point2f&
   const Eigen::Vector2d along = segment.nearest - segment.farthest;
   const Eigen::Vector2d from = Eigen::Vector2d(current.x, current.y) - segment.farthest;
   const double length2 = along.squaredNorm();
-  const double share = length2 > 0 ? std::clamp(from.dot(along) / length2, 0.0, 1.0) : 0.0;
-  return from - share * along;
+  const double fraction = length2 > 0 ? std::clamp(from.dot(along) / length2, 0.0, 1.0) : 0.0;
+  return from - fraction * along;
 }
 
 }  // namespace redbee

@@ -18,8 +18,8 @@ class EgoMotion {
   EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_fraction,
             double ground_slack);
   /// From the tracks alone: essential matrix (Nister's five points, RANSAC). Depth is only known to be
-  /// positive, and is taken to be at least `nearest_baselines` times the length of travel. Nothing where too
-  /// few points agree.
+  /// positive, and is taken to be at least `nearest_baselines` times the length of travel. std::nullopt if
+  /// too few points agree.
   static std::optional<EgoMotion> fromTracks(const GridTracks& tracks, const Eigen::Matrix3d& K,
                                              double nearest_baselines);
 

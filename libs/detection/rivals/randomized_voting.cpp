@@ -26,7 +26,7 @@ std::vector<size_t> membersOf(const std::vector<int>& labels, int motion) {
 }
 
 /// Distances [px] of the second points to the epipolar lines of the first under a fundamental matrix of
-/// `sample`; nothing where they do not fix one.
+/// `sample`; std::nullopt if they do not fix one.
 std::optional<Eigen::VectorXd> epipolarDistances(const std::vector<cv::Point2f>& first,
                                                  const std::vector<cv::Point2f>& second,
                                                  const std::vector<size_t>& sample) {

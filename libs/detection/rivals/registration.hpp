@@ -9,9 +9,9 @@
 
 namespace redbee {
 
-/// Homography of `tracks`, previous to current, by RANSAC with this inlier distance [px]. Nothing where fewer
-/// than 3 % of the points sampled (and 8 more) follow it, or it turns or scales the image as no camera does
-/// (the authors do not check).
+/// Homography of `tracks`, previous to current, by RANSAC with this inlier distance [px]. std::nullopt if
+/// fewer than 3 % of the points sampled (and 8 more) follow it, or it turns or scales the image as no camera
+/// does (the authors do not check).
 std::optional<cv::Matx33d> registerTracks(const GridTracks& tracks, double inlier_px = 1.0);
 
 class Registrar {

@@ -21,8 +21,8 @@ class TrajectoryWindow {
   explicit TrajectoryWindow(const TrajectoryWindowParameters& parameters);
 
   void reset();
-  /// Follows all tracks into the image (of one size between resets) and seeds empty cells. False where
-  /// fewer than a tenth of the tracks could be followed: it then restarts from this image.
+  /// Follows all tracks into the image (of one size between resets) and seeds empty cells. False if fewer
+  /// than a tenth of the tracks could be followed: it then restarts from this image.
   bool advance(const cv::Mat1b& grey);
 
   /// 2F x N, px: x and y of frame f in rows 2f and 2f + 1, a column for every track that spans the whole

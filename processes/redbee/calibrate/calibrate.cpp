@@ -107,8 +107,8 @@ int runCalibrate(const CalibrateOptions& options) {
     Progress progress("calibrating", "frames", options.quiet);
     const auto frames = static_cast<int64_t>(input.frames.size());
     try {
-      result = calibration::calibrate(input, [&](double share) {
-        progress.update(static_cast<int64_t>(share * static_cast<double>(frames)), frames);
+      result = calibration::calibrate(input, [&](double fraction) {
+        progress.update(static_cast<int64_t>(fraction * static_cast<double>(frames)), frames);
       });
     } catch (const calibration::CalibrationError& error) {
       throw InputError(sourceOf(options), error.what());

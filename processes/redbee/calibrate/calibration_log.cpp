@@ -177,7 +177,7 @@ void readCalibrationLog(const std::filesystem::path& log, const Configuration& c
     progress.update(reader.position() >> 20, reader.size() >> 20);
   }
   progress.finish();
-  if (!reader.complaint().empty()) std::fprintf(stderr, "warning: %s\n", reader.complaint().c_str());
+  if (!reader.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", reader.damageReport().c_str());
   intake.finish();
 }
 

@@ -9,8 +9,8 @@
 namespace redbee {
 
 /// Reads IMU, altimeter and images, and follows points from each image to the next; fills imu, altimeter,
-/// frames and ground of `input`. Damaged messages and events are skipped with a warning. Throws InputError
-/// where the log holds no images or no IMU, or images of another size than configured.
+/// frames and ground of `input`. Damaged messages and events are skipped with a warning. Throws InputError if
+/// the log holds no images or no IMU, or images of another size than configured.
 void readCalibrationLog(const std::filesystem::path& log, const Configuration& configuration, bool quiet,
                         calibration::CalibrationInput& input);
 

@@ -104,7 +104,7 @@ std::vector<calibration::TargetView> readTargetCorners(const std::filesystem::pa
 std::vector<ImuSample> readTargetImu(const std::filesystem::path& csv) {
   constexpr size_t kColumns = 7;
   CsvReader reader(csv);
-  IncreasingTimes times;
+  IncreasingTimeCheck times;
   std::vector<ImuSample> samples;
   while (reader.next(kColumns)) {
     ImuSample sample;

@@ -27,7 +27,7 @@ std::string joined(const KeyList& keys) {
 
 void printTable() {
   const char* format = "%-20s %-28s %-9s %-5s %-36s %-40s %s\n";
-  std::printf(format, "NAME", "PROGRAM", "MEMORY_MB", "PRIO", "PUBLISHES", "WAITS_FOR", "PATIENCE");
+  std::printf(format, "NAME", "PROGRAM", "MEMORY_MB", "PRIO", "PUBLISHES", "WAITS_FOR", "TIMEOUT");
   const auto print = [&](const ProcessDescription& process) {
     const std::string program =
         process.subcommand.empty() ? programName(process) : "redbee " + std::string(process.subcommand);
@@ -35,10 +35,10 @@ void printTable() {
                 std::to_string(process.memory_limit / 1'000'000).c_str(),
                 std::to_string(process.priority).c_str(), joined(process.publishes).c_str(),
                 joined(process.waits_for).c_str(),
-                process.patience.empty() ? "-" : ("waits." + std::string(process.patience)).c_str());
+                process.timeout.empty() ? "-" : ("waits." + std::string(process.timeout)).c_str());
   };
   for (const auto* process : kStages) print(*process);
-  for (const auto* process : kCompanions) print(*process);
+  for (const auto* process : kSupportProcesses) print(*process);
 }
 
 void runStack(const StackOptions& options) {

@@ -21,7 +21,7 @@
 
 namespace redbee {
 
-/// Prepares the folder for a new run. Throws InputError where it cannot be written.
+/// Prepares the folder for a new run. Throws InputError if it cannot be written.
 class ResultCollector {
  public:
   ResultCollector(Bus& bus, const Channels& channels, std::filesystem::path folder);
@@ -31,8 +31,8 @@ class ResultCollector {
   /// The latest health message of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }
 
-  /// `wall_s`: how long the run took. `usage`: of the process that ran all of it; nothing where
-  /// several did: resident memory is then the sum over the processes whose health was received.
+  /// `wall_s`: how long the run took. `usage`: of the process that ran all of it; std::nullopt if several
+  /// did: resident memory is then the sum over the processes whose health was received.
   void writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const;
 
  private:

@@ -107,7 +107,7 @@ int64_t runDetect(const DetectOptions& options) {
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
   stack.publishHealth();
   progress.finish();
-  if (!log.complaint().empty()) std::fprintf(stderr, "warning: %s\n", log.complaint().c_str());
+  if (!log.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", log.damageReport().c_str());
   ProcessUsage usage = processUsage();
   usage.stages = stack.cpu();
   collector.writeTables(wall_s, usage);

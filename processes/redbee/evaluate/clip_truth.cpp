@@ -38,7 +38,7 @@ std::optional<fs::path> baseOf(const fs::path& folder) {
   return std::nullopt;
 }
 
-/// Positions of the recording's images by name; empty where they are not available.
+/// Positions of the recording's images by name; empty if they are not available.
 std::map<std::string, int64_t> imageNumbers(const fs::path& folder) {
   std::vector<std::string> stems;
   if (fs::is_directory(folder)) {

@@ -31,15 +31,15 @@ class ClipTruth {
     std::filesystem::path mask;  ///< empty: only objects are known
   };
   struct Labels {
-    cv::Mat1b mask;  ///< empty where only objects are known
+    cv::Mat1b mask;  ///< empty if only objects are known
     ObjectTruth objects;
   };
 
-  /// Throws InputError where the folder holds no ground truth or a table cannot be read.
+  /// Throws InputError if the folder holds no ground truth or a table cannot be read.
   explicit ClipTruth(const std::filesystem::path& folder);
   /// Nothing moves in any frame.
   static ClipTruth nothingMoves() { return ClipTruth(); }
-  /// True where the folder holds masks.
+  /// True if the folder holds masks.
   static bool isIn(const std::filesystem::path& folder);
 
   /// The labelled ones among the recording's frames, in order. `utimes`: of all frames of the recording [us],
@@ -47,7 +47,7 @@ class ClipTruth {
   /// none of the frames has are kept: a frame that the run has lost counts. A number beyond the last frame is
   /// an InputError.
   std::vector<Frame> frames(const std::vector<int64_t>& utimes) const;
-  /// Throws InputError where an image cannot be read or has another size.
+  /// Throws InputError if an image cannot be read or has another size.
   Labels read(const Frame& frame, cv::Size size) const;
 
  private:

@@ -51,7 +51,7 @@ class Comparison {
   std::vector<std::string> rowsOf(const std::string& set) const;
   std::filesystem::path folder(const ListedClip& clip, const std::string& row,
                                const std::string& method) const;
-  /// Null where the cell has not been run.
+  /// nullptr if the cell has not been run.
   const CellMeasures* cell(const ListedClip& clip, const std::string& row, const std::string& method) const;
 
  private:

@@ -23,7 +23,7 @@ ClipTruth truthOf(const EvaluateOptions& options) {
   return options.truth == "none" ? ClipTruth::nothingMoves() : ClipTruth(options.truth);
 }
 
-/// Of the probability maps. Throws InputError where the run has none, or no folder of masks.
+/// Of the probability maps. Throws InputError if the run has none, or no folder of masks.
 std::vector<int64_t> mapTimes(const RunFolder& run) {
   std::vector<int64_t> times = run.times(RunMap::kProbability);
   if (times.empty()) throw InputError(run.path() / "probability", "holds no map <time in us>.png");

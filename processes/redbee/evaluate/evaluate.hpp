@@ -18,8 +18,7 @@ struct EvaluateOptions {
   int64_t frames = 0;                     ///< only the first frames of the recording; 0: all
 };
 
-/// One clip. Throws InputError where a folder or an image cannot be read, or where no labelled frame has a
-/// map.
+/// One clip. Throws InputError if a folder or an image cannot be read, or where no labelled frame has a map.
 ClipMeasures measureClip(const EvaluateOptions& options);
 
 /// Prints the measures; leaves measures.json, pr.csv, pr.svg, frames.csv and, with a log, images of the best

@@ -8,7 +8,7 @@
 
 namespace redbee {
 
-/// A whole file; empty where it cannot be read.
+/// A whole file; empty if it cannot be read.
 inline std::string contentOf(const std::filesystem::path& file) {
   std::ostringstream content;
   content << std::ifstream(file, std::ios::binary).rdbuf();

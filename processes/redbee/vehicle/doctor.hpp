@@ -9,7 +9,7 @@ namespace redbee {
 struct Finding {
   bool good = false;
   std::string what;  ///< one line
-  std::string fix;   ///< a command or a step; empty where nothing is wrong
+  std::string fix;   ///< a command or a step; empty if nothing is wrong
 };
 
 struct DoctorOptions {

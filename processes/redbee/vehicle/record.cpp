@@ -55,7 +55,7 @@ class Recorder {
   explicit Recorder(const RecordOptions& options)
       : options_(options),
         log_(prefixNow(options.out), static_cast<int64_t>(options.split_mb * kMegabyte)),
-        queue_([this](const HeardMessage& message) { write(message); }, kQueueBytes),
+        queue_([this](const ReceivedMessage& message) { write(message); }, kQueueBytes),
         lcm_(options.url) {
     if (!lcm_.good()) throw std::runtime_error("LCM cannot open " + options.url);
     // No limit here: received messages are queued at once, and that queue counts what it cannot hold.
@@ -100,7 +100,7 @@ class Recorder {
 
   void onMessage(const lcm::ReceiveBuffer* received, const std::string& channel) {
     const auto* first = static_cast<const uint8_t*>(received->data);
-    HeardMessage message{received->recv_utime, channel, {first, first + received->data_size}};
+    ReceivedMessage message{received->recv_utime, channel, {first, first + received->data_size}};
     health_.noteInput(message.utime);
     if (!final_message_.empty() && channel == options_.channel && message.data == final_message_)
       final_message_received_ = true;
@@ -108,7 +108,7 @@ class Recorder {
   }
 
   /// In the queue's thread.
-  void write(const HeardMessage& message) {
+  void write(const ReceivedMessage& message) {
     log_.write(message);
     if (Clock::now() - last_sync_ < kSyncPeriod) return;
     log_.sync();

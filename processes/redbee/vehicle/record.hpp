@@ -17,7 +17,7 @@ struct RecordOptions {
 
 /// Two differences to lcm-logger: that one queues at most 30 messages, and so loses some whenever it is not
 /// scheduled for some hundredths of a second; and it drops what it has not written when it is stopped.
-/// Returns true after SIGINT or SIGTERM, with everything sent before them written; false where the disk ended
+/// Returns true after SIGINT or SIGTERM, with everything sent before them written; false if the disk ended
 /// it.
 bool runRecord(const RecordOptions& options);
 

@@ -10,7 +10,7 @@ RecordingQueue::RecordingQueue(Write write, int64_t limit_bytes)
 
 RecordingQueue::~RecordingQueue() { close(); }
 
-bool RecordingQueue::push(HeardMessage message) {
+bool RecordingQueue::push(ReceivedMessage message) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!failure_.empty() || waiting_bytes_ + message.bytes() > limit_bytes_) return false;
@@ -50,7 +50,7 @@ void RecordingQueue::writeAll() {
   while (true) {
     changed_.wait(lock, [this] { return closing_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
-    const HeardMessage message = std::move(waiting_.front());
+    const ReceivedMessage message = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
     write_(message);

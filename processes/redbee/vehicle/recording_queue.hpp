@@ -18,7 +18,7 @@ namespace redbee {
 /// thread's.
 class RecordingQueue {
  public:
-  using Write = std::function<void(const HeardMessage&)>;
+  using Write = std::function<void(const ReceivedMessage&)>;
 
   /// `limit_bytes`: of waiting messages. An exception from `write` ends the writing.
   RecordingQueue(Write write, int64_t limit_bytes);
@@ -26,8 +26,8 @@ class RecordingQueue {
   RecordingQueue(const RecordingQueue&) = delete;
   RecordingQueue& operator=(const RecordingQueue&) = delete;
 
-  /// False where there is no room, or the writing has ended: the message is lost.
-  bool push(HeardMessage message);
+  /// False if there is no room, or the writing has ended: the message is lost.
+  bool push(ReceivedMessage message);
   /// The reason why the writing ended; empty while all is well.
   std::string failure() const;
   /// Returns when all that was pushed is written.
@@ -41,7 +41,7 @@ class RecordingQueue {
   int64_t limit_bytes_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<HeardMessage> waiting_;
+  std::deque<ReceivedMessage> waiting_;
   int64_t waiting_bytes_ = 0;
   bool closing_ = false;
   std::string failure_;

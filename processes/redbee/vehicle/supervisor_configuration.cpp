@@ -69,7 +69,7 @@ std::string sectionOf(const ProcessDescription& process) {
 std::string supervisorConfiguration() {
   std::string text = kHead;
   for (const auto* process : kStages) text += sectionOf(*process);
-  for (const auto* process : kCompanions) text += sectionOf(*process);
+  for (const auto* process : kSupportProcesses) text += sectionOf(*process);
   return text;
 }
 

@@ -23,39 +23,39 @@ double meanInside(const cv::Mat& map, const cv::Rect& box) {
 }
 
 TEST(BorderStructure, WhatStandsInTheImageIsNone) {
-  const cv::Mat share = fractionOfBorderStructure(evidence({{60, 40, 40, 30}}), kSeen, kStretch_px);
-  EXPECT_EQ(share.type(), CV_32F);
-  EXPECT_EQ(share.size(), kSize);
-  EXPECT_EQ(cv::countNonZero(share > 1e-3), 0);
+  const cv::Mat fraction = fractionOfBorderStructure(evidence({{60, 40, 40, 30}}), kSeen, kStretch_px);
+  EXPECT_EQ(fraction.type(), CV_32F);
+  EXPECT_EQ(fraction.size(), kSize);
+  EXPECT_EQ(cv::countNonZero(fraction > 1e-3), 0);
 }
 
 TEST(BorderStructure, WhatRunsOutOverAWideStretchIsAllOfIt) {
   for (const cv::Rect& side : {cv::Rect(40, 80, 60, 40), cv::Rect(40, 0, 60, 40), cv::Rect(0, 40, 40, 60),
                                cv::Rect(120, 40, 40, 60)}) {
-    const cv::Mat share = fractionOfBorderStructure(evidence({side}), kSeen, kStretch_px);
-    EXPECT_GT(meanInside(share, side), 0.97) << side;
+    const cv::Mat fraction = fractionOfBorderStructure(evidence({side}), kSeen, kStretch_px);
+    EXPECT_GT(meanInside(fraction, side), 0.97) << side;
   }
 }
 
 TEST(BorderStructure, WhatIsNarrowAtTheBorderMayEnter) {
   const cv::Rect person(60, 96, 12, 24);
-  const cv::Mat share = fractionOfBorderStructure(evidence({person}), kSeen, kStretch_px);
-  EXPECT_LT(meanInside(share, person), 0.01);
+  const cv::Mat fraction = fractionOfBorderStructure(evidence({person}), kSeen, kStretch_px);
+  EXPECT_LT(meanInside(fraction, person), 0.01);
 }
 
 TEST(BorderStructure, AMoverBeforeATreeStandsOutByWhatItHasMore) {
   const cv::Rect tree(20, 40, 100, 80), mover(60, 60, 24, 24);
   cv::Mat motion = evidence({tree}, 0.3);
   motion(mover).setTo(0.9);
-  const cv::Mat share = fractionOfBorderStructure(motion, kSeen, kStretch_px);
-  EXPECT_NEAR(meanInside(share, mover), 0.3 / 0.9, 0.02);
+  const cv::Mat fraction = fractionOfBorderStructure(motion, kSeen, kStretch_px);
+  EXPECT_NEAR(meanInside(fraction, mover), 0.3 / 0.9, 0.02);
 }
 
 TEST(BorderStructure, AStructureIsFollowedRoundCorners) {
   // From the lower border up, to the right and down again, where it ends above the border.
   const cv::Mat motion = evidence({{10, 20, 24, 100}, {10, 20, 120, 24}, {106, 20, 24, 60}});
-  const cv::Mat share = fractionOfBorderStructure(motion, kSeen, kStretch_px);
-  EXPECT_GT(meanInside(share, {106, 48, 24, 32}), 0.97);
+  const cv::Mat fraction = fractionOfBorderStructure(motion, kSeen, kStretch_px);
+  EXPECT_GT(meanInside(fraction, {106, 48, 24, 32}), 0.97);
 }
 
 TEST(BorderStructure, TheBorderIsThatOfWhatWasSeen) {
@@ -66,10 +66,10 @@ TEST(BorderStructure, TheBorderIsThatOfWhatWasSeen) {
   const cv::Rect facade(30, 40, 40, 40), ledge(90, 70, 40, 30), mover(100, 20, 20, 20);
   cv::Mat motion = evidence({facade, ledge, mover});
   motion.setTo(0, unseen);
-  const cv::Mat share = fractionOfBorderStructure(motion, unseen, kStretch_px);
-  EXPECT_GT(meanInside(share, facade), 0.97);
-  EXPECT_GT(meanInside(share, ledge), 0.97);
-  EXPECT_LT(meanInside(share, mover), 0.01);
+  const cv::Mat fraction = fractionOfBorderStructure(motion, unseen, kStretch_px);
+  EXPECT_GT(meanInside(fraction, facade), 0.97);
+  EXPECT_GT(meanInside(fraction, ledge), 0.97);
+  EXPECT_LT(meanInside(fraction, mover), 0.01);
 }
 
 TEST(BorderStructure, NothingSeenHasNone) {

@@ -34,12 +34,12 @@ class Parallax : public testing::Test {
 };
 
 TEST_F(Parallax, StaticPointsAtAnyDepthBeforeTheGroundAreExplained) {
-  for (const double share : {0.3, 0.5, 0.8, 1.0}) {
+  for (const double fraction : {0.3, 0.5, 0.8, 1.0}) {
     const Eigen::Vector3d ray = K_.inverse() * Eigen::Vector3d(150, 300, 1);
-    const Eigen::Vector3d X = share * motion_.h_a / motion_.m_a.dot(ray) * ray;
+    const Eigen::Vector3d X = fraction * motion_.h_a / motion_.m_a.dot(ray) * ray;
     const Eigen::Vector2d now = project(motion_.R_ba * X + motion_.t_ba);
     EXPECT_LT(residual({150, 300}, now).squaredMahalanobis(), 0.01)
-        << "at " << share << " of the way to the ground";
+        << "at " << fraction << " of the way to the ground";
   }
 }
 

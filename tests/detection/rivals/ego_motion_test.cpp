@@ -36,8 +36,8 @@ TEST_F(Ego, StaticPointsLieOnTheirSegments) {
   for (const cv::Point2f& p : {cv::Point2f(100, 300), cv::Point2f(400, 400), cv::Point2f(600, 200)}) {
     const auto segment = ego.segmentOf(p);
     ASSERT_TRUE(segment);
-    for (const double share : {1.0, 0.7, 0.4, 0.2})
-      EXPECT_LT(offSegment(*segment, seen(p, share * groundDepth(p))).norm(), 1e-3);
+    for (const double fraction : {1.0, 0.7, 0.4, 0.2})
+      EXPECT_LT(offSegment(*segment, seen(p, fraction * groundDepth(p))).norm(), 1e-3);
   }
 }
 

@@ -143,11 +143,11 @@ TEST_F(ClipTruthTest, FramesThatTheRunLostAreAnsweredForByEmptyMaps) {
 
 TEST_F(ClipTruthTest, WhatIsNoTruthIsRefusedWithItsName) {
   fs::create_directories(truth());
-  EXPECT_NE(complaintOf([&] { ClipTruth clip(truth()); }).find("holds no ground-truth masks"),
+  EXPECT_NE(errorMessageOf([&] { ClipTruth clip(truth()); }).find("holds no ground-truth masks"),
             std::string::npos);
   write(truth() / "mask" / "00000.png", cv::Mat::zeros(8, 8, CV_8U));
   const ClipTruth clip(truth());
-  EXPECT_NE(complaintOf([&] { clip.read(clip.frames(kUtimes)[0], kSize); }).find("00000.png: has 8x8 px"),
+  EXPECT_NE(errorMessageOf([&] { clip.read(clip.frames(kUtimes)[0], kSize); }).find("00000.png: has 8x8 px"),
             std::string::npos);
 }
 

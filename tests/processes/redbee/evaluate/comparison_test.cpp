@@ -33,7 +33,7 @@ class ComparisonTest : public testing::Test {
             readMethodList(folder_ / "methods.txt"),
             {"calibrated", "nominal"}};
   }
-  /// The cells of a method behind its name, in the table with this title; empty where there is none.
+  /// The cells of a method behind its name, in the table with this title; empty if there is none.
   std::vector<std::string> row(const std::string& title, const std::string& method) const {
     for (const Table& table : comparisonTables(comparison())) {
       for (const std::vector<Cell>& cells : table.rows) {
@@ -116,10 +116,10 @@ TEST_F(ComparisonTest, ThePageHoldsTablesCurvesAndImages) {
 
 TEST_F(ComparisonTest, ComplaintsAboutBadListsNameTheLine) {
   writeText(folder_ / "short.txt", "# comment\nflown a asl\n");
-  EXPECT_NE(complaintOf([&] { readClipList(folder_ / "short.txt"); }).find("short.txt:2: has 3 fields"),
+  EXPECT_NE(errorMessageOf([&] { readClipList(folder_ / "short.txt"); }).find("short.txt:2: has 3 fields"),
             std::string::npos);
   writeText(folder_ / "empty.txt", "# nothing\n");
-  EXPECT_NE(complaintOf([&] { readMethodList(folder_ / "empty.txt"); }).find("lists nothing"),
+  EXPECT_NE(errorMessageOf([&] { readMethodList(folder_ / "empty.txt"); }).find("lists nothing"),
             std::string::npos);
 }
 

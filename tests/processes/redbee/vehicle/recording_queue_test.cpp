@@ -8,11 +8,11 @@
 namespace redbee {
 namespace {
 
-HeardMessage numbered(int64_t utime) { return {utime, "A", std::vector<uint8_t>(1000)}; }
+ReceivedMessage numbered(int64_t utime) { return {utime, "A", std::vector<uint8_t>(1000)}; }
 
 TEST(RecordingQueue, CloseWritesTheWholeQueueInOrder) {
   std::vector<int64_t> written;
-  RecordingQueue queue([&](const HeardMessage& m) { written.push_back(m.utime); }, 1 << 20);
+  RecordingQueue queue([&](const ReceivedMessage& m) { written.push_back(m.utime); }, 1 << 20);
   std::vector<int64_t> pushed;
   for (int64_t k = 0; k < 500; ++k) {
     pushed.push_back(k);
@@ -28,7 +28,7 @@ TEST(RecordingQueue, AStalledDiskCostsNothingUpToTheLimit) {
   std::vector<int64_t> written;
   const int64_t room = 10;
   RecordingQueue queue(
-      [&](const HeardMessage& m) {
+      [&](const ReceivedMessage& m) {
         goes_on.wait();
         written.push_back(m.utime);
       },
@@ -41,7 +41,7 @@ TEST(RecordingQueue, AStalledDiskCostsNothingUpToTheLimit) {
 }
 
 TEST(RecordingQueue, AFailureIsReportedAndEndsTheQueue) {
-  RecordingQueue queue([](const HeardMessage&) { throw std::runtime_error("disk full"); }, 1 << 20);
+  RecordingQueue queue([](const ReceivedMessage&) { throw std::runtime_error("disk full"); }, 1 << 20);
   queue.push(numbered(1));
   queue.close();
   EXPECT_EQ(queue.failure(), "disk full");
