@@ -15,9 +15,7 @@ void append(Settings& settings, Settings more) {
   std::move(more.begin(), more.end(), std::back_inserter(settings));
 }
 
-// A member's name cannot stand in parentheses. NOLINTNEXTLINE(bugprone-macro-parentheses)
-#define MEMBER(path) \
-  [](auto& configuration) -> auto& { return configuration.path; }
+#define MEMBER(path) ([](auto& configuration) -> auto& { return configuration.path; })
 
 Settings vehicleSettings() {
   return {

@@ -21,9 +21,7 @@ bool isDetector(const std::string& name) {
 
 }  // namespace
 
-// A member's name cannot stand in parentheses. NOLINTNEXTLINE(bugprone-macro-parentheses)
-#define MEMBER(path) \
-  [](auto& configuration) -> auto& { return configuration.detection.path; }
+#define MEMBER(path) ([](auto& configuration) -> auto& { return configuration.detection.path; })
 
 std::vector<Setting> detectionSettings() {
   const Rule<bool (*)(const std::string&)> detector{isDetector, "must be one of " + listOf(detectorNames())};

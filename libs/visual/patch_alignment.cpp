@@ -16,7 +16,7 @@ struct SamplePlace {
     const double fx = centre.x() - floor_x;
     const double fy = centre.y() - floor_y;
     constexpr int kOne = 1 << BilinearWeights::kWeightBits;
-    const auto fixed = [](double w) { return static_cast<int16_t>(w * kOne + 0.5); };  // w is not negative
+    const auto fixed = [](double w) { return static_cast<int16_t>(std::lround(w * kOne)); };
     weights.top_left = fixed((1 - fx) * (1 - fy));
     weights.top_right = fixed(fx * (1 - fy));
     weights.bottom_left = fixed((1 - fx) * fy);
