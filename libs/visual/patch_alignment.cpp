@@ -1,6 +1,7 @@
 #include "redbee/visual/patch_alignment.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace redbee {
