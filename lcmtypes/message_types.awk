@@ -1,5 +1,5 @@
 # Reads every .lcm file and writes to OUT, for each type, what lcm-gen's decoders do not check: how its members lie on the wire, which member
-# counts which array, and a visitor of its members; and the list of all types. libs/bus/wire_shape.hpp says what the layout means.
+# counts which array, and a visitor of its members; and the list of all types. The layout is defined in libs/bus/wire_shape.hpp.
 #   awk -v OUT=message_types.hpp -f message_types.awk *.lcm
 function fail(text) { printf "%s:%d: %s\n", FILENAME, FNR, text > "/dev/stderr"; failed = 1; exit 1 }
 BEGIN {

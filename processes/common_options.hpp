@@ -1,4 +1,4 @@
-// The options that several programs share, each spelled and explained once.
+// Command-line options that several programs have in common.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,13 @@ namespace redbee {
 
 /// --config FILE, required.
 CLI::Option* addConfigurationOption(CLI::App& command, std::filesystem::path& file);
-/// --lcm-url URL, initially LCM_DEFAULT_URL from the environment, otherwise multicast that stays on this
-/// host.
+/// --lcm-url URL; default: LCM_DEFAULT_URL from the environment, otherwise multicast on this host only.
 CLI::Option* addLcmUrlOption(CLI::App& command, std::string& url);
 /// --log FILE.
 CLI::Option* addLogOption(CLI::App& command, std::filesystem::path& file);
 /// --out PATH, required. `what` completes the help text: a folder or a file, and what is written there.
 CLI::Option* addOutOption(CLI::App& command, std::filesystem::path& path, const std::string& what);
-/// --results DIR, required; --detections is the same option.
+/// --results DIR, required; --detections is an alias.
 CLI::Option* addResultsOption(CLI::App& command, std::filesystem::path& folder);
 
 }  // namespace redbee

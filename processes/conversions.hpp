@@ -1,4 +1,4 @@
-// Between messages and the libraries' types.
+// Conversions between messages and the libraries' types.
 #pragma once
 
 #include <Eigen/Core>
@@ -47,41 +47,41 @@ inline void fill(double (&entries)[8], const Eigen::Matrix<double, 8, 1>& v) {
   rows = v;
 }
 
-inline filter_snapshot_t messageOf(const FilterSnapshot& known, const std::string& configuration) {
+inline filter_snapshot_t messageOf(const FilterSnapshot& snapshot, const std::string& configuration) {
   filter_snapshot_t message{};
-  message.utime = toUtime(known.time);
+  message.utime = toUtime(snapshot.time);
   message.configuration = configuration;
-  message.height = known.height_m;
-  message.height_sigma = known.height_sigma_m;
-  fill(message.up, known.up);
-  fill(message.up_sigma, known.up_sigma);
-  fill(message.velocity, known.velocity);
-  fill(message.velocity_sigma, known.velocity_sigma);
-  fill(message.gyro_bias, known.gyro_bias);
-  fill(message.gyro_bias_sigma, known.gyro_bias_sigma);
-  fill(message.accel_bias, known.accel_bias);
-  fill(message.accel_bias_sigma, known.accel_bias_sigma);
-  fill(message.R_CI, known.R_CI);
-  fill(message.R_CI_sigma, known.R_CI_sigma);
+  message.height = snapshot.height_m;
+  message.height_sigma = snapshot.height_sigma_m;
+  fill(message.up, snapshot.up);
+  fill(message.up_sigma, snapshot.up_sigma);
+  fill(message.velocity, snapshot.velocity);
+  fill(message.velocity_sigma, snapshot.velocity_sigma);
+  fill(message.gyro_bias, snapshot.gyro_bias);
+  fill(message.gyro_bias_sigma, snapshot.gyro_bias_sigma);
+  fill(message.accel_bias, snapshot.accel_bias);
+  fill(message.accel_bias_sigma, snapshot.accel_bias_sigma);
+  fill(message.R_CI, snapshot.R_CI);
+  fill(message.R_CI_sigma, snapshot.R_CI_sigma);
   return message;
 }
 
 inline FilterSnapshot snapshotOf(const filter_snapshot_t& message) {
-  FilterSnapshot known;
-  known.time = timeOf(message);
-  known.height_m = message.height;
-  known.height_sigma_m = message.height_sigma;
-  known.up = vector3(message.up);
-  known.up_sigma = vector3(message.up_sigma);
-  known.velocity = vector3(message.velocity);
-  known.velocity_sigma = vector3(message.velocity_sigma);
-  known.gyro_bias = vector3(message.gyro_bias);
-  known.gyro_bias_sigma = vector3(message.gyro_bias_sigma);
-  known.accel_bias = vector3(message.accel_bias);
-  known.accel_bias_sigma = vector3(message.accel_bias_sigma);
-  known.R_CI = matrix3(message.R_CI);
-  known.R_CI_sigma = vector3(message.R_CI_sigma);
-  return known;
+  FilterSnapshot snapshot;
+  snapshot.time = timeOf(message);
+  snapshot.height_m = message.height;
+  snapshot.height_sigma_m = message.height_sigma;
+  snapshot.up = vector3(message.up);
+  snapshot.up_sigma = vector3(message.up_sigma);
+  snapshot.velocity = vector3(message.velocity);
+  snapshot.velocity_sigma = vector3(message.velocity_sigma);
+  snapshot.gyro_bias = vector3(message.gyro_bias);
+  snapshot.gyro_bias_sigma = vector3(message.gyro_bias_sigma);
+  snapshot.accel_bias = vector3(message.accel_bias);
+  snapshot.accel_bias_sigma = vector3(message.accel_bias_sigma);
+  snapshot.R_CI = matrix3(message.R_CI);
+  snapshot.R_CI_sigma = vector3(message.R_CI_sigma);
+  return snapshot;
 }
 
 /// `tracks.inlier` is all 0 where `inlier` is empty.
@@ -99,14 +99,14 @@ inline void fill(tracks_t& message, const PointTracks& tracks, const std::vector
   message.inlier.resize(n);
 }
 
-/// px: no image is larger; what lies beyond is damage, and would not fit an int.
+/// px: no image is larger; coordinates beyond are damaged and would overflow an int.
 constexpr float kMaxCoordinate = 1e5F;
 
-/// The points that lie where points can; damaged ones (not a number, far beyond any image) are left out.
+/// Skips damaged points (not a number, or far beyond any image).
 inline PointTracks tracksOf(const tracks_t& message) {
   PointTracks tracks;
   const auto plausible = [](float x, float y) {
-    return std::abs(x) < kMaxCoordinate && std::abs(y) < kMaxCoordinate;  // false for what is not a number
+    return std::abs(x) < kMaxCoordinate && std::abs(y) < kMaxCoordinate;  // false for NaN
   };
   tracks.previous.reserve(message.x.size());
   tracks.current.reserve(message.x.size());
@@ -136,13 +136,13 @@ inline void fill(homography_t& message, const Eigen::Matrix3d& H,
   fill(message.covariance, covariance);
 }
 
-/// True if the message is about two frames at times that a clock can show.
+/// True if both frame times of the message are plausible.
 template <typename Message>
 bool plausibleTimes(const Message& message) {
   return isPlausibleTime(timeOf(message)) && isPlausibleTime(previousTimeOf(message));
 }
 
-/// True if all numbers of a homography are finite.
+/// True if all entries are finite and h33 is not 0.
 inline bool isFinite(const homography_t& message) {
   return matrix3(message.H).allFinite() && matrix8(message.covariance).allFinite() && message.H[8] != 0;
 }

@@ -9,9 +9,9 @@ class App;
 
 namespace redbee {
 
-/// Runs `work`, which may parse the command line with `app`. 0 where it returns; otherwise one line on stderr
-/// and 2 on bad use or bad input, the code of a CLI::RuntimeError (without a line), or 1 on any other
-/// failure.
+/// Runs `work`, which may parse the command line with `app`. Returns 0 on success; otherwise prints one line
+/// on stderr and returns 2 for bad use or bad input, 1 for any other failure. For a CLI::RuntimeError it
+/// returns its code and prints nothing.
 int exitCodeOf(const CLI::App& app, const std::function<void()>& work);
 
 }  // namespace redbee

@@ -9,7 +9,7 @@ namespace redbee {
 namespace {
 
 constexpr int kOverlayQuality = 80;
-/// In the unknown mask.
+/// Value in the unknown mask.
 constexpr uchar kUnknown = 255;
 
 detections_t detectionsMessage(const DetectorOutput& output) {

@@ -1,4 +1,4 @@
-// What a detector found in a frame, as FOREGROUND, DETECTIONS and OVERLAY on the raw image's grid.
+// Publishes a detector's output as FOREGROUND, DETECTIONS and OVERLAY, on the raw image's grid.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ class ForegroundPublisher {
   ForegroundPublisher(Publisher& publisher, const Configuration& configuration, const RectifiedCamera& camera)
       : publisher_(publisher), configuration_(configuration), camera_(camera) {}
 
-  /// `image`: the frame as it came. `output`: on the ideal grid. One message of each kind, and an overlay
-  /// every so often.
+  /// `image`: as received. `output`: on the ideal grid. Publishes one message of each kind, and periodically
+  /// an overlay.
   void publish(const image_t& image, int64_t utime_previous, DetectorOutput output);
 
  private:

@@ -8,7 +8,7 @@
 namespace redbee {
 namespace {
 
-/// The stages before `end` in the order of the work.
+/// The stages before `end`, in processing order.
 Nodes nodesBefore(const ProcessDescription* end, Bus& bus, const Configuration& configuration) {
   Nodes nodes;
   for (const ProcessDescription* stage : kStages) {

@@ -1,4 +1,4 @@
-// Nodes in one process, which work until no message is left: for redbee detect and for tests.
+// All nodes in one process, which run until no message is left: for redbee detect and for tests.
 #pragma once
 
 #include <map>
@@ -14,16 +14,17 @@ namespace redbee {
 
 using Nodes = std::vector<std::unique_ptr<Node>>;
 
-/// What estimates the camera's motion: the stages before the segmentation. Without an IMU, vision and fusion.
+/// The stages that estimate the camera's motion, before the segmentation; without an IMU only vision and
+/// fusion.
 Nodes motionNodes(Bus& bus, const Configuration& configuration);
 
 class InProcessStack {
  public:
-  /// Every stage of the process table, as it flies.
+  /// All stages of the process table.
   InProcessStack(Bus& bus, const Configuration& configuration);
   /// `nodes`: on `bus`. Their health is published on `health_channel`.
   InProcessStack(Bus& bus, const std::string& health_channel, Nodes nodes);
-  /// Delivers pending messages and lets the nodes work, until there is nothing left to do.
+  /// Delivers messages and runs the nodes until no message is left.
   void settle();
   /// No more messages will arrive.
   void finish();

@@ -1,4 +1,4 @@
-// The libraries know no messages, so their states and the messages' constants are compared here.
+// The libraries do not depend on message types, so their enums and the messages' constants are compared here.
 #include <cstdint>
 
 #include "redbee/detection/detector.hpp"

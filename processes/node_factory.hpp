@@ -1,4 +1,4 @@
-// From a row of the process table to its node.
+// Constructs the nodes of the process table.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// The node of one of kStages, on `bus`. Throws std::invalid_argument for a process that has none.
+/// The node of one of kStages. Throws std::invalid_argument for other processes.
 std::unique_ptr<Node> makeNode(const ProcessDescription& process, Bus& bus,
                                const Configuration& configuration);
 

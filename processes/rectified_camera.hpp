@@ -1,4 +1,4 @@
-// The camera of a node: raw images made ideal.
+// The camera of a node: decodes and rectifies images.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// On the grid of the ideal camera divided by the downscale; both empty if there is no image.
+/// On the grid of the ideal camera, downscaled; both empty if there is no image.
 struct IdealImage {
   cv::Mat grey;    ///< CV_8U
   cv::Mat colour;  ///< CV_8UC3, BGR; empty unless asked for
@@ -18,8 +18,8 @@ struct IdealImage {
 
 class RectifiedCamera {
  public:
-  /// `downscale`: 1, 2 or 4, by what ideal() shrinks images; it divides the sides of the raw and of the ideal
-  /// camera.
+  /// `downscale`: 1, 2 or 4, of the images that ideal() returns; must divide width and height of the raw and
+  /// of the ideal camera.
   explicit RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale = 1);
 
   const Camera& camera() const { return camera_; }

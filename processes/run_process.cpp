@@ -23,7 +23,7 @@ int runProcess(int argc, char** argv, const ProcessDescription& process, const N
   app.add_option("--state-dir", state_folder, "folder for the state that survives a restart of this process");
   return exitCodeOf(app, [&] {
     app.parse(argc, argv);
-    // One process of several on a small computer: its neighbours need the other cores.
+    // One thread per process: the other processes need the other cores.
     cv::setNumThreads(1);
     const Configuration configuration = loadConfiguration(configuration_file);
     const auto bus = makeLcmBus(url);

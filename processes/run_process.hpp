@@ -1,4 +1,4 @@
-// What the programs of the process table share: options, configuration, bus, loop, exit code.
+// main() of the programs of the process table: options, configuration, bus, main loop, exit code.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace redbee {
 
 using NodeFactory = std::function<std::unique_ptr<Node>(Bus&, const Configuration&)>;
 
-/// 0 after SIGINT or SIGTERM, 2 on bad use or a bad configuration (one line on stderr), 1 where LCM cannot be
-/// opened.
+/// Returns 0 after SIGINT or SIGTERM, 2 on bad use or a bad configuration (one line on stderr), 1 if LCM
+/// cannot be opened.
 int runProcess(int argc, char** argv, const ProcessDescription& process, const NodeFactory& factory);
 
 template <typename NodeType>

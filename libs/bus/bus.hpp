@@ -51,11 +51,11 @@ class Bus {
   }
 };
 
-/// Throws where the environment has REDBEE_NETWORK_POLICY=none and this is anything but memq://; warns of a
-/// receive buffer in which images will be lost.
+/// Throws std::runtime_error if the environment has REDBEE_NETWORK_POLICY=none and `url` is not memq://;
+/// warns if the receive buffer is too small for images.
 void checkLcmUrl(const std::string& url);
 
-/// A bus on an LCM URL (udpm://..., memq://). Throws std::runtime_error where LCM cannot open it, or
+/// A bus on an LCM URL (udpm://..., memq://). Throws std::runtime_error if LCM cannot open it or
 /// checkLcmUrl() refuses it.
 std::unique_ptr<Bus> makeLcmBus(const std::string& url);
 

@@ -1,8 +1,7 @@
 // Residual of a measured height of the camera above the ground, tau seconds after the nearest frame's state:
 //
 //     r = (n . (p_GI + v_GI tau + R_GI p_IC) - h) / sigma
-//
-// At 24 frames a second |tau| is below 21 ms: the rest of the motion is below a millimetre at 3 m/s^2.
+// At 24 frames per second |tau| is below 21 ms; the neglected acceleration is below a millimetre at 3 m/s^2.
 #pragma once
 
 #include <Eigen/Core>

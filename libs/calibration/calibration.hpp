@@ -1,4 +1,4 @@
-// Offline calibration of a camera on an IMU, from a flight over flat ground or from a known target.
+// Offline camera-IMU calibration, from a flight over flat ground or from views of a known target.
 //
 // Estimated: R_CI, time shift, lever arm, gyro and accelerometer bias, and over ground the height at the
 // first frame and the plane's tilt against gravity. A parameter that the recording does not make observable
@@ -22,7 +22,7 @@
 
 namespace redbee::calibration {
 
-/// what() is one line: why this recording cannot be used for a calibration.
+/// what() is one line: why the recording cannot be calibrated.
 class CalibrationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -35,7 +35,7 @@ struct GroundMatch {
   PointTracks points;
 };
 
-/// Corners of a known rigid target in one image.
+/// Detected corners of a known rigid target in one image.
 struct TargetView {
   CameraTime time{};
   std::vector<Eigen::Vector2d> pixels;   ///< raw
@@ -49,7 +49,7 @@ struct MeasuredHeight {
 
 struct CalibrationInput {
   CameraIntrinsics camera;
-  InertialExtrinsics nominal;  ///< used for what the recording does not make observable
+  InertialExtrinsics nominal;  ///< used for parameters that the recording does not make observable
   ImuNoise noise;
   double gravity = 9.81;           ///< m/s^2
   double gyro_bias_sigma = 0.01;   ///< rad/s, turn-on bias
@@ -96,7 +96,7 @@ struct Excitation {
       Eigen::Vector3d::Zero();  ///< rad, of R_CI along its principal directions, descending
 };
 
-/// Series for the report's images.
+/// Time series and scatter data for the report.
 struct Diagnostics {
   RotationAlignment alignment;
   std::vector<double> pair_t_s;  ///< camera clock since the first frame
@@ -120,8 +120,8 @@ struct CalibrationResult {
   double vision_sigma_scale =
       1;  ///< factor of the homographies' standard deviations that makes their residuals consistent
   double imu_sigma_scale = 1;  ///< the same of the IMU's
-  /// Residuals far beyond tracking noise are not noise but a scene that is no plane: the reported deviations
-  /// were multiplied by this factor.
+  /// Residuals far beyond tracking noise indicate a scene that is not planar; the reported deviations were
+  /// multiplied by this factor.
   double misfit_sigma_scale = 1;
   double halves_sigma_scale = 1;  ///< the reported deviations were multiplied by this factor, by which the
                                   ///< halves differ more than expected
@@ -138,7 +138,7 @@ struct CalibrationResult {
 };
 
 /// Throws CalibrationError if the input is insufficient: no IMU during the frames, too little texture, too
-/// few frames. `progress` is called with the fraction done, 0 to 1.
+/// few frames. `progress` is called with the completed fraction, 0 to 1.
 CalibrationResult calibrate(const CalibrationInput& input, const std::function<void(double)>& progress = {});
 
 }  // namespace redbee::calibration

@@ -1,4 +1,4 @@
-// Pose of the camera at an exposure, for automatic derivatives.
+// Pose of the camera at an exposure, for automatic differentiation.
 //
 // A frame's state is at t_cam + timeshift; the exposure is at t_cam + timeshift + s, with s to be estimated.
 // To first order

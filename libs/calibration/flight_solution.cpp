@@ -8,7 +8,7 @@
 namespace redbee::calibration {
 namespace {
 
-/// The ground is assumed level while it is being separated from other surfaces.
+/// The ground is assumed to be level while points on other surfaces are removed.
 constexpr double kLevelSigma_rad = 0.001;
 constexpr int kSelectionRounds = 3;
 constexpr int kScaleRounds = 2;
@@ -72,13 +72,13 @@ void rescale(JointInput& input, const JointAnalysis& analysis) {
 /// Alternates between solving over level ground and selecting the points near that solution.
 bool selectGround(FlightSolution& solution, const Recording& recording, const Mounting& mounting) {
   const JointPriors wide = solution.input.priors;
-  // A facade taken for ground must not turn the camera or the vertical to make itself level.
+  // A facade taken for ground must not rotate the camera or the vertical.
   solution.input.priors.tilt_sigma_rad = kLevelSigma_rad;
   solution.input.priors.rotation_sigma_rad = mounting.rotation_sigma_rad;
   for (int round = 0; round < kSelectionRounds; ++round) {
     if (!solveOnce(solution)) return false;
     auto ground = groundNear(solution, recording);
-    // A solution so wrong that it finds no ground must not discard the homographies.
+    // If the solution is so wrong that no ground is found, the homographies are kept.
     if (3 * framesSpanned(ground) > recording.t_cam_s.size()) solution.input.ground = std::move(ground);
   }
   solution.input.priors = wide;

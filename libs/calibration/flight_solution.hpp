@@ -1,4 +1,4 @@
-// Solution of one recording, or of a half of it: from initial values to covariances.
+// Solution of the joint problem for a recording or half of it: from initial values to covariances.
 #pragma once
 
 #include "redbee/calibration/initial_trajectory.hpp"
@@ -8,7 +8,7 @@
 namespace redbee::calibration {
 
 struct FlightSolution {
-  JointInput input;  ///< with the homographies that were kept, and the variance scales
+  JointInput input;  ///< with the selected homographies and the variance scales
   JointState state;
   JointAnalysis analysis;
   bool usable = false;

@@ -14,13 +14,13 @@ namespace {
 
 /// px: scales of the robust loss, from the prediction's error to the tracking noise.
 constexpr double kScales_px[] = {2.0, 1.0, 0.5, 0.35, 0.35};
-/// px: transfer error under the predicted fit within which a point is the ground's.
+/// px: transfer error of the first fit below which a point is on the ground.
 constexpr double kReach_px = 0.6;
 constexpr double kSigmaFloor_px = 0.04;
 constexpr int kMinPoints = 40;
 /// Cells of a tenth of the image's width that must contain ground points.
 constexpr size_t kMinCells = 12;
-/// Uncertainty of the prediction beside its three deviations, scaled units: keeps P regular.
+/// Uncertainty of the prediction beside its three deviations, scaled units: keeps P invertible.
 constexpr double kFloor = 1e-4;
 
 Matrix8d priorInformation(const CameraIntrinsics& ideal, const GroundPrediction& prediction,

@@ -1,14 +1,15 @@
-// The ground's homography among points of which many may lie on other surfaces: facades, bushes, people.
+// Estimates the ground homography from points of which many may lie on other surfaces: facades, bushes,
+// people.
 //
-// A homography fitted to its own inliers is biased towards surfaces that stand on the ground and move almost
-// like it. Here the points are first fitted under a prediction that constrains the camera's rotation and the
-// vertical, and the translation only weakly:
+// A homography fitted to its own inliers is biased towards surfaces close to the ground, which move
+// similarly. Therefore the points are first fitted with a prior that constrains the camera's rotation and the
+// vertical, and weakly the translation:
 //
 //     min  sum_i rho(x_b - H(h) x_a) + (h - h_0)' P^-1 (h - h_0)      P = J_R J_R' s_R^2 + J_t J_t' s_t^2 +
 //     J_m J_m' s_m^2
 //
-// with rho after Geman and McClure, its scale shrinking (graduated non-convexity). The points within reach of
-// that fit are the ground's; they alone, without the prediction, then give the measured homography.
+// with rho after Geman and McClure, its scale shrinking (graduated non-convexity). The inliers of that fit
+// are ground points; the measured homography is fitted to them without the prior.
 #pragma once
 
 #include <optional>
@@ -25,8 +26,8 @@ struct GroundPrediction {
   double normal_sigma_rad = 0.01;
 };
 
-/// Frame indices are not filled. std::nullopt if too few points lie on the predicted plane or they do not
-/// spread over the image.
+/// Frame indices are not set. std::nullopt if too few points lie on the predicted plane or they do not spread
+/// over the image.
 std::optional<GroundHomography> fitGround(const PointTracks& points, const CameraIntrinsics& ideal,
                                           const GroundPrediction& prediction);
 

@@ -5,8 +5,8 @@
 //     w_C = R_CI (w_I - b) = R_CI w_I + c        w: mean angular rate, c = -R_CI b
 //
 // Least squares over many pairs: R_CI is the rotation that aligns the rates after their means are taken out
-// (Kabsch 1976), c what remains of the means. Weights follow from the residuals (Cauchy), so that pairs whose
-// plane was not the ground, or whose homography is wrong, are ignored.
+// (Kabsch 1976), c what remains of the means. Pairs are weighted by their residuals (Cauchy), so that wrong
+// homographies have no influence.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +24,8 @@ struct HandEye {
   Eigen::Matrix3d R_CI = Eigen::Matrix3d::Identity();
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();  ///< rad/s in I
   /// Root-mean-square rate about the principal axes of the rotation [rad/s], descending, means taken out:
-  /// square roots of the singular values of the rates' cross-covariance. With the second at zero the rotation
-  /// is about one axis only and R_CI not determined.
+  /// square roots of the singular values of the rates' cross-covariance. If the second is zero, the rotation
+  /// is about one axis only and R_CI is not determined.
   Eigen::Vector3d excitation = Eigen::Vector3d::Zero();
   double residual = 0;  ///< rad/s, root of the weighted mean squared residual, per axis
   double cost = 0;      ///< mean robust cost [rad^2/s^2]; comparable for equal `scale`

@@ -9,10 +9,10 @@ namespace redbee::calibration {
 /// Rotation of the camera between two frames a, b, as far as one homography determines it. All are rotation
 /// vectors [rad] of R_CaCb, in the camera frame.
 struct RotationCandidates {
-  /// Rotation nearest to K^-1 H K: off by half the cross product of translation / height and normal, but
+  /// Rotation closest to K^-1 H K: biased by half the cross product of translation / height and normal, but
   /// unique.
   Eigen::Vector3d rough;
-  /// The physically possible rotations (Malis and Vargas 2007): up to two; one where the camera did not move.
+  /// The physically possible rotations (Malis and Vargas 2007): up to two; one if the camera did not move.
   std::vector<Eigen::Vector3d> exact;
 };
 

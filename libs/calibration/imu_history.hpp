@@ -1,4 +1,4 @@
-// A whole IMU recording: rotations and samples between any two times.
+// A complete IMU recording, with rotations and samples between any two times.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,13 +26,12 @@ class ImuHistory {
   size_t size() const { return samples_.size(); }
   double begin_s() const { return samples_.front().t_s; }
   double end_s() const { return samples_.back().t_s; }
-  /// True if samples reach from one time to the other without a gap longer than `max_gap_s`.
+  /// True if samples cover [from_s, to_s] without a gap longer than `max_gap_s`.
   bool covers(double from_s, double to_s, double max_gap_s) const;
 
   /// Samples on [from, to], from < to, both ends interpolated linearly. Precondition: covered.
   std::vector<Sample> between(double from_s, double to_s) const;
-  /// R_IaIb between the times a and b, from the gyro as measured (bias and all). Times beyond the samples are
-  /// clamped to them.
+  /// R_IaIb between the times a and b, from the uncorrected gyro. Times beyond the samples are clamped.
   Eigen::Matrix3d rotation(double a_s, double b_s) const;
   /// Mean angular rate in I between the times [rad/s], the rotation vector over the duration.
   Eigen::Vector3d meanRate(double a_s, double b_s) const;

@@ -56,7 +56,7 @@ std::vector<Eigen::Vector3d> relativeSteps(const JointState& state, const JointI
     if (ground.b != ground.a + 1) continue;
     const Eigen::Matrix3d R_CaG = (state.q_CI * state.frames[ground.a].q_GI.conjugate()).toRotationMatrix();
     const Eigen::Matrix3d R_CbG = (state.q_CI * state.frames[ground.b].q_GI.conjugate()).toRotationMatrix();
-    constexpr double kUnitHeight = 1;  // so that the translation is in heights
+    constexpr double kUnitHeight = 1;  // the translation is then in units of the height
     const PlaneMotion motion{R_CbG * R_CaG.transpose(), Eigen::Vector3d::Zero(), -R_CaG.col(2), kUnitHeight};
     const Eigen::Vector3d t = translationFromHomography(input.camera->K(), ground.H, motion);
     constexpr double kLargestStep = 0.3;  // heights a frame: beyond it the homography is not the ground's
@@ -104,7 +104,7 @@ struct Curvature {
   Eigen::Vector3d path;      ///< in units of the first height
   Eigen::Vector3d measured;  ///< m, gravity taken off
   Eigen::Matrix3d by_bias;   ///< of `measured`, by the accelerometer's bias [m / (m/s^2)]
-  double square_s2;          ///< what a constant error of acceleration in G is multiplied by [s^2]
+  double square_s2;          ///< factor of a constant error of acceleration in G [s^2]
 };
 
 /// With dv_k the velocity change over step k: v_{k+1} - v_k = dv_k, and positions by the trapezoidal rule.

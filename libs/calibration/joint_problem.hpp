@@ -1,4 +1,5 @@
-// The joint problem: all frames' states, biases, mounting, time shift, ground or target, by Ceres.
+// The joint least-squares problem (Ceres): states of all frames, biases, mounting, time shift, ground or
+// target.
 #pragma once
 
 #include <ceres/problem.h>
@@ -75,7 +76,7 @@ struct JointInput {
 struct GroupFit {
   double chi2 = 0;          ///< sum of squared whitened residuals
   double median_ratio = 0;  ///< median chi2 of one measurement over the median of its chi-square distribution
-  double redundancy = 0;    ///< degrees of freedom that the fit left to the group
+  double redundancy = 0;    ///< degrees of freedom remaining for the group after the fit
   int measurements = 0;
 };
 
@@ -102,8 +103,8 @@ struct JointAnalysis {
 
 class JointProblem {
  public:
-  /// Estimates into `state`, whose biases and timeshift_s are where the IMU is linearised. Both must outlive
-  /// this object.
+  /// Estimates `state` in place; the IMU is linearised at its biases and timeshift_s. Both arguments must
+  /// outlive this object.
   JointProblem(const JointInput& input, JointState& state);
 
   /// False if Ceres found no usable solution.

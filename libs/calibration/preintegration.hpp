@@ -5,7 +5,7 @@
 //     v_b = v_a + g dt + R_a v(b_g, b_a)
 //     p_b = p_a + v_a dt + g dt^2 / 2 + R_a p(b_g, b_a)
 //
-// R, v, p depend on the biases: their first-order dependence around the biases of the integration is kept.
+// R, v, p depend on the biases, to first order around those of the integration.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// Priors, each with its standard deviation. They keep the problem solvable where a parameter is not
-// observable; one whose deviation they still determine is reported as not found.
+// Priors, each with its standard deviation. They keep the problem well-posed if a parameter is not
+// observable; a parameter whose deviation they determine is not reported as found.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,7 +39,8 @@ struct RotationPriorCost {
   }
 };
 
-/// Yaw about G's z is free in all measurements; it is held at its start: r = log(q q_0^-1)_z / sigma.
+/// Fixes the gauge: yaw about G's z is not observable and is kept at its initial value: r = log(q q_0^-1)_z /
+/// sigma.
 struct YawGaugeCost {
   Eigen::Quaterniond start;
   double sigma_rad;

@@ -31,7 +31,7 @@ std::pair<size_t, size_t> coveredRun(const std::vector<double>& t, const ImuHist
     const double from = (k > begin ? t[k - 1] : t[k]) + shift_s - kMargin_s;
     const bool covered = imu.covers(from, t[k] + shift_s + kMargin_s, kMaxImuGap_s);
     if (!covered) {
-      // The frame may still begin a run of its own.
+      // The frame may start a new run.
       const bool alone = imu.covers(t[k] + shift_s - kMargin_s, t[k] + shift_s + kMargin_s, kMaxImuGap_s);
       begin = alone ? k : k + 1;
       continue;

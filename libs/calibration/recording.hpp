@@ -1,4 +1,4 @@
-// The inputs of a calibration, on one time scale and reduced to the estimators' inputs.
+// The input of a calibration on a common time scale, reduced to what the estimators use.
 #pragma once
 
 #include <memory>

@@ -1,8 +1,9 @@
-// Camera against gyro, from rotations alone: time shift and R_CI without a starting value.
+// Time shift and R_CI from the rotations of camera and gyro, without initial values.
 //
 // 1. The magnitudes of the two angular rates are correlated over the time shift; this needs no R_CI.
 // 2. R_CI and gyro bias follow in closed form (hand_eye.hpp). A homography admits two rotations; the one that
-//    agrees with the gyro under the current R_CI is selected, and R_CI estimated again, from several starts.
+//    agrees with the gyro under the current R_CI is selected and R_CI is estimated again, from several
+//    initial values.
 // 3. The time shift with the smallest residual of step 2, refined by a parabola through the curve's minimum.
 #pragma once
 
@@ -29,9 +30,10 @@ struct TimeShiftCurve {
 };
 
 struct RotationAlignment {
-  bool possible = false;   ///< enough observations inside the IMU's time; all below are meaningful only then
-  double timeshift_s = 0;  ///< t_imu = t_cam + timeshift
-  double correlation = 0;  ///< of the rates' magnitudes at their best shift, -1..1
+  bool possible =
+      false;  ///< enough observations are covered by the IMU; otherwise the other members are not valid
+  double timeshift_s = 0;            ///< t_imu = t_cam + timeshift
+  double correlation = 0;            ///< of the rates' magnitudes at their best shift, -1..1
   double rate_variation = 0;         ///< rad/s: standard deviation of the camera's rate, its signal
   HandEye hand_eye;                  ///< at timeshift_s
   TimeShiftCurve correlation_curve;  ///< correlation of magnitudes

@@ -26,7 +26,7 @@ SplitHalfEntry largest(const std::string& name, const std::string& unit, const E
   return entry;
 }
 
-/// A half in which a parameter is not observable is no evidence on it.
+/// Parameters that are not observable in one half are left out.
 void addTelling(std::vector<SplitHalfEntry>& entries, const SplitHalfEntry& entry, double largest_sigma) {
   if (entry.sigma < largest_sigma) entries.push_back(entry);
 }
@@ -74,7 +74,7 @@ std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const Calibrat
                largest("plane.height_m", "m", one(difference), one(a.last_height + b.first_height), 1),
                0.1 * cameraHeight(whole.state, middle));
   }
-  // The bias itself changes meanwhile.
+  // The bias itself may have changed between the halves.
   const double walk =
       input.noise.gyro_random_walk * std::sqrt(0.5 * (recording.t_cam_s.back() - recording.t_cam_s.front()));
   addTelling(entries,

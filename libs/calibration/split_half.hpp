@@ -1,4 +1,4 @@
-// A check without assumptions: the two halves of a recording, each on its own, must agree.
+// Consistency check: calibrations of the two halves of a recording must agree.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace redbee::calibration {
 
-/// Starts both halves at the whole's solution. Empty if a half is too short or not solvable.
+/// Both halves start from the solution of the whole recording. Empty if a half is too short or cannot be
+/// solved.
 std::vector<SplitHalfEntry> splitHalf(const Recording& recording, const CalibrationInput& input,
                                       const FlightSolution& whole);
 

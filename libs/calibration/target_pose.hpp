@@ -9,7 +9,7 @@
 namespace redbee::calibration {
 
 /// Least squares over the corners' reprojection errors (Huber), with its information from the residuals. The
-/// frame's index is not filled. Nothing with fewer than eight corners or where they do not fit a pose.
+/// frame's index is not set. std::nullopt with fewer than eight corners or if they do not fit a pose.
 std::optional<TargetPose> estimateTargetPose(const Camera& camera, const TargetView& given);
 
 }  // namespace redbee::calibration

@@ -32,7 +32,7 @@ void classify(ParameterReport& report, const std::string& cause) {
   const std::string spread = number(report.worst_sigma) + " " + report.unit;
   if (std::isfinite(report.worst_sigma) && report.worst_sigma <= report.found_below) {
     report.verdict = Verdict::kFound;
-    report.explanation = "known to " + spread;
+    report.explanation = "accurate to " + spread;
   } else if (std::isfinite(report.worst_sigma) && report.worst_sigma <= report.weak_below) {
     report.verdict = Verdict::kWeak;
     report.explanation = "estimated, but only to " + spread + "; a better recording would have more " + cause;

@@ -1,4 +1,4 @@
-// Result of a calibration for each parameter, for people and for programs.
+// Result of a calibration for each parameter.
 #pragma once
 
 #include <string>
@@ -28,8 +28,8 @@ struct ParameterReport {
   std::string explanation;  ///< one sentence
 };
 
-/// Fills verdict and explanation from worst_sigma and its limits; `cause`: the excitation that a recording
-/// lacks in which this parameter is not observable.
+/// Fills verdict and explanation from worst_sigma and its limits; `cause`: the excitation that is missing if
+/// this parameter is not observable.
 void classify(ParameterReport& report, const std::string& cause);
 
 }  // namespace redbee::calibration

@@ -32,9 +32,9 @@ struct Channels {
   std::string health = "PROCESS_HEALTH";
 };
 
-/// How long each process waits for the companions of a frame, in message time. A process that waits for one
-/// which itself waits for another must have the longer timeout, or one death makes both time out: checked
-/// against the process table when a configuration is loaded.
+/// Timeouts, in message time, of each process for the companions of a frame. A process that waits for another
+/// one which waits itself needs the longer timeout; otherwise the failure of one process makes both time out.
+/// Checked against the process table when a configuration is loaded.
 struct WaitParameters {
   double inertial_s = 0.25;      ///< s, for the fused homography of the previous frame
   double visual_s = 0.25;        ///< s, for the inertial homography
@@ -67,10 +67,8 @@ class ConfigurationError : public UserError {
 /// Reads a vehicle file. Keys that it does not set keep the values of the included files, otherwise the
 /// defaults above.
 ///   include: FILE or [FILE, ...]   relative to the including file; read first, so the including file wins
-///   preset: default | paper | vision_only   overrides included files; overridden by the keys of its own
-///   file.
-///                                  `paper`: the paper's fusion noise and detector; `vision_only`: thresholds
-///                                  for a vehicle without an IMU
+///   preset: default | paper | vision_only   overrides included files and is overridden by its own file's
+///   keys
 /// Throws ConfigurationError on the first error: unknown, renamed or duplicate keys, wrong types, invalid
 /// values, a missing camera, duplicate channel names, timeouts in the wrong order, an extent threshold above
 /// its threshold, circular includes.
@@ -91,8 +89,8 @@ std::vector<std::string> presetNames();
 
 /// The whole configuration as YAML; loading it gives the same hash.
 std::string emitYaml(const Configuration& configuration);
-/// Only these keys, in the order of the whole; for files that are to be included beside others. Throws
-/// std::invalid_argument where there is no such key.
+/// Only these keys, in the same order; for files that others include. Throws std::invalid_argument for an
+/// unknown key.
 std::string emitYaml(const Configuration& configuration, const std::vector<std::string>& keys);
 
 /// 16 hexadecimal digits (FNV-1a of emitYaml()): equal for equal values, however the files are written.

@@ -16,7 +16,7 @@ namespace redbee::configuration {
 template <typename Predicate>
 struct Rule {
   Predicate holds;
-  std::string wording;
+  std::string message;
 };
 template <typename Predicate>
 Rule(Predicate, const char*) -> Rule<Predicate>;
@@ -58,7 +58,7 @@ Setting setting(std::string key, Access access, const Rule<Predicate>& rule) {
   auto read = [access, rule](Configuration& configuration, const YAML::Node& node) {
     Value value = access(configuration);
     readValue(node, value);
-    if (!rule.holds(value)) throw ValueError(rule.wording);
+    if (!rule.holds(value)) throw ValueError(rule.message);
     access(configuration) = value;
   };
   auto text = [access](const Configuration& configuration) { return valueText(access(configuration)); };

@@ -1,8 +1,6 @@
-// The seam between a frame and what moves in it: every detector, ours, the paper's and the rivals, is a class
-// behind this interface and a line in detector_factory.cpp.
-//
-// Images share their memory when they are assigned (OpenCV): nobody writes to an image of a FrameInput, a
-// detector may keep one, and a DetectorOutput belongs to the caller.
+// The interface of all detectors of moving objects: ours, the paper's and the rivals. A new one is a class
+// behind it and a line in detector_factory.cpp. Assigning a cv::Mat shares its memory: images of a FrameInput
+// must not be modified, a detector may keep them, and the images of a DetectorOutput belong to the caller.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,22 +22,22 @@ namespace redbee {
 struct DetectorNeeds {
   bool colour = false;
   bool camera_motion = false;  ///< ground, front, motion and tracks
-  /// The images may be this much smaller than FrameInput::size (1, 2 or 4); 1: they have that size.
+  /// The images may be smaller than FrameInput::size by this factor (1, 2 or 4).
   int image_downscale = 1;
 };
 
 /// One frame. Images and points are undistorted (ideal pixels).
 struct FrameInput {
-  int64_t utime_previous = 0;  ///< us, of the frame that ground, front, motion and tracks start from
+  int64_t utime_previous = 0;  ///< us, frame that ground, front, motion and tracks start from
   int64_t utime = 0;           ///< us
-  cv::Size size;               ///< of the image that homographies, points and output are of; empty: grey's
+  cv::Size size;               ///< image size of homographies, points and output; empty: grey's
   cv::Mat1b grey;              ///< empty if the image is damaged
   cv::Mat3b colour;            ///< BGR, of grey's size; may be empty unless the detector needs it
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix of an image of `size` [px]
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current [px]
-  std::optional<Eigen::Matrix3d> front;             ///< the front plane's; std::nullopt if there is none
-  std::optional<PlaneMotion> motion;  ///< of the camera, from an IMU: rotation, translation, plane
-  PointTracks tracks;                 ///< sample points, for the flow's entropy
+  std::optional<Eigen::Matrix3d> front;  ///< the same of the front plane; std::nullopt if there is none
+  std::optional<PlaneMotion> motion;     ///< of the camera, from an IMU: rotation, translation, plane
+  PointTracks tracks;                    ///< tracked sample points, for the entropy of the flow
   int sample_grid_px = TrackerParameters{}.grid_px;  ///< px between the sample points
 
   cv::Size fullSize() const { return size.empty() ? grey.size() : size; }
@@ -47,9 +45,9 @@ struct FrameInput {
 
 enum class DetectorStatus {
   kGood,
-  kLearning,      ///< the background is not known yet: everything is "unknown", the mask is empty
-  kNoHomography,  ///< the camera's motion to this frame is not known: the background restarts
-  kBadImage,      ///< damaged, black, blank or frozen: nothing was learned from it, the mask is empty
+  kLearning,      ///< the background is not known yet: all pixels are unknown, the mask is empty
+  kNoHomography,  ///< the camera's motion is unknown: the background restarts
+  kBadImage,      ///< damaged, black, blank or frozen: not learned, the mask is empty
 };
 const char* toString(DetectorStatus status);
 
@@ -59,7 +57,7 @@ struct DetectorOutput {
   DetectorStatus status = DetectorStatus::kLearning;
   cv::Mat1b probability;  ///< P_FG * 255
   cv::Mat1b mask;         ///< 0 or 255
-  cv::Mat1b unknown;      ///< 255 where no earlier frame shows the background (there the mask is 0)
+  cv::Mat1b unknown;      ///< 255 where no earlier frame shows the scene; the mask is 0 there
   std::vector<Detection> detections;
 };
 
@@ -68,13 +66,13 @@ class Detector {
   virtual ~Detector() = default;
 
   virtual DetectorNeeds needs() const = 0;
-  /// Frames in order of time. A gap in time, a repeated or earlier frame, or a change of size restarts the
-  /// background (see the status); identities survive where they can.
+  /// Processes the next frame. A gap in time, a repeated or earlier frame, or a change of size restarts the
+  /// background (see the status); identities are kept if possible.
   virtual DetectorOutput step(const FrameInput& input) = 0;
 };
 
-/// Constructs the detector that `parameters.method` names, and no other. Throws std::invalid_argument for a
-/// name that is none of detectorNames().
+/// Constructs the detector `parameters.method`. Throws std::invalid_argument for a name that is not in
+/// detectorNames().
 std::unique_ptr<Detector> makeDetector(const DetectionParameters& parameters);
 /// In alphabetical order.
 std::vector<std::string> detectorNames();

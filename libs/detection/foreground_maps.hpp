@@ -4,10 +4,10 @@
 
 namespace redbee {
 
-/// A background model's classification of an image, of the image's full size.
+/// Classification of an image by a background model, at the full image size.
 struct ForegroundMaps {
   cv::Mat1b foreground;  ///< P_FG * 255: 255 where the pixel is known and not background
-  cv::Mat1b unknown;     ///< 255 where no earlier frame shows the scene, or too few do
+  cv::Mat1b unknown;     ///< 255 where too few earlier frames show the scene
 };
 
 }  // namespace redbee

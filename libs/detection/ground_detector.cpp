@@ -9,7 +9,7 @@
 namespace redbee {
 namespace {
 
-// Less of P_FG * 255 than this is noise, and would make most of the map's bytes on the wire.
+// P_FG * 255 below this is noise, and would be most of the encoded map's bytes.
 constexpr double kNoise = 6;
 
 }  // namespace
@@ -32,7 +32,7 @@ DetectorOutput GroundDetector::step(const FrameInput& input) {
   }
   last_utime_ = input.utime;
   if (continues) {
-    carry(input);
+    propagate(input);
   } else {
     reset();
   }
@@ -70,10 +70,10 @@ void GroundDetector::reset() {
   learned_ = 0;
 }
 
-void GroundDetector::carry(const FrameInput& input) {
-  carryBackground(input);
-  probability_.carry(*input.ground);
-  tracker_.carry(*input.ground);
+void GroundDetector::propagate(const FrameInput& input) {
+  warpBackground(input);
+  probability_.propagate(*input.ground);
+  tracker_.propagate(*input.ground);
 }
 
 DetectorOutput GroundDetector::emptyOutput(const FrameInput& input) const {

@@ -1,5 +1,5 @@
-// From the planes' homographies to moving objects (paper III.A and III.B; libs/README.md, "Foreground and
-// objects"): the frame of all detectors whose background follows the ground.
+// Base class of the detectors with a background model that is compensated by the ground homography (paper
+// III.A and III.B; libs/README.md, "Foreground and objects").
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,15 @@ class GroundDetector : public Detector {
   static constexpr int64_t kNever = INT64_MIN;
 
   virtual void resetBackground() = 0;
-  /// The camera moves by input.ground; the background is carried along.
-  virtual void carryBackground(const FrameInput& input) = 0;
-  /// Classifies the image against the background, then learns it. Maps may be empty while there is no earlier
+  /// Warps the background model by the camera's motion, input.ground.
+  virtual void warpBackground(const FrameInput& input) = 0;
+  /// Classifies the image against the background, then learns it. Maps may be empty if there is no earlier
   /// frame.
   virtual ForegroundMaps learn(const FrameInput& input) = 0;
 
   bool isConsecutive(const FrameInput& input) const;
   void reset();
-  void carry(const FrameInput& input);
+  void propagate(const FrameInput& input);
   DetectorOutput emptyOutput(const FrameInput& input) const;
   cv::Mat1b refined(const cv::Mat1b& foreground, const FrameInput& input);
   void findObjects(cv::Mat1b probability, const cv::Mat1b& unknown, DetectorOutput& output);

@@ -3,11 +3,11 @@
 namespace redbee {
 namespace {
 
-/// Of neighbouring pixels in a row: 1 where they have nothing to do with each other, a few hundredths in an
-/// image of something.
+/// Correlation measure of neighbouring pixels in a row: 1 for independent pixels, a few hundredths for images
+/// of a scene.
 constexpr double kMaxRoughness = 0.7;
 
-/// Mean squared difference of neighbours over what it is for independent ones, twice the variance.
+/// Mean squared difference of neighbours over its value for independent pixels, twice the variance.
 double roughness(const cv::Mat1b& grey, double deviation) {
   cv::Mat1b difference;
   cv::absdiff(grey.colRange(1, grey.cols), grey.colRange(0, grey.cols - 1), difference);

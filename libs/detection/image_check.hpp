@@ -1,4 +1,4 @@
-// Detects images that must not be learned from: black, blank, frozen, noise.
+// Rejects images that must not be learned: black, blank, frozen, pure noise.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,12 +7,12 @@ namespace redbee {
 
 class ImageCheck {
  public:
-  /// `min_contrast`: grey levels, standard deviation below which an image is black or blank.
+  /// `min_contrast`: standard deviation [grey levels] below which an image is black or blank.
   explicit ImageCheck(double min_contrast) : min_contrast_(min_contrast) {}
 
   void reset() { previous_.release(); }
-  /// False for an empty image, one with next to no contrast, one of pure noise, and one that
-  /// repeats the previous image to the bit, which a sensor's noise never does.
+  /// Returns false for an image that is empty, has too little contrast, is pure noise, or is identical to the
+  /// previous one, which sensor noise rules out.
   bool accepts(const cv::Mat1b& grey);
 
  private:

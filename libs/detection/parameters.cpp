@@ -7,7 +7,7 @@ DetectionParameters paperDetection() {
   parameters.method = "two_planes";
   parameters.refinement.enabled = true;
   parameters.objects.confirm_frames = 1;
-  parameters.objects.threshold = 0.5;  // the paper names none
+  parameters.objects.threshold = 0.5;  // not given in the paper
   parameters.objects.extent_threshold = parameters.objects.threshold;
   return parameters;
 }

@@ -1,53 +1,52 @@
-// The tunables of detection, a struct for each part. The configuration file has the same names, in the groups
-// of `detection`.
+// The parameters of detection, one struct for each part; the configuration file has the same names below
+// `detection`.
 #pragma once
 
 #include <string>
 
 namespace redbee {
 
-/// Motion from dense flow against the camera's motion: flow between a frame and an earlier one, after the
-/// ground's (and above the horizon the rotation's) motion has been taken out. libs/README.md, "Parallax".
+/// Evidence of motion from dense flow between a frame and an earlier one, compensated by the ground
+/// homography (above the horizon by the rotation). libs/README.md, "Parallax".
 struct ParallaxParameters {
-  int work_downscale = 2;  ///< 1, 2 or 4: all of it on an image this much smaller
-  /// 1, 2 or 4: the flow on an image this much smaller than the camera's, never larger than work_downscale
-  /// makes it: its patches of 8 px are to be no larger than the smallest mover.
+  int work_downscale = 2;  ///< 1, 2 or 4: downscaling of the image that all of this is computed on
+  /// 1, 2 or 4: downscaling of the image that the flow is computed on; effectively at least work_downscale.
+  /// Patches of 8 px should be no larger than the smallest moving object.
   int flow_downscale = 2;
   double baseline_s =
-      0.083;  ///< s: to the reference frame; longer shows slower objects and makes the flow harder
+      0.083;  ///< s: to the reference frame; a longer one detects slower objects, with more difficult flow
   bool use_short_baseline =
       true;                   ///< use the previous frame as reference while large, fast objects are in view
-  bool use_epipolar = true;   ///< accept as static any flow that some depth explains, not the ground's alone
-  double noise_px = 0.5;      ///< px, one sigma of the flow over good texture, at the full-size image
-  double min_gradient = 1.6;  ///< grey levels a px, of an image four times smaller: texture at which the
+  bool use_epipolar = true;   ///< accept flow along the epipolar line as static, not only that of the ground
+  double noise_px = 0.5;      ///< px at full size, one sigma of the flow over good texture
+  double min_gradient = 1.6;  ///< grey levels per px, in an image four times smaller: gradient at which the
                               ///< flow's variance doubles
   double direction_error = 0.05;  ///< rad, one sigma of the direction of travel; scales with the parallax
   double nearest_depth_fraction =
       0.15;                      ///< of the height: no static surface is nearer to the camera than this
-  double evidence_sigmas = 2.5;  ///< distance from the parallax segment, in sigmas, that is half the evidence
+  double evidence_sigmas = 2.5;  ///< distance from the parallax segment [sigmas] at which the evidence is 1/2
   double evidence_rate = 0.2;  ///< learning rate of the evidence propagated along the flow; 1: no propagation
   bool use_registration =
       true;  ///< estimate and remove the residual homography error before testing for motion
-  /// Of the image's width: without an IMU, evidence connected to so long a stretch of the image's border
-  /// belongs to a static structure; 0: off.
+  /// Fraction of the image's width: without an IMU, evidence connected to a stretch of the border at least
+  /// this long belongs to a static structure; 0: off.
   double border_stretch = 0.05;
-  double motion_half = 0.15;     ///< evidence of motion that gives half of P_FG
-  double fill_radius_px = 6;     ///< px: reach of the edge-aware filter on the motion
+  double motion_half = 0.15;     ///< evidence of motion at which P_FG is half of the appearance difference
+  double fill_radius_px = 6;     ///< px: radius of the edge-aware filter on the evidence
   double fill_contrast = 12;     ///< grey levels: the filter smooths over lower contrast
   bool use_hole_filling = true;  ///< fill regions inside an object that resemble the background
-  double outline_gap_px = 4;     ///< px: gaps in an outline up to this are closed before its hole is filled
-  double region_radius_px = 8;   ///< px: reach of the same filter on P_FG, for half of it; 0: none
+  double outline_gap_px = 4;     ///< px: larger gaps in an outline are not closed
+  double region_radius_px = 8;   ///< px: radius of the same filter on P_FG, which it is averaged with; 0: off
 };
 
-/// The appearance difference to the background, which the parallax's evidence is multiplied by.
+/// The appearance difference to the background, combined with the evidence of motion.
 struct AppearanceParameters {
-  bool enabled = true;           ///< false: P_FG from motion alone
-  int downscale = 2;             ///< 1, 2 or 4: the background model is on an image this much smaller
-  double span_s = 0.5;           ///< s: over which it is averaged
-  double noise = 20.0;           ///< grey levels: differences of this size are noise
-  double edge_tolerance_px = 3;  ///< px: tolerance for misaligned edges of the background
-  bool use_surface_reset =
-      true;  ///< reset the background where the surface it was learned from has moved away
+  bool enabled = true;            ///< false: P_FG from motion alone
+  int downscale = 2;              ///< 1, 2 or 4: downscaling of the background model
+  double span_s = 0.5;            ///< s: averaging time of the model
+  double noise = 20.0;            ///< grey levels: noise sigma of the difference
+  double edge_tolerance_px = 3;   ///< px: tolerance for misaligned edges of the background
+  bool use_surface_reset = true;  ///< reset the model where the surface it was learned from has moved away
 };
 
 /// Cast shadows, excluded from the appearance difference.
@@ -64,33 +63,31 @@ struct RefinementParameters {
   double beta = 0.4;            ///< spatial learning rate (14)
   double gamma = 0.6;           ///< entropy learning rate (15)
   int spatial_window_px = 9;    ///< px, odd: side w of the neighbourhood in (14)
-  int entropy_cell_points = 4;  ///< sample points to a side of an entropy cell (12)
+  int entropy_cell_points = 4;  ///< sample points per side of an entropy cell (12)
   int entropy_bins = 12;        ///< directions (12)
-  double entropy_floor = 1.0;   ///< bits: floor / max(entropy, floor), so that P_E is 0..1 and two directions
-                                ///< are still order
+  double entropy_floor = 1.0;   ///< bits: P_E = floor / max(entropy, floor); 1 bit is two directions
   double flow_noise_px = 0.4;   ///< px: flow below this has no direction and does not vote
 };
 
 /// Masks and tracks: the last stage of every detector.
 struct ObjectParameters {
-  double threshold = 0.6;         ///< on P_FG: somewhere an object exceeds it
-  double extent_threshold = 0.4;  ///< on P_FG: an object reaches as far as it exceeds this; at most threshold
+  double threshold = 0.6;         ///< on P_FG: upper hysteresis threshold
+  double extent_threshold = 0.4;  ///< on P_FG: lower hysteresis threshold, at most `threshold`
   int opening_px = 3;             ///< px: diameter of the disc that removes specks; 0: none
   int closing_px = 7;             ///< px: diameter of the disc that closes holes; 0: none
-  double min_area_px = 30;        ///< px^2: smaller components are no objects
+  double min_area_px = 30;        ///< px^2: smaller components are discarded
   int max_missed_frames =
-      24;                  ///< frames a track survives without a component; as many again that are skipped
+      24;                  ///< frames that a track survives without a component, and likewise skipped frames
   int confirm_frames = 2;  ///< frames before a track is confirmed
 };
 
 /// The paper's background (III.A): a mixture of Gaussians per pixel (Zivkovic) for each plane.
 struct TwoPlaneParameters {
-  int mixture_history = 500;  ///< frames that the mixture remembers
-  double mixture_threshold =
-      16.0;                     ///< squared Mahalanobis distance beyond which a pixel is not its background
-  double canvas_margin = 0.0;   ///< fraction of the image's width: border of the canvas that a model is kept
-                                ///< on; 0: the model is carried along, into every new frame
-  bool use_front_plane = true;  ///< model the front plane's background beside the ground's
+  int mixture_history = 500;        ///< frames; inverse of the learning rate
+  double mixture_threshold = 16.0;  ///< squared Mahalanobis distance beyond which a pixel is foreground
+  double canvas_margin = 0.0;       ///< fraction of the image's width: margin of the canvas that the model is
+                                    ///< stored on; 0: the model is warped into every frame
+  bool use_front_plane = true;      ///< model the front plane's background beside the ground's
 };
 
 struct DetectionParameters {
@@ -105,7 +102,7 @@ struct DetectionParameters {
   TwoPlaneParameters two_planes;
 };
 
-/// The paper's own configuration; the default is ours.
+/// The paper's configuration.
 DetectionParameters paperDetection();
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// A drone's true extrinsics with the error of a good calibration, the same on every machine.
+// Adds the error of a good calibration to a drone's true extrinsics, reproducibly on every machine.
 #pragma once
 
 #include <string_view>
@@ -15,10 +15,10 @@ struct ExtrinsicsDisturbance {
   double height_fraction = 0.02;  ///< of the start height
 };
 
-/// `seed`: any text, such as the clip's name. Its FNV-1a hash starts a SplitMix64 sequence (Steele, Lea,
-/// Flood 2014), since the distributions of the C++ library differ from one to the next. R_CI is turned about
-/// an axis of the camera's frame that is uniform on the sphere; start_height_sigma_m becomes the disturbance
-/// of the height (or stays, without one).
+/// `seed`: any text, such as the clip's name. Its FNV-1a hash seeds SplitMix64 (Steele, Lea, Flood 2014), as
+/// the distributions of C++ standard libraries differ. R_CI is turned about an axis of the camera's frame
+/// that is uniform on the sphere; start_height_sigma_m becomes the disturbance of the height, if there is
+/// one.
 InertialExtrinsics disturbed(const InertialExtrinsics& truth, const ExtrinsicsDisturbance& amounts,
                              std::string_view seed);
 

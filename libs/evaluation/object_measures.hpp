@@ -1,12 +1,11 @@
-// Object-level measures: which moving objects a mask finds in a frame, and its false alarms.
+// Object-level measures: moving objects that a mask finds in a frame, and its false alarms.
 //
 // An object whose visible pixels are labelled is found where the mask covers at least a quarter of them. One
 // that is labelled by a box is found where a component of the mask (8-connected) has a bounding box whose
-// intersection over union with it is at least 0.2, both boxes grown by 2 px to all sides: labels by hand are
-// off by 1 to 2 px, which would decide for objects of a few pixels.
-//
-// A false alarm is a component of the mask that touches no object (not even one that does not count) and of
-// which at most half lies in ignored areas. Its area is that of its pixels outside ignored areas.
+// intersection over union with it is at least 0.2, both boxes grown by 2 px on all sides: manual labels are
+// off by 1 to 2 px, which matters for objects of a few pixels. A false alarm is a component of the mask that
+// touches no object (counted or not) and of which at most half lies in ignored areas. Its area is that of its
+// pixels outside ignored areas.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ namespace redbee {
 struct TruthObject {
   int id = 0;
   cv::Rect2d box;      ///< px; used where the frame has no map of identities
-  bool counts = true;  ///< false: stopped for now, or hidden: neither found nor missed
+  bool counts = true;  ///< false: temporarily stopped, or occluded; neither found nor missed
 };
 
 /// The objects of one frame.
@@ -29,16 +28,16 @@ struct ObjectTruth {
 };
 
 struct ObjectCounts {
-  int64_t present = 0;       ///< moving objects that count
+  int64_t present = 0;       ///< counted moving objects
   int64_t found = 0;         ///< of those
   int64_t false_alarms = 0;  ///< components
   int64_t false_area = 0;    ///< px^2, of these
 };
 
-/// With fewer visible pixels an object does not count, though it is no false alarm either.
+/// Objects with fewer visible pixels are not counted; they are no false alarms either.
 inline constexpr int64_t kLeastVisiblePixels = 12;
 
-/// Every 8-connected region of a 0/255 mask (other values are ignored areas) taken for an object that counts.
+/// Takes each 8-connected region of a 0/255 mask as an object; other values are ignored areas.
 ObjectTruth objectsOfMask(const cv::Mat1b& mask);
 
 /// `detected`: not 0 where the method detects motion. Throws std::invalid_argument on maps of different

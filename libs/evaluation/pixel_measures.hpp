@@ -15,7 +15,7 @@ struct OperatingPoint {
   double recall = 0;     ///< 0 where nothing moves
 };
 
-/// Counts only: adding a frame costs one pass, and clips of any length fit.
+/// Accumulates histograms only, so memory does not depend on the clip's length.
 class PixelMeasures {
  public:
   /// `probability`: P_FG * 255. `truth`: 255 moves, 0 does not, any other value is ignored. Throws
@@ -35,8 +35,8 @@ class PixelMeasures {
   OperatingPoint at(int threshold) const;
 
  private:
-  std::array<int64_t, 256> moving_{};      ///< truth pixels that move, by P_FG
-  std::array<int64_t, 256> background_{};  ///< those that do not
+  std::array<int64_t, 256> moving_{};      ///< histogram of P_FG over moving pixels
+  std::array<int64_t, 256> background_{};  ///< the same over static pixels
   int64_t frames_ = 0;
 };
 

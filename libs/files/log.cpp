@@ -67,7 +67,7 @@ std::optional<LogEvent> LogReader::next() {
   while (position_ < size_) {
     const auto header = headerAt(position_);
     if (header && hasConsistentLength(*header)) {
-      if (auto event = take(*header)) return event;
+      if (auto event = readEvent(*header)) return event;
     }
     skipDamage();
   }
@@ -85,7 +85,7 @@ bool LogReader::hasConsistentLength(const Header& header) {
   return headerAt(*later)->number > header.number + 1;
 }
 
-std::optional<LogEvent> LogReader::take(const Header& header) {
+std::optional<LogEvent> LogReader::readEvent(const Header& header) {
   LogEvent event;
   event.number = header.number;
   event.utime = header.utime;

@@ -79,7 +79,7 @@ class LogReader {
   std::optional<Header> headerAt(int64_t offset);
   bool eventFollows(int64_t offset);
   bool hasConsistentLength(const Header& header);
-  std::optional<LogEvent> take(const Header& header);
+  std::optional<LogEvent> readEvent(const Header& header);
   void skipDamage();
   std::optional<int64_t> resynchronise(int64_t from);
   void reportDamage(int64_t offset, const std::string& what);

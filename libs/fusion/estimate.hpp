@@ -5,27 +5,27 @@
 
 namespace redbee {
 
-/// In the units that the filter works in (HomographyFusion); h33 = 1.
+/// In the units of the filter (HomographyFusion); h33 = 1.
 struct Estimate {
   Eigen::Matrix3d H;
   Matrix8d P;
 };
 
-/// No motion, no error.
+/// Identity with zero covariance.
 Estimate identityEstimate();
 
 Matrix8d symmetric(const Matrix8d& P);
 /// J P J'.
 Matrix8d transformed(const Matrix8d& J, const Matrix8d& P);
 
-/// Neither NaN nor a mirror image nor a collapse of the image.
+/// True if H is finite and neither mirrors the image nor collapses it.
 bool isUsable(const Eigen::Matrix3d& H);
 bool isCovariance(const Matrix8d& P);
 inline bool isUsable(const Estimate& estimate) { return isUsable(estimate.H) && isCovariance(estimate.P); }
 
-/// `first`, then `second`, their errors independent.
+/// `first`, then `second`; their errors are taken as independent.
 Estimate composed(const Estimate& second, const Estimate& first);
-/// The part of `whole` that comes after `first`, their errors independent: whole first^-1.
+/// whole first^-1: the part of `whole` after `first`; their errors are taken as independent.
 Estimate remainder(const Estimate& whole, const Estimate& first);
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// The fusion's estimate for two frames.
+// The fusion's estimate for a pair of frames.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,11 +22,11 @@ struct FusedHomography {
   Matrix8d covariance_step;  ///< scaled
   Eigen::Matrix3d H_anchor;  ///< anchor frame to frame k (the paper's x_t)
   Matrix8d covariance_anchor;              ///< scaled
-  bool has_innovation = false;             ///< both sources were available: the three below are meaningful
+  bool has_innovation = false;             ///< both sources were available: the three members below are valid
   Vector8d innovation = Vector8d::Zero();  ///< scaled entries: visual minus predicted anchor homography
   Matrix8d innovation_covariance = Matrix8d::Zero();
-  double test_ratio = 0;         ///< squared Mahalanobis distance over the gate: above 1 vision was refused
-  bool visual_accepted = false;  ///< vision is part of the estimate
+  double test_ratio = 0;         ///< squared Mahalanobis distance over the gate; above 1 vision is rejected
+  bool visual_accepted = false;  ///< vision contributes to the estimate
 };
 
 }  // namespace redbee

@@ -10,8 +10,8 @@
 namespace redbee {
 namespace {
 
-/// A step whose transfer sigma is larger is useless for single pixels. An inertial filter whose velocity
-/// vision has not yet observed is off by ten, one that lost vision a second ago by tenths.
+/// A step with a larger transfer sigma is useless at pixel level. An inertial filter whose velocity vision
+/// has not yet observed is off by ten pixels, one that lost vision a second ago by tenths.
 constexpr double kMaxStepSigma_px = 2;
 constexpr double kUnknownVariance = 1.0;  // scaled units: half the image's width
 
@@ -118,19 +118,19 @@ Matrix8d HomographyFusion::toScaled(const Estimate& estimate) const {
 }
 
 /// The error of the last anchor homography, propagated to this one.
-Matrix8d HomographyFusion::carriedCovariance(const Eigen::Matrix3d& H_anchor) const {
+Matrix8d HomographyFusion::propagatedCovariance(const Eigen::Matrix3d& H_anchor) const {
   const Eigen::Matrix3d step = normaliseHomography(H_anchor * anchor_.H.inverse());
   return transformed(composeJacobians(step, anchor_.H).by_right, anchor_.P);
 }
 
 Estimate HomographyFusion::follow(const Estimate& source) {
-  return accept(source.H, source.P, carriedCovariance(source.H) + source.P);
+  return accept(source.H, source.P, propagatedCovariance(source.H) + source.P);
 }
 
 Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual, FusedHomography& out) {
   const bool paper = parameters_.noise == FusionNoise::kPaper;
-  const Matrix8d carried = carriedCovariance(inertial.H);
-  const Matrix8d prior = paper ? Matrix8d(carried + inertial.P) : inertial.P;
+  const Matrix8d propagated = propagatedCovariance(inertial.H);
+  const Matrix8d prior = paper ? Matrix8d(propagated + inertial.P) : inertial.P;
   const Matrix8d S = symmetric(prior + visual.P);
   const Eigen::LDLT<Matrix8d> factors(S);
   out.has_innovation = true;
@@ -162,7 +162,7 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
   const Matrix8d step_noise = transformed(rest, inertial.P) + transformed(gain, visual.P);
   return accept(H, step_noise,
                 paper ? Matrix8d(transformed(rest, prior) + transformed(gain, visual.P))
-                      : Matrix8d(carried + step_noise));
+                      : Matrix8d(propagated + step_noise));
 }
 
 Estimate HomographyFusion::accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,

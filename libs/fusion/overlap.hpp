@@ -5,7 +5,7 @@
 
 namespace redbee {
 
-/// Fraction of a frame's area that `H` [px] maps into the other frame; both of this size [px].
+/// Fraction of a frame's area that `H` [px] maps into the other frame; both frames are width x height px.
 double overlap(const Eigen::Matrix3d& H, int width, int height);
 
 }  // namespace redbee

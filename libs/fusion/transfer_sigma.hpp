@@ -1,11 +1,12 @@
-// A homography's covariance in pixels of the image.
+// A homography's covariance as a standard deviation in pixels.
 #pragma once
 
 #include "redbee/geometry/homography.hpp"
 
 namespace redbee {
 
-/// Standard deviation [px] of where `H` takes a point, RMS over a grid of the image. Both scaled.
+/// Standard deviation [px] of the points mapped by `H`, RMS over a grid of the image. `H` and `covariance`:
+/// scaled.
 double transferSigma(const Eigen::Matrix3d& H, const Matrix8d& covariance, int width, int height);
 
 }  // namespace redbee

@@ -9,8 +9,7 @@ namespace {
 constexpr int kSweeps = 3;  // forth and back
 constexpr double kOutline = 0.02;
 
-/// Lets `level` spread from each pixel to the next of a row and from the row before, but nowhere above
-/// `limit`.
+/// One sweep: propagates `level` along each row and from the row before, bounded by `limit`.
 void sweep(const cv::Mat1f& limit, cv::Mat1f& level, bool forth) {
   const int step = forth ? 1 : -1;
   const int first_x = forth ? 1 : level.cols - 2, end_x = forth ? level.cols : -1;

@@ -6,7 +6,7 @@
 namespace redbee {
 
 cv::Mat1f guidedFilter(const cv::Mat& guide, const cv::Mat1f& map, int radius_px, double contrast) {
-  // Slope and offset are smooth: a smaller image gives them as well.
+  // Slope and offset are smooth, so they are computed at a lower resolution.
   const int shrink = std::clamp(radius_px / 2, 1, 4);
   const cv::Size small((guide.cols + shrink - 1) / shrink, (guide.rows + shrink - 1) / shrink);
   const int side = 2 * std::max(1, radius_px / shrink) + 1;

@@ -6,8 +6,9 @@
 
 namespace redbee {
 
-/// `map` as a locally linear function of `guide` (CV_8U or CV_32F) over squares of 2 radius + 1: it
-/// fills even surfaces and stops at their edges. Contrast below `contrast` grey levels is no edge.
+/// `map` as a locally linear function of `guide` (CV_8U or CV_32F) over windows of 2 radius + 1 px: smooths
+/// within surfaces and preserves their edges. `contrast` [grey levels]: lower contrast is smoothed over (sqrt
+/// of the regularisation).
 cv::Mat1f guidedFilter(const cv::Mat& guide, const cv::Mat1f& map, int radius_px, double contrast);
 
 }  // namespace redbee

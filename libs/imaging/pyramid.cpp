@@ -13,7 +13,7 @@ PyramidLevel withMargin(const cv::Mat1b& image, int margin) {
   level.margin = margin;
   level.width = image.cols;
   level.height = image.rows;
-  // Isolated: an image that is a part of a larger one ends at its own edge.
+  // Isolated: a region of interest must not use pixels outside of it.
   cv::copyMakeBorder(image, level.padded, margin, margin, margin, margin,
                      cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
   return level;

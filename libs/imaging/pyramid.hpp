@@ -1,4 +1,4 @@
-// A grey image at halved sizes, each level with a margin so that a patch may hang over the edge.
+// Image pyramid of a grey image; each level has a margin, so that patches may extend beyond the border.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace redbee {
 
 /// One level: pixel (x, y) of level l lies at (x, y) * 2^l of the image.
 struct PyramidLevel {
-  cv::Mat1b padded;  ///< margin on all sides (mirrored)
+  cv::Mat1b padded;  ///< with a mirrored margin on all sides
   int margin = 0;    ///< px
   int width = 0;     ///< px, without the margin
   int height = 0;    ///< px, without the margin
@@ -25,7 +25,7 @@ struct PyramidLevel {
 class Pyramid {
  public:
   Pyramid() = default;
-  /// Levels whose shorter side would fall below `min_side` px are left out.
+  /// Levels whose shorter side would be below `min_side` px are omitted.
   Pyramid(const cv::Mat1b& grey, int levels, int margin, int min_side);
 
   bool empty() const { return levels_.empty(); }
@@ -37,8 +37,8 @@ class Pyramid {
   std::vector<PyramidLevel> levels_;
 };
 
-/// Shift [px of this level] that brings `from` onto `to` best as a whole: smallest mean absolute difference
-/// over all whole-pixel shifts up to `reach`, the images' mean brightness taken out.
+/// Shift [px of this level] that best aligns `from` with `to`: smallest mean absolute difference over all
+/// whole-pixel shifts up to `reach` px, after subtracting the mean brightness.
 cv::Point bestShift(const PyramidLevel& from, const PyramidLevel& to, int reach);
 
 }  // namespace redbee

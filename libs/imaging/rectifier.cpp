@@ -5,7 +5,8 @@
 namespace redbee {
 namespace {
 
-/// Source of a pixel that has none: outside every image, within the range of the fixed-point tables.
+/// Source coordinate of pixels without a source: outside every image, but within the range of the fixed-point
+/// tables.
 constexpr float kNowhere = -16384;
 
 /// Source pixel of every pixel of an image of `size`.
@@ -32,8 +33,8 @@ Rectifier::Rectifier(const Camera& camera) {
   tabulate(camera.ideal(), distort, to_ideal_1_, to_ideal_2_);
   tabulate(camera.intrinsics(), undistort, to_raw_1_, to_raw_2_);
   const cv::Mat shown(camera.intrinsics().height, camera.intrinsics().width, CV_8U, cv::Scalar(0));
-  cv::remap(shown, unseen_, to_ideal_1_, to_ideal_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
-  if (cv::countNonZero(unseen_) == 0) unseen_.release();
+  cv::remap(shown, unknown_, to_ideal_1_, to_ideal_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
+  if (cv::countNonZero(unknown_) == 0) unknown_.release();
 }
 
 cv::Mat Rectifier::toIdeal(const cv::Mat& raw) const {

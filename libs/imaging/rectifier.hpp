@@ -1,4 +1,4 @@
-// Raw images to ideal ones, in which homographies hold, and back.
+// Rectification: raw images to ideal images, between which homographies hold, and back.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,25 +7,24 @@
 
 namespace redbee {
 
-/// Look-up tables for one camera. Where raw and ideal pixels are the same it costs nothing: images pass
-/// through uncopied.
+/// Look-up tables for one camera. If raw and ideal pixels are the same, images are returned without a copy.
 class Rectifier {
  public:
   explicit Rectifier(const Camera& camera);
 
-  /// Raw image to ideal image, of the size and K of the camera's ideal(), bilinear; black where unseen().
+  /// Raw image to ideal image, of the size and K of the camera's ideal(), bilinear; black where unknown().
   cv::Mat toIdeal(const cv::Mat& raw) const;
-  /// 8-bit map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; `outside` where the
-  /// raw pixel was not rectified.
+  /// Map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; `outside` where the raw
+  /// pixel lies outside the ideal image.
   cv::Mat toRaw(const cv::Mat& ideal, uchar outside = 0) const;
-  /// 8-bit, ideal grid: 255 where the raw image shows nothing, or the camera model has no pixel; empty if
-  /// every pixel is seen.
-  const cv::Mat& unseen() const { return unseen_; }
+  /// On the ideal grid: 255 where the raw image or the camera model has no pixel; empty if all pixels are
+  /// known.
+  const cv::Mat& unknown() const { return unknown_; }
 
  private:
   cv::Mat to_ideal_1_, to_ideal_2_;
   cv::Mat to_raw_1_, to_raw_2_;
-  cv::Mat unseen_;
+  cv::Mat unknown_;
 };
 
 }  // namespace redbee

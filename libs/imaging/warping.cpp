@@ -11,18 +11,18 @@ cv::Matx33d toMatx(const Eigen::Matrix3d& H) {
   return {H(0, 0), H(0, 1), H(0, 2), H(1, 0), H(1, 1), H(1, 2), H(2, 0), H(2, 1), H(2, 2)};
 }
 
-cv::Mat carryMap(const cv::Mat& map, const cv::Matx33d& H, int interpolation) {
-  cv::Mat carried;
-  cv::warpPerspective(map, carried, H, map.size(), interpolation, cv::BORDER_CONSTANT, cv::Scalar::all(0));
-  return carried;
+cv::Mat warpToCurrent(const cv::Mat& map, const cv::Matx33d& H, int interpolation) {
+  cv::Mat warped;
+  cv::warpPerspective(map, warped, H, map.size(), interpolation, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  return warped;
 }
 
-cv::Mat carryMap(const cv::Mat& map, const Eigen::Matrix3d& H, int interpolation) {
-  return carryMap(map, toMatx(H), interpolation);
+cv::Mat warpToCurrent(const cv::Mat& map, const Eigen::Matrix3d& H, int interpolation) {
+  return warpToCurrent(map, toMatx(H), interpolation);
 }
 
 cv::Mat1b overlapMask(const cv::Size& size, const cv::Matx33d& H) {
-  return carryMap(cv::Mat1b(size, 255), H, cv::INTER_NEAREST);
+  return warpToCurrent(cv::Mat1b(size, 255), H, cv::INTER_NEAREST);
 }
 
 cv::Mat1b overlapMask(const cv::Size& size, const Eigen::Matrix3d& H) { return overlapMask(size, toMatx(H)); }

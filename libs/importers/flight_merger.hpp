@@ -1,4 +1,4 @@
-// Frames, IMU and altimeter into one log in the order of their times.
+// Merges frames, IMU samples and altitudes into one log in the order of their times.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,16 @@
 
 namespace redbee {
 
-/// Frames come one by one (they are large), the rest as a whole. An IMU sample or altitude with a frame's
-/// time goes before the frame, so that a reader has it when the frame arrives.
+/// Frames are added one by one (they are large), the rest at once. An IMU sample or altitude with the same
+/// time as a frame is written before it.
 class FlightMerger {
  public:
   FlightMerger(const std::filesystem::path& log, ImportChannels channels, std::vector<ImuSample> imu,
                std::vector<AltitudeSample> altitudes);
 
   void addFrame(const image_t& frame);
-  /// Writes what is left, closes the log and fills counts, times and the coverage warning of the summary.
+  /// Writes the remaining samples, closes the log and fills counts, times and the coverage warning of the
+  /// summary.
   void close(ImportSummary& summary);
 
  private:

@@ -22,20 +22,20 @@ struct GoproStreams {
 /// Frame I is x forward along the optical axis, y left, z up.
 ///
 /// Axes: after ORIN/ORIO a GoPro lists (Z, X, Y) with Z up, X left and Y backward out of the lens' back. "Z
-/// up" shows in gravity (+9.7 in a HERO5's first channel). "Y backward" shows in the sample flight of GoPro's
-/// own parser: a drone that accelerates forward by 3 m/s^2 (by its GPS velocities; correlation -0.98) reads
-/// -3 in the third channel. Two axes and a right-handed frame leave X = Y x Z = left, and the second
-/// channel's sign agrees. So I = (-Y, X, Z), for both sensors: they are one chip.
+/// up" is confirmed by gravity (+9.7 in a HERO5's first channel), "Y backward" by the sample flight of
+/// GoPro's own parser: a drone that accelerates forward at 3 m/s^2 (by its GPS velocities; correlation -0.98)
+/// reads -3 in the third channel. In a right-handed frame X = Y x Z is then left, and the second channel's
+/// sign agrees. So I = (-Y, X, Z), for both sensors: they are one chip.
 ///
-/// Times: a payload's start is known to a whole batch of samples only, but the sampling is regular. A
-/// straight line through (samples before the payload, start of the payload) over the whole recording averages
-/// the batches out; STMP, where the camera writes it, replaces the counting. One payload alone is spread
+/// Times: only the start of a payload, a batch of samples, has a time, but sampling is regular. A line fitted
+/// to (samples before the payload, start of the payload) over the whole recording averages out the jitter of
+/// the batches; STMP is used instead if the camera writes it. The samples of a single payload are spread
 /// evenly over its duration.
 ///
-/// Throws GpmfError if a payload is damaged, a unit is not known, or one of the sensors is missing.
+/// Throws GpmfError if a payload is damaged, a unit is unknown, or one of the sensors is missing.
 GoproStreams readGoproStreams(const std::vector<DataPacket>& packets);
 
-/// A sample at every gyro time, the accelerometer interpolated linearly; held at the ends.
+/// A sample at every gyro time, the accelerometer interpolated linearly and held constant beyond its ends.
 std::vector<ImuSample> mergeAtGyroTimes(const GoproStreams& streams);
 
 }  // namespace redbee

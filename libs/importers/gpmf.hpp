@@ -33,8 +33,7 @@ struct GpmfRecord {
   bool isContainer() const { return type == 0; }
 };
 
-/// The records of one level, `size` bytes at `data`. Never reads past the end: a record with a larger size is
-/// a GpmfError.
+/// The records of one level, `size` bytes at `data`. Throws GpmfError if a record exceeds them.
 std::vector<GpmfRecord> gpmfRecords(const uint8_t* data, size_t size, size_t offset = 0);
 
 /// One payload's samples of a three-axis sensor.

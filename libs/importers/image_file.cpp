@@ -52,7 +52,8 @@ image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageO
   std::vector<uint8_t> bytes = readWhole(file);
   if (startsWith(bytes, {0xFF, 0xD8})) return untouchedJpeg(file, utime, std::move(bytes));
   if (!startsWith(bytes, {0x89, 'P', 'N', 'G'})) throw InputError(file, "is neither JPEG nor PNG");
-  // The decoder silently fills the rest of a truncated file with grey; the end chunk shows that it is whole.
+  // The decoder silently fills the rest of a truncated file with grey; the end chunk shows that it is
+  // complete.
   const std::string end_chunk = "IEND";
   const auto tail = bytes.end() - static_cast<long>(std::min<size_t>(bytes.size(), 12));
   if (std::search(tail, bytes.end(), end_chunk.begin(), end_chunk.end()) == bytes.end()) {

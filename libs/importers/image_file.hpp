@@ -1,4 +1,4 @@
-// Image files into image_t messages.
+// Conversion of image files to image_t messages.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,15 @@
 namespace redbee {
 
 struct ImageOptions {
-  bool lossless_grey = true;  ///< grey PNGs become raw GRAY (a JPEG would add noise that the flight did not
-                              ///< have); false: MJPEG
-  int jpeg_quality = 95;      ///< of what is encoded here
+  bool lossless_grey = true;  ///< grey PNGs become raw GRAY (JPEG would add compression noise); false: MJPEG
+  int jpeg_quality = 95;      ///< of images that are encoded here
 };
 
-/// A JPEG keeps its bytes untouched; a PNG becomes raw grey or MJPEG. Throws InputError(naming the
-/// file) where it is missing, cut short or no 8-bit image.
+/// A JPEG is copied unchanged; a PNG becomes raw grey or MJPEG. Throws InputError if the file is missing,
+/// truncated or not an 8-bit image.
 image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options);
 
-/// Refuses an image of another size than the first one's.
+/// check() throws InputError for an image whose size differs from the first one's.
 class ResolutionCheck {
  public:
   void check(const std::filesystem::path& file, const image_t& image);

@@ -31,7 +31,7 @@ void assumeIntrinsics(ImportSummary& summary) {
 std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, CameraTime first_frame,
                                               CameraTime last_frame) {
   if (imu.empty()) return std::nullopt;
-  // A time shift or the last sample of a recording costs a few periods; more than this is a gap.
+  // A time shift or the end of a recording may leave a few periods uncovered; more than this is a gap.
   constexpr Duration kTolerance = std::chrono::milliseconds(50);
   const ImuTime first = toImu(first_frame, Duration(0));
   const ImuTime last = toImu(last_frame, Duration(0));

@@ -1,5 +1,4 @@
-// Common parts of all imports: a recording becomes an LCM log, and what it states about its vehicle a
-// configuration.
+// Common parts of all importers: a recording becomes an LCM log, and its calibration a vehicle configuration.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +14,7 @@
 
 namespace redbee {
 
-/// Names in the log; the configuration's defaults.
+/// Channel names in the log; the configuration's defaults.
 struct ImportChannels {
   std::string camera = "CAMERA";
   std::string imu = "IMU";
@@ -27,14 +26,14 @@ enum class FrameFormat {
   kRawGrey,  ///< luma, uncompressed
 };
 
-/// What every import takes; an importer ignores what does not concern its recordings (importer.hpp).
+/// Options of all importers; each ignores those that do not apply to its recordings (importer.hpp).
 struct ImportOptions {
   std::filesystem::path source;  ///< file or folder
   std::filesystem::path log;     ///< to be written
   ImportChannels channels;
   FrameFormat format = FrameFormat::kMjpeg;  ///< of frames that are decoded
-  int jpeg_quality = 90;                     ///< of what is encoded here
-  int width = 0;   ///< px, the height keeps the aspect, both even; 0: as recorded. Video files only
+  int jpeg_quality = 90;                     ///< of frames that are encoded here
+  int width = 0;   ///< px, even; the height follows from the aspect ratio; 0: as recorded. Video files only
   double fps = 0;  ///< Hz, of a folder of images; a file has its own times
   /// CSV with a header line that names its columns, in any order: t_s [s, on the video's clock], gx gy gz
   /// [rad/s], ax ay az [m/s^2, specific force]. Other columns are ignored. The axes are the IMU's; the
@@ -45,8 +44,7 @@ struct ImportOptions {
   std::string camchain_camera = "cam0";  ///< its section of the camchain
 };
 
-/// What a recording states about its vehicle. The rest stays empty and is taken from the reference
-/// configuration.
+/// What a recording states about its vehicle. Empty members are taken from the reference configuration.
 struct VehicleDescription {
   std::string name;
   int width = 0;   ///< px
@@ -71,12 +69,12 @@ struct ImportSummary {
   std::vector<std::string> warnings;  ///< one line each
 };
 
-/// For a recording without lens data: the principal point in the middle and a focal length of 0.8 of the
-/// longer side (64 degrees from edge to edge, as drones and phones have), with a warning. Vision alone
-/// depends on it little; with an IMU it must be right.
+/// For a recording without intrinsics: principal point in the image centre, focal length 0.8 of the longer
+/// side (64 degrees field of view, typical of drones and phones), with a warning. Vision alone depends on it
+/// little; with an IMU it must be correct.
 void assumeIntrinsics(ImportSummary& summary);
 
-/// A line for the summary where the IMU leaves frames uncovered; std::nullopt if it covers all of them.
+/// Warning if IMU samples do not cover all frames, otherwise std::nullopt.
 std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, CameraTime first_frame,
                                               CameraTime last_frame);
 double meanRate(const std::vector<ImuSample>& imu);

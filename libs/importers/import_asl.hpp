@@ -5,9 +5,8 @@
 
 namespace redbee {
 
-/// Source: the folder that holds mav0, or mav0 itself. Camera stamps stay on the camera's clock and IMU
-/// stamps on the IMU's, as the folder has them; ns become us by rounding to the nearest. imu0 and altimeter0
-/// may be absent, cam0 not.
+/// Source: the folder that holds mav0, or mav0 itself. Timestamps stay on the clock of their sensor and are
+/// rounded from ns to us. imu0 and altimeter0 are optional.
 Importer aslImporter();
 
 }  // namespace redbee

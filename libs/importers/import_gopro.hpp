@@ -5,7 +5,7 @@
 
 namespace redbee {
 
-/// All times are on the video's clock; what is left between gyro and exposure is the configuration's
+/// All times are on the video's clock; the remaining shift between gyro and exposure is the configuration's
 /// camera.timeshift_s. IMU frame: x forward along the optical axis, y left, z up (gopro_imu.hpp).
 Importer goproImporter();
 

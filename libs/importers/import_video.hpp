@@ -9,7 +9,7 @@
 namespace redbee {
 
 /// Source: a file, or a folder of JPEGs or PNGs taken in the order of their names. Frames have their
-/// presentation times, from the video's zero.
+/// presentation times.
 Importer videoImporter();
 
 /// The file of ImportOptions::imu.

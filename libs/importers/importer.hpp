@@ -9,7 +9,7 @@
 
 namespace redbee {
 
-/// Which of the options an importer takes beside source and log; the tool offers no others.
+/// The options that an importer supports beside source and log; the tool offers no others.
 struct ImporterTakes {
   bool width = false;
   bool fps = false;

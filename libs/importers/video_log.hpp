@@ -1,4 +1,4 @@
-// The part that every import from a video file shares.
+// The common part of importers of video files.
 #pragma once
 
 #include "redbee/importers/flight_merger.hpp"
@@ -6,7 +6,7 @@
 
 namespace redbee {
 
-/// Decodes the whole file into the merger and fills the summary's image size.
+/// Decodes the file into the merger and sets the summary's image size.
 void addVideoFrames(const ImportOptions& options, FlightMerger& merger, ImportSummary& summary,
                     Progress& progress);
 

@@ -1,4 +1,4 @@
-// Frames of a video file in the order of their times, and the packets of a data track beside them.
+// Reads the frames of a video file in the order of their times, and the packets of a data track.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,12 @@ struct DataPacket {
 };
 
 struct VideoReaderOptions {
-  int width = 0;      ///< px, of the frames given out, the height keeps the aspect; both even. 0: as recorded
+  int width =
+      0;  ///< px, even, of the returned frames; the height follows from the aspect ratio. 0: as recorded
   bool grey = false;  ///< luma only; false: BGR
 };
 
-/// Throws InputError: no video stream, no frames, a file cut short (naming the last good frame), times that
+/// Throws InputError: no video stream, no frames, a truncated file (stating the last good frame), times that
 /// do not increase.
 class VideoReader {
  public:
@@ -36,7 +37,7 @@ class VideoReader {
   ~VideoReader();
 
   std::optional<VideoFrame> next();
-  /// As stated by the container; 0 where it is not.
+  /// As stated by the container; 0 if it does not.
   int64_t expectedFrames() const;
 
  private:
@@ -45,7 +46,7 @@ class VideoReader {
 };
 
 /// All packets of the data track with this four-letter tag ("gpmd"); empty if there is no such track. Throws
-/// InputError if the file is no container or is cut short.
+/// InputError if the file is not a media container or is truncated.
 std::vector<DataPacket> readDataTrack(const std::filesystem::path& path, const std::string& tag);
 
 }  // namespace redbee

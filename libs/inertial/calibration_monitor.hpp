@@ -1,8 +1,9 @@
-// Whether the calibration fits the flight, by the innovations between the inertial and the visual homography.
+// Checks in flight whether the calibration is consistent with the innovations between the inertial and the
+// visual homography.
 //
-// With a right calibration the innovations scatter about zero and their test ratios stay small. A wrong R_CI,
-// time shift or height shows as test ratios that stay large. One frame is no evidence: the running mean over
-// some seconds is.
+// With a correct calibration the innovations scatter about zero and their test ratios are small. A wrong
+// R_CI, time shift or height makes the test ratios persistently large. Single frames are not conclusive; a
+// running mean over some seconds is.
 #pragma once
 
 #include <cmath>
@@ -15,7 +16,7 @@ class CalibrationMonitor {
  public:
   struct Parameters {
     double memory_frames = 72;  ///< frames over which the running means fade
-    int min_frames = 48;        ///< before the first verdict
+    int min_frames = 48;        ///< before a status other than "unknown"
     double misfit_ratio = 1.0;  ///< mean test ratio (1: the gate) above which the calibration does not fit
     double misfit_px = 1.0;     ///< and mean distance of the two homographies
   };
@@ -24,7 +25,7 @@ class CalibrationMonitor {
   explicit CalibrationMonitor(const Parameters& parameters) : parameters_(parameters) {}
 
   /// One frame: squared Mahalanobis distance of the innovation over its gate, and mean transfer error between
-  /// the predicted and the measured homography [px]. Numbers that are not finite are ignored.
+  /// the predicted and the measured homography [px]. Values that are not finite are ignored.
   void note(double test_ratio, double distance_px) {
     if (!std::isfinite(test_ratio) || !std::isfinite(distance_px)) return;
     ++frames_;
@@ -40,8 +41,8 @@ class CalibrationMonitor {
   double meanRatio() const { return ratio_; }
 
   /// "unknown", "fits", or "does not fit: predicted homography off by 3 px". The pixels are rounded, so that
-  /// the text changes seldom.
-  std::string verdict() const {
+  /// the text seldom changes.
+  std::string status() const {
     if (!decided()) return "unknown";
     if (fits()) return "fits";
     char text[80];

@@ -67,12 +67,12 @@ void AltitudeCorrection::correct(NavigationState& state, const AltitudeSample& s
   const Scalar innovation(sample.height_m - (cameraHeight(state, p_IC_) - lag_s * state.v_GI.z()));
   const Scalar S_inverse((H * state.P * H.transpose() + R).inverse());
   if (innovation.value() * S_inverse.value() * innovation.value() <= gate_) {
-    refused_in_a_row_ = 0;
+    rejected_in_a_row_ = 0;
     update<1>(state, H, innovation, R, S_inverse);
     return;
   }
-  if (++refused_in_a_row_ < kAltitudeRefusals) return;
-  refused_in_a_row_ = 0;
+  if (++rejected_in_a_row_ < kAltitudeRefusals) return;
+  rejected_in_a_row_ = 0;
   state.p_GI.z() += innovation.value();
   state.p_GI_clone.z() += innovation.value();
   // The clone's height is off by the same amount: the common part's variance is inflated, that of their
@@ -105,24 +105,24 @@ CorrectionReport VisionCorrection::correct(NavigationState& state, const Homogra
   const double test_ratio = innovation.dot(S_inverse * innovation) / gate_;
   if (!std::isfinite(test_ratio)) return {};
   if (test_ratio > 1) {
-    if (++refused_in_a_row_ >= kVisionRefusals) openVelocity(state);
+    if (++rejected_in_a_row_ >= kVisionRefusals) inflateVelocity(state);
     return {false, test_ratio};
   }
   update<8>(state, z.jacobian, innovation, R, S_inverse);
-  refused_in_a_row_ = 0;
-  widening_ = 1;
+  rejected_in_a_row_ = 0;
+  velocity_inflation_ = 1;
   applied_ = observation.time;
   return {true, test_ratio};
 }
 
-void VisionCorrection::openVelocity(NavigationState& state) {
-  refused_in_a_row_ = 0;
-  const double sigma = widening_ * start_velocity_sigma_;
+void VisionCorrection::inflateVelocity(NavigationState& state) {
+  rejected_in_a_row_ = 0;
+  const double sigma = velocity_inflation_ * start_velocity_sigma_;
   reopen(state.P, kVelocity, sigma * sigma * Eigen::Matrix3d::Identity());
   // Tilt only: yaw means nothing here and stays as it is.
   const Eigen::Matrix3d across = skew(state.R_GI.row(2));
   state.P.block<3, 3>(kAttitude, kAttitude) += tilt_sigma_ * tilt_sigma_ * across * across.transpose();
-  widening_ = std::min(2 * widening_, kMaxWidening);
+  velocity_inflation_ = std::min(2 * velocity_inflation_, kMaxWidening);
 }
 
 double VisionCorrection::secondsSinceApplied(CameraTime frame) const {
@@ -132,8 +132,8 @@ double VisionCorrection::secondsSinceApplied(CameraTime frame) const {
 
 void VisionCorrection::restart() {
   applied_.reset();
-  refused_in_a_row_ = 0;
-  widening_ = 1;
+  rejected_in_a_row_ = 0;
+  velocity_inflation_ = 1;
 }
 
 void correctByGravity(NavigationState& state, const ImuSpan& span, const InertialParameters& parameters,
@@ -144,7 +144,8 @@ void correctByGravity(NavigationState& state, const ImuSpan& span, const Inertia
   force /= static_cast<double>(span.knots.size());
   if (std::abs(force.norm() - parameters.gravity) > parameters.gravity_gate) return;
 
-  // The drone's own acceleration lasts: over a span much shorter than it does, the error is not a fresh one.
+  // The drone's own acceleration is correlated in time: over a much shorter span the error is not
+  // independent.
   const double duration = seconds(span.knots.back().sample.time - span.knots.front().sample.time);
   if (duration <= 0) return;
   const double variance = parameters.gravity_sigma * parameters.gravity_sigma *

@@ -119,7 +119,7 @@ void addError(NavigationState& state, const ErrorVector& error) {
   state.R_CI = expSO3(error.segment<3>(kMounting)) * state.R_CI;
 }
 
-bool isSound(const NavigationState& state) {
+bool isValid(const NavigationState& state) {
   return state.R_GI.allFinite() && state.p_GI.allFinite() && state.gyro_bias.allFinite() &&
          state.accel_bias.allFinite() && state.R_CI.allFinite() && state.R_GI_clone.allFinite() &&
          state.p_GI_clone.allFinite() && state.P.allFinite() && state.v_GI.norm() < kMaxSpeed &&

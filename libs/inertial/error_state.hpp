@@ -1,7 +1,8 @@
-// The inertial filter's state, its error, and how the IMU propagates both (libs/README.md, equation 20).
+// State and error state of the inertial filter, and their propagation by the IMU (libs/README.md, equation
+// 20).
 //
 // Rotations carry their error on the right: R_true = R exp(error); the camera's mounting on the left:
-// R_CI_true = exp(error) R_CI. Everything else adds.
+// R_CI_true = exp(error) R_CI. All other errors are additive.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +12,10 @@
 
 namespace redbee {
 
-/// Motion that a drone may have while no sensor measures it: one standard deviation.
+/// Standard deviation of a drone's motion while no sensor measures it.
 constexpr double kUnknownRate = 0.3;          ///< rad/s
 constexpr double kUnknownAcceleration = 2.0;  ///< m/s^2
-constexpr double kMinCameraHeight = 0.05;     ///< m: lower is impossible
+constexpr double kMinCameraHeight = 0.05;     ///< m: lower bound
 
 /// Index of each part of the error in its vector.
 enum ErrorIndex {
@@ -35,7 +36,7 @@ using MeasurementJacobian = Eigen::Matrix<double, kRows, kErrorSize>;
 
 struct NavigationState {
   Eigen::Matrix3d R_GI;
-  Eigen::Vector3d p_GI;  ///< m; horizontally only its difference to the clone's is meaningful
+  Eigen::Vector3d p_GI;  ///< m; horizontally only the difference to the clone is meaningful
   Eigen::Vector3d v_GI;  ///< m/s
   Eigen::Vector3d gyro_bias;
   Eigen::Vector3d accel_bias;
@@ -48,7 +49,7 @@ struct NavigationState {
 struct PropagationParameters {
   ImuNoise noise;
   double gravity;    ///< m/s^2
-  double max_gap_s;  ///< a step inside a longer gap is a guess
+  double max_gap_s;  ///< in a longer gap the motion is treated as unknown
 };
 
 /// Integrates from one knot to the next: second order in the step, so that vibration of the airframe, at a
@@ -56,7 +57,7 @@ struct PropagationParameters {
 void propagate(NavigationState& state, const ImuKnot& from, const ImuKnot& to,
                const PropagationParameters& parameters);
 
-/// Clones the present pose, and moves the origin of G to the ground point below it.
+/// Clones the current pose and moves the origin of G to the ground point below it.
 void clonePose(NavigationState& state);
 
 /// Adds an estimated error to the state.
@@ -75,6 +76,6 @@ void update(NavigationState& state, const MeasurementJacobian<kRows>& H,
   addError(state, gain * innovation);
 }
 
-bool isSound(const NavigationState& state);
+bool isValid(const NavigationState& state);
 
 }  // namespace redbee

@@ -1,5 +1,5 @@
-// What a filter has learned in flight, for the warm start of the one that replaces it: after a clock jump, an
-// IMU outage, or the death of a process.
+// State of the inertial filter for a warm start after a clock jump, an IMU outage, or a restart of the
+// process.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,15 +10,15 @@ namespace redbee {
 
 struct InertialParameters;
 
-/// Sigmas are one standard deviation each, by component.
+/// Sigmas: one standard deviation per component.
 struct FilterSnapshot {
   CameraTime time{};    ///< of the frame that it is valid at
   double height_m = 0;  ///< of the camera above the ground plane
   double height_sigma_m = 0;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();       ///< unit, in I
   Eigen::Vector3d up_sigma = Eigen::Vector3d::Zero();  ///< rad, of a rotation about each axis of I
-  /// m/s, of the IMU, in the frame that the least rotation makes of I when it turns up into z: yaw is free,
-  /// and a new filter starts with this one.
+  /// m/s, of the IMU, in the frame obtained from I by the smallest rotation that turns up into z: yaw is
+  /// free, and a new filter starts with this yaw.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_sigma = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();  ///< rad/s
@@ -31,22 +31,22 @@ struct FilterSnapshot {
 
 enum class SnapshotCheck {
   kAccepted,
-  kNotWanted,    ///< the filter has left its first frame and has its own estimate
-  kImplausible,  ///< not finite, or outside what a filter with these parameters could have estimated
+  kNotWanted,    ///< the filter is past its first frame and has its own estimate
+  kImplausible,  ///< not finite, or outside the range that a filter with these parameters can estimate
   kFuture,       ///< later than the filter's frame
   kStale,        ///< too old to constrain height, vertical and velocity
 };
 const char* toString(SnapshotCheck check);
 
-/// True while its height, vertical and velocity still constrain the frame at `time`.
-bool isRecent(const FilterSnapshot& known, CameraTime time);
+/// True while height, vertical and velocity of the snapshot still constrain the frame at `time`.
+bool isRecent(const FilterSnapshot& snapshot, CameraTime time);
 
 /// Whether a filter with these parameters, at its first frame `time`, may be warm-started from it.
-SnapshotCheck validate(const FilterSnapshot& known, CameraTime time, const InertialParameters& parameters);
+SnapshotCheck validate(const FilterSnapshot& snapshot, CameraTime time, const InertialParameters& parameters);
 
-/// The snapshot propagated to the frame at `time`; precondition: isRecent(). The drone may have accelerated
-/// and turned since, and the sigmas grow by that. They are doubled as well: after a fault the filter should
-/// not be overconfident.
-FilterSnapshot aged(FilterSnapshot known, CameraTime time);
+/// The snapshot propagated to the frame at `time`; precondition: isRecent(). The sigmas grow by the drone's
+/// possible acceleration and rotation since, and are doubled, so that the filter is not overconfident after a
+/// fault.
+FilterSnapshot aged(FilterSnapshot snapshot, CameraTime time);
 
 }  // namespace redbee

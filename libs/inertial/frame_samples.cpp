@@ -23,7 +23,7 @@ FrameSamples::FrameSamples(const InertialParameters& parameters)
 
 bool FrameSamples::add(const ImuSample& sample) {
   if (!isPlausibleTime(sample.time) || !sample.gyro.allFinite() || !sample.accel.allFinite()) return false;
-  for (const ImuSample& accepted : check_.take(sample)) imu_.add(accepted);
+  for (const ImuSample& accepted : check_.filter(sample)) imu_.add(accepted);
   return true;
 }
 

@@ -1,4 +1,4 @@
-// IMU samples by frame: the camera's clock on one side, the IMU's on the other.
+// IMU samples by frame; converts between the camera's and the IMU's clock.
 #pragma once
 
 #include <vector>
@@ -10,29 +10,29 @@
 
 namespace redbee {
 
-/// Buffers the plausible samples. Frames are named by their times on the camera's clock.
+/// Buffers the plausible samples. Frames are given by their times on the camera's clock.
 class FrameSamples {
  public:
   explicit FrameSamples(const InertialParameters& parameters);
 
-  /// False for a sample that is not finite or has an implausible time; it is refused.
+  /// Refuses a sample that is not finite or has an implausible time, and then returns false.
   bool add(const ImuSample& sample);
   ImuTime imuTime(CameraTime frame) const { return toImu(frame, timeshift_); }
 
-  /// True when the samples reach a frame's exposure.
+  /// True if the samples reach a frame's exposure.
   bool cover(CameraTime frame) const;
   /// s, from a frame to the nearest sample, which may be a later one after a jump of the IMU's clock.
   double outageAt(CameraTime frame) const;
   /// True if samples were refused in the interval of two frames.
   bool wereRefused(CameraTime from_frame, CameraTime to_frame) const;
-  /// Samples for the initial vertical at a frame, oldest first: those just before it, or else the first one
+  /// Samples for the initial vertical at a frame, oldest first: those just before it, otherwise the first one
   /// after it.
   std::vector<ImuSample> forVertical(CameraTime frame) const;
 
   bool empty() const { return imu_.empty(); }
   /// On [begin, end]; precondition: not empty.
   ImuSpan span(ImuTime begin, ImuTime end) const { return imu_.span(begin, end); }
-  /// True if the span has no sample, nor one right beside it.
+  /// True if the span has no sample in it or right next to it.
   static bool isMissing(const ImuSpan& span);
   /// True if a gap in the span is long enough to be reported.
   bool hasGap(const ImuSpan& span) const;

@@ -1,4 +1,4 @@
-// The ground's homography between the clone's frame and the present one, as a function of the filter's state.
+// The ground homography between the clone's frame and the current one, as a function of the filter's state.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// Motion of the camera from the clone to the present pose; p_IC is the camera centre in I [m].
+/// Motion of the camera from the clone to the current pose; p_IC is the camera centre in I [m].
 PlaneMotion cameraMotion(const NavigationState& state, const Eigen::Vector3d& p_IC);
 
 /// Derivatives of the parts of a motion by the error state; rotation and normal by left perturbations.
@@ -28,9 +28,9 @@ struct HomographyMeasurement {
   Vector8d predicted;
   MeasurementJacobian<8> jacobian;
   Matrix8d linear_covariance;  ///< J P J'
-  /// Of the product of the translation's and the normal's errors. It is small beside J P J' but for a drone
-  /// of unknown velocity: there t = 0, J does not depend on the normal, and without this term the filter
-  /// would be overconfident.
+  /// Second-order term: the product of the translation's and the normal's errors. It is negligible against J
+  /// P J' except at unknown velocity: with t = 0, J does not depend on the normal, and the filter would be
+  /// overconfident without this term.
   Matrix8d second_order_covariance;
 };
 /// `K_scaled`: T K, the camera matrix with the image scaling in front.
@@ -46,7 +46,7 @@ double cameraHeightSigma(const NavigationState& state, const Eigen::Vector3d& p_
 /// K with the image scaling in front: T K.
 Eigen::Matrix3d scaledMatrix(const Camera& camera);
 
-/// Fills all of a valid `result` but its times and its status.
+/// Fills a valid `result`, except for its times and status.
 void describe(const NavigationState& state, const Camera& camera, const Eigen::Vector3d& p_IC,
               InertialHomography& result);
 

@@ -1,4 +1,4 @@
-// What an IMU and an altimeter measure, and how well.
+// Measurements, noise and extrinsics of IMU and altimeter.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@ namespace redbee {
 /// One IMU measurement, in the IMU frame I, on the IMU's clock.
 struct ImuSample {
   ImuTime time{};
-  Eigen::Vector3d gyro;   ///< rad/s, angular rate of I against the ground, in I
+  Eigen::Vector3d gyro;   ///< rad/s, angular rate of I relative to the ground, in I
   Eigen::Vector3d accel;  ///< m/s^2, specific force in I (+9.81 upwards at rest)
 };
 

@@ -1,4 +1,4 @@
-// IMU samples in the order of their own times, whatever order they arrived in.
+// Buffer of IMU samples, sorted by their times.
 #pragma once
 
 #include <deque>
@@ -13,10 +13,10 @@ namespace redbee {
 /// One end of an integration step.
 struct ImuKnot {
   ImuSample sample;  ///< measured, or interpolated between its neighbours
-  double gap_s = 0;  ///< time between the two measurements that enclose the step which ends here
+  double gap_s = 0;  ///< time between the two measurements around the step that ends here
 };
 
-/// The samples on [begin, end], the ends interpolated (held, where nothing lies beyond them).
+/// The samples on [begin, end], interpolated at the ends (held constant if there is no sample beyond).
 struct ImuSpan {
   std::vector<ImuKnot> knots;  ///< the first at begin, the last at end
   int measured = 0;            ///< samples on (begin, end]
@@ -25,7 +25,7 @@ struct ImuSpan {
 };
 
 /// Bounded: the oldest samples are dropped. A sample far from all others in time is held back until the next
-/// one confirms it: then the clock has jumped, and the samples before the jump are erased.
+/// one confirms that the clock has jumped; then the samples before the jump are erased.
 class ImuBuffer {
  public:
   explicit ImuBuffer(double clock_jump_s) : clock_jump_us_(clock_jump_s * 1e6) {}

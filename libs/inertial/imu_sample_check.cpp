@@ -7,7 +7,7 @@ namespace redbee {
 namespace {
 
 constexpr double kFarInUsual = 10;      // a spike differs by so many usual differences
-constexpr double kMemorySamples = 100;  // of the usual difference
+constexpr double kMemorySamples = 100;  // memory of the usual difference
 constexpr double kMostInLimits = 4;     // bound on one difference: a spike must not mask the next
 constexpr double kNeighbour_s = 0.05;   // samples further apart are not compared
 constexpr double kLate_s = 1.0;         // a sample that is older than that by more: time was set back
@@ -46,7 +46,7 @@ double ImuSampleCheck::distance(const ImuSample& a, const ImuSample& b) const {
   return std::max((a.gyro - b.gyro).norm() / gyro_.limit(), (a.accel - b.accel).norm() / accel_.limit());
 }
 
-std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
+std::vector<ImuSample> ImuSampleCheck::filter(const ImuSample& sample) {
   std::vector<ImuSample> accepted;
   const double since = previous_ ? seconds(sample.time - previous_->time) : kNeighbour_s + 1;
   if (isSaturated(sample)) {
@@ -83,7 +83,7 @@ std::vector<ImuSample> ImuSampleCheck::take(const ImuSample& sample) {
   return accepted;
 }
 
-/// After a gap, or a clock set back: there is nothing to compare it with.
+/// After a gap, or when the clock was set back: there is no previous sample to compare with.
 void ImuSampleCheck::startAt(const ImuSample& sample) {
   if (held_) refuse(held_->time);
   held_.reset();

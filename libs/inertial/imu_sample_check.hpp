@@ -1,4 +1,4 @@
-// Refuses implausible IMU samples: sensors fail while they go on sending.
+// Refuses implausible IMU samples of a faulty sensor.
 #pragma once
 
 #include <deque>
@@ -17,7 +17,7 @@ struct ImuSampleLimits {
 
 /// Classifies samples in the order of arrival:
 ///   saturated: a component reaches its sensor's range;
-///   stuck: all three components of a sensor stay the same to the bit for kStuckFor_s, which no noise does;
+///   stuck: all three components of a sensor are exactly constant for kStuckFor_s, which noise rules out;
 ///   spike: far from the previous sample, and the next one is back. A sample that is far is held back until
 ///   the next one decides: the start of a manoeuvre is followed by more of it and accepted. "Far" scales with
 ///   the usual difference of neighbouring samples, so that a vibrating airframe is not taken for spikes.
@@ -29,7 +29,7 @@ class ImuSampleCheck {
   explicit ImuSampleCheck(const ImuSampleLimits& limits) : limits_(limits) {}
 
   /// Samples accepted now, in order: none, this one, or one that was held back and this one.
-  std::vector<ImuSample> take(const ImuSample& sample);
+  std::vector<ImuSample> filter(const ImuSample& sample);
   /// Samples on (begin, end] that were refused.
   int refusedOn(ImuTime begin, ImuTime end) const;
   void eraseBefore(ImuTime time);
@@ -37,7 +37,7 @@ class ImuSampleCheck {
  private:
   /// One sensor's three components.
   struct Channel {
-    double floor;      ///< a difference below it is never a spike
+    double floor;      ///< smaller differences are never spikes
     double usual = 0;  ///< running mean of differences between neighbours
     ImuTime same_since{};
     int same_count = 0;
@@ -48,7 +48,7 @@ class ImuSampleCheck {
 
   bool isSaturated(const ImuSample& sample) const;
   bool isStuck(const ImuSample& sample);
-  /// In limits: above 1 it is far.
+  /// Difference in units of the limit; above 1 is far.
   double distance(const ImuSample& a, const ImuSample& b) const;
   void acceptOrHold(const ImuSample& sample, std::vector<ImuSample>& accepted);
   void startAt(const ImuSample& sample);

@@ -66,7 +66,7 @@ class InertialFilter::Implementation {
     const CorrectionReport report = vision_.correct(*state_, observation, camera_, p_IC());
     corrected_ = report.applied;
     keepAboveGround();
-    if (!isSound(*state_)) {
+    if (!isValid(*state_)) {
       state_ = before;
       return {};
     }
@@ -126,7 +126,7 @@ class InertialFilter::Implementation {
       return result;
     }
     integrate(frame);
-    return isSound(*state_) ? result : startAfresh(frame);
+    return isValid(*state_) ? result : startAfresh(frame);
   }
 
   InertialHomography move(CameraTime frame, const ImuSpan& span) {
@@ -135,7 +135,7 @@ class InertialFilter::Implementation {
         nothing(*frame_, frame, statusOf(frame, gap ? InertialStatus::kImuGap : InertialStatus::kGood));
     correctByGravity(*state_, span, parameters_, vision_.secondsSinceApplied(*frame_));
     integrate(frame);
-    if (!isSound(*state_)) return startAfresh(frame);
+    if (!isValid(*state_)) return startAfresh(frame);
     describe(*state_, camera_, p_IC(), result);
     if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
     result.valid = true;

@@ -1,13 +1,12 @@
-// From IMU samples to the ground plane's homography between frames (libs/README.md, "Inertial homography").
+// Estimates the ground homography between frames from IMU samples (libs/README.md, "Inertial homography").
 //
 // An error-state Kalman filter over attitude, velocity, height, gyro and accelerometer bias. It dead-reckons
 // on the IMU and is corrected by gravity (slowly, gated), by an altimeter where there is one, and by the
 // visual part of the previous fused homography, which measures t / h. The pose at the previous frame is part
-// of the state (a stochastic clone), so that the covariance of the frame-to-frame homography is propagated
-// and not guessed.
+// of the state (a stochastic clone), so that the covariance of the frame-to-frame homography is propagated.
 //
 // The filter stays at the last frame until it is advanced to the next one, so that a correction for the last
-// frame is applied to the state it belongs to. It uses no clock but the times inside its samples.
+// frame is applied to the right state. It uses only the times inside its samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,7 +34,7 @@ struct InertialParameters {
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  ///< m/s^2
   double gyro_bias_sigma = 0.01;                         ///< rad/s: turn-on bias of the gyro
   double accel_bias_sigma = 0.15;                        ///< m/s^2: turn-on bias of the accelerometer
-  double extrinsic_rotation_sigma_deg = 0.1;             ///< deg: uncertainty of the calibrated R_CI
+  double extrinsic_rotation_sigma_deg = 0.1;             ///< deg: standard deviation of the calibrated R_CI
   double gravity_gate = 0.5;  ///< m/s^2: | |accel| - g | above which gravity does not correct the attitude
   double gravity_sigma =
       1.0;  ///< m/s^2: the drone's own acceleration, which specific force contains beside gravity
@@ -53,7 +52,7 @@ struct InertialParameters {
 };
 
 /// A homography of the ground between two consecutive frames, measured independently of the IMU: vision's
-/// input to the fusion. (Feeding back the fused value would count the IMU twice.)
+/// input to the fusion. (Feeding back the fused homography would use the IMU twice.)
 struct HomographyObservation {
   CameraTime time_previous{};
   CameraTime time{};
@@ -64,7 +63,7 @@ struct HomographyObservation {
 /// A correction's innovation, for monitoring.
 struct CorrectionReport {
   bool applied = false;
-  double test_ratio = 0;  ///< squared Mahalanobis distance over the gate: above 1 the correction was refused
+  double test_ratio = 0;  ///< squared Mahalanobis distance over the gate; above 1 the correction is rejected
 };
 
 /// The filter's nominal state, for tests and monitoring.
@@ -85,27 +84,27 @@ class InertialFilter {
   InertialFilter(InertialFilter&&) noexcept;
   InertialFilter& operator=(InertialFilter&&) noexcept;
 
-  /// Samples may arrive late (sorted in by their own time) or twice (ignored). Non-finite ones are refused:
-  /// false. Implausible ones (ImuSampleCheck) are left out, and the status of their frame reports it.
+  /// Samples may arrive late (they are sorted by time) or twice (ignored). Returns false for non-finite ones,
+  /// which are refused. Implausible ones (ImuSampleCheck) are not used, and the status of their frame reports
+  /// it.
   bool addImu(const ImuSample& sample);
   bool addAltitude(const AltitudeSample& sample);
 
-  /// True when the samples reach the exposure time of this frame.
+  /// True if the samples reach the exposure of this frame.
   bool covers(CameraTime frame) const;
 
-  /// Advances the filter to this frame and returns the motion since the last one. Never throws on bad times:
-  /// see the status.
+  /// Advances the filter to this frame and returns the motion since the last one. Invalid times are reported
+  /// in the status.
   InertialHomography advanceTo(CameraTime frame);
 
-  /// Corrects the state at the last frame. Refused (not applied) when it is not for the last two frames or
-  /// fails its gate.
+  /// Corrects the state at the last frame. Rejected if it is not for the last two frames or fails its gate.
   CorrectionReport correct(const HomographyObservation& observation);
 
   std::optional<NominalState> state() const;
 
-  /// State estimate at the last frame with a valid motion; nothing before the first.
+  /// Snapshot at the last frame with a valid motion; std::nullopt before the first.
   const std::optional<FilterSnapshot>& snapshot() const;
-  /// True while the filter has seen no frame after its first.
+  /// True until the filter has been advanced past its first frame.
   bool isAtFirstFrame() const;
   /// At the first frame: initialises the state from another filter's snapshot. A refused snapshot changes
   /// nothing.

@@ -10,21 +10,20 @@ namespace redbee {
 
 enum class InertialStatus {
   kGood,          ///< the whole interval is covered by IMU samples
-  kInitialising,  ///< first frame, or the first after a gap: there is no homography yet
-  kImuGap,        ///< samples are missing inside the interval: bridged, with a larger covariance
-  kNoImu,         ///< no samples at all in the interval: there is no homography
+  kInitialising,  ///< first frame, or first after a gap: no homography yet
+  kImuGap,        ///< samples are missing in the interval: bridged, with a larger covariance
+  kNoImu,         ///< no samples in the interval: no homography
   kClockJump,     ///< time ran backwards or jumped: restarted, no homography
-  kBadSamples,  ///< samples in the interval were refused (ImuSampleCheck); a valid homography is without them
+  kBadSamples,    ///< samples in the interval were refused (ImuSampleCheck) and not used
 };
 const char* toString(InertialStatus status);
 
-/// Motion of the camera from frame a (the previous) to frame b, and the homography of the ground that
-/// follows.
+/// Motion of the camera from the previous frame a to frame b, and the resulting ground homography.
 struct InertialHomography {
   CameraTime time_previous{};
   CameraTime time{};
   InertialStatus status = InertialStatus::kInitialising;
-  bool valid = false;                               ///< H, covariance and motion are meaningful
+  bool valid = false;                               ///< H, covariance and motion are valid
   Eigen::Matrix3d H = Eigen::Matrix3d::Identity();  ///< ideal pixels of a to ideal pixels of b, h33 = 1
   Matrix8d covariance = Matrix8d::Zero();  ///< of the scaled homography's eight entries (homography.hpp)
   /// R_ba, t_ba, m_a, h_a in camera frames [m].

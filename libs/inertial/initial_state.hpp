@@ -1,4 +1,4 @@
-// The filter's initial state: upright by the accelerometer, yaw free.
+// The filter's initial state: roll and pitch from the accelerometer, yaw free.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace redbee {
 
-/// The state at the frame at `time`. `before`: the samples just before it, oldest first; not
-/// empty. Their specific force is rotated into the last one's orientation by the gyro and averaged. The
-/// covariance treats the drone's own acceleration (gravity_sigma) as constant over them, and includes the
-/// correlation of tilt and accelerometer bias. `known`: an earlier snapshot. Biases and mounting are taken
-/// from it, for the sensors are the same. While it is recent, height, vertical and velocity are as well, and
-/// specific force only corrects the vertical; later they are the configured ones.
+/// The state at the frame at `time`. `before`: the samples just before it, oldest first; not empty. Their
+/// specific force is rotated into the last one's orientation by the gyro and averaged. The covariance treats
+/// the drone's own acceleration (gravity_sigma) as constant over them, and includes the correlation of tilt
+/// and accelerometer bias. `known`: an earlier snapshot, from which biases and mounting are taken; if it is
+/// recent, height, vertical and velocity as well, and specific force only corrects the vertical. Otherwise
+/// the configured values are used.
 NavigationState initialState(CameraTime time, const std::vector<ImuSample>& before,
                              const InertialParameters& parameters,
                              const std::optional<FilterSnapshot>& known);

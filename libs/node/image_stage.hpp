@@ -32,7 +32,7 @@ class ImageStage : public Stage {
       : Stage(bus, process, configuration_hash),
         max_backlog_(static_cast<size_t>(std::max(1, max_backlog))),
         companions_(std::move(companions)) {
-    on<image_t>(camera_channel, [this](const image_t& image) { take(image); });
+    on<image_t>(camera_channel, [this](const image_t& image) { onImage(image); });
   }
 
   virtual void work(const image_t& image) = 0;
@@ -42,7 +42,7 @@ class ImageStage : public Stage {
   const MessageSynchronizer<Companion>& companions() const { return companions_; }
 
  private:
-  void take(const image_t& image) {
+  void onImage(const image_t& image) {
     if (!acceptFrame(timeOf(image))) return;
     newest_ = std::max(newest_, timeOf(image));
     images_.push_back({image, {}});

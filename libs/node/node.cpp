@@ -11,7 +11,7 @@
 namespace redbee {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{50};
+constexpr std::chrono::milliseconds kPollTimeout{50};
 constexpr std::chrono::seconds kHealthPeriod{1};
 
 // A signal handler can only access static objects.
@@ -58,7 +58,7 @@ void runNode(Bus& bus, Node& node, const std::string& health_channel, const std:
   InputSilenceTimer silence;
   int64_t failures = 0;
   while (!stop) {
-    bus.handle(kPatience);
+    bus.handle(kPollTimeout);
     node.health().noteDamaged(bus.handlerFailures() - failures);
     failures = bus.handlerFailures();
     guarded(node, &Node::process);

@@ -11,7 +11,7 @@
 
 namespace redbee {
 
-/// Appears under its name on close().
+/// The file appears under its name on close().
 class DetectionsCsv {
  public:
   explicit DetectionsCsv(const std::filesystem::path& file);

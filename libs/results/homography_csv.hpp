@@ -1,6 +1,6 @@
 // homography.csv: utime [us], epoch, nine entries of the ground's homography, nine of the front plane's,
-// source. Homographies are row-major, from ideal pixels of frame k-1 to those of frame k, h33 = 1; the fields
-// of one that does not exist are empty. One header line.
+// source. Homographies are row-major, from ideal pixels of frame k-1 to those of frame k, h33 = 1; fields of
+// a missing one are empty. One header line.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ struct FrameHomographies {
   std::string source;  ///< "none", "inertial", "visual" or "fused"
 };
 
-/// Appears under its name on close(). Entries read back to the last bit.
+/// The file appears under its name on close(). Entries read back exactly.
 class HomographyCsv {
  public:
   explicit HomographyCsv(const std::filesystem::path& file);

@@ -9,7 +9,7 @@ namespace redbee {
 namespace {
 
 const cv::Scalar kMaskColour(60, 60, 255);
-const cv::Scalar kCarriedColour(170, 170, 170);
+const cv::Scalar kMissedColour(170, 170, 170);
 
 /// Consecutive identities get clearly different colours.
 cv::Scalar identityColour(int id) {
@@ -35,7 +35,7 @@ cv::Vec3b tinted(const cv::Vec3b& pixel) {
 
 void drawMask(cv::Mat3b& canvas, const cv::Mat1b& mask) {
   if (mask.empty() || mask.size() != canvas.size()) return;
-  // OpenCV would tint the whole image first, of which a mask covers little.
+  // Faster than OpenCV's addWeighted() on the whole image, as a mask covers little of it.
   for (int y = 0; y < canvas.rows; ++y) {
     const uint8_t* marked = mask[y];
     cv::Vec3b* pixels = canvas[y];
@@ -49,7 +49,7 @@ void drawMask(cv::Mat3b& canvas, const cv::Mat1b& mask) {
 }
 
 void drawDetection(cv::Mat& canvas, const Detection& detection) {
-  const cv::Scalar colour = detection.seen ? identityColour(detection.id) : kCarriedColour;
+  const cv::Scalar colour = detection.seen ? identityColour(detection.id) : kMissedColour;
   cv::rectangle(canvas, detection.box, colour, detection.seen ? 2 : 1);
   const bool room_above = detection.box.y > 30;
   const cv::Point at(std::max(0, detection.box.x),

@@ -1,4 +1,4 @@
-// An image with the detections drawn on it.
+// Draws the detections on an image.
 #pragma once
 
 #include <cstdint>

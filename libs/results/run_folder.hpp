@@ -1,5 +1,4 @@
-// The folder with the results of a run over a flight: who writes and who reads them has the names and formats
-// from here.
+// The folder with the results of a run over a flight: names and formats for writers and readers.
 //
 //   probability/<utime in us>.png   8-bit, P_FG scaled to 0..255
 //   mask/<utime in us>.png          0 or 255
@@ -22,25 +21,24 @@
 
 namespace redbee {
 
-/// The images that a run leaves for each frame.
+/// The images that a run writes for each frame.
 enum class RunMap { kProbability, kMask };
 
-/// Throws InputError, which names the file, on whatever cannot be read or written.
+/// Throws InputError with the file's name if something cannot be read or written.
 class RunFolder {
  public:
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Makes the folders for a new run; maps of an earlier run are removed, for it may have been of another
-  /// flight.
+  /// Creates the folders for a new run and removes the maps of an earlier one.
   void prepare() const;
 
-  /// Of the frames that have such a map, us, sorted.
+  /// Times of the frames that have this map, us, sorted.
   std::vector<int64_t> times(RunMap map) const;
   bool has(RunMap map, int64_t utime) const;
   cv::Mat1b read(RunMap map, int64_t utime) const;
-  /// Where the frame has no such map: zeros of `size`. Throws where the map has another size.
+  /// Zeros of `size` if the frame has no such map. Throws if the map has another size.
   cv::Mat1b readOrZeros(RunMap map, int64_t utime, cv::Size size) const;
   /// `png`: the encoded image.
   void write(RunMap map, int64_t utime, std::string_view png) const;

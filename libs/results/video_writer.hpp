@@ -1,4 +1,4 @@
-// H.264 in MP4, as browsers play it.
+// Writes H.264 video in MP4, as browsers play it.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace redbee {
 
-/// Writes "<path>.partial" and renames it on close(); destroyed without close() it leaves nothing. Encodes
-/// with libx264 where ffmpeg has it, else with any other H.264 encoder that opens, else MPEG-4. Throws
+/// Writes "<path>.partial" and renames it on close(); the partial file is removed if close() is not called.
+/// Encodes with libx264 if ffmpeg has it, otherwise with another H.264 encoder, otherwise MPEG-4. Throws
 /// InputError if the file cannot be written.
 class VideoWriter {
  public:
@@ -16,7 +16,7 @@ class VideoWriter {
   VideoWriter(const std::filesystem::path& path, const cv::Size& size, double fps, int quality = 23);
   ~VideoWriter();
 
-  /// BGR or grey, of the size given; the frame is shown at index / fps.
+  /// BGR or grey, of the given size; the n-th frame is shown at n / fps.
   void write(const cv::Mat& image);
   void close();
 

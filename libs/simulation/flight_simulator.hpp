@@ -34,7 +34,7 @@ struct Scenario {
   double fps = 24;
   int frames = 240;
   Duration start{
-      1700000000000000};  ///< what both clocks show at the start of the trajectory, but for the time shift
+      1700000000000000};  ///< time of both clocks at the start of the trajectory, except for the time shift
 };
 
 struct SimulatedFrame {
@@ -44,7 +44,7 @@ struct SimulatedFrame {
 
 class FlightSimulator {
  public:
-  /// Throws std::invalid_argument for a scenario that cannot be flown (no frames, no image size, fps <= 0).
+  /// Throws std::invalid_argument for an invalid scenario (no frames, no image size, fps <= 0).
   explicit FlightSimulator(const Scenario& scenario);
 
   const Scenario& scenario() const { return scenario_; }
@@ -58,8 +58,8 @@ class FlightSimulator {
 
   /// Exact homography of the ground, ideal pixels of frame k-1 to those of frame k. Identity for k = 0.
   Eigen::Matrix3d homography(int k) const;
-  /// The same for the plane of a patch (index in scene.patches) that does not move: throws
-  /// std::invalid_argument for one that does.
+  /// The same for the plane of a static patch (index in scene.patches). Throws std::invalid_argument for a
+  /// moving patch.
   Eigen::Matrix3d frontHomography(int k, size_t patch) const;
 
   /// From half a second before the first exposure to half a second after the last one.

@@ -1,4 +1,4 @@
-// What an imperfect IMU and altimeter on a trajectory would have measured.
+// Simulated measurements of an imperfect IMU and altimeter on a trajectory.
 #pragma once
 
 #include <random>

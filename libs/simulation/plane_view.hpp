@@ -16,7 +16,7 @@ struct PlaneView {
   Eigen::Vector3f U, V, Q;
 };
 
-/// All zero, which no ray meets, for a plane that holds the camera's centre.
+/// All zero, which no ray intersects, for a plane through the camera's centre.
 PlaneView viewOf(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis_u, const Eigen::Vector3d& axis_v,
                  const CameraPose& pose);
 
@@ -26,8 +26,7 @@ bool insideShape(PatchShape shape, float x, float y);
 /// In G [m].
 Eigen::Vector3d centreAt(const Patch& patch, double t_s);
 
-/// Pixel range that a patch can cover: the box of its corners, or the whole image where a corner lies
-/// behind the camera.
+/// Bounding box of a patch in the image; the whole image if a corner lies behind the camera.
 cv::Rect boxOf(const Patch& patch, const CameraPose& pose, double t_s, const Camera& camera);
 
 }  // namespace redbee::simulation

@@ -1,4 +1,4 @@
-// Images of a scene, one ray through each raw pixel's centre.
+// Renders images of a scene, with one ray through each raw pixel's centre.
 #pragma once
 
 #include <memory>
@@ -34,14 +34,13 @@ struct RenderedImage {
 
 class Renderer {
  public:
-  /// Throws std::invalid_argument for more than 254 patches, and for a camera with pixels that have no ray
-  /// ahead.
+  /// Throws std::invalid_argument for more than 254 patches, and if a pixel's ray does not point forward.
   Renderer(const Camera& camera, const Scene& scene, const SensorParameters& sensor);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// The scene at t_s. The same arguments give the same image; `index` seeds the image's noise.
+  /// Renders the scene at t_s. The same arguments give the same image; `index` seeds the noise.
   RenderedImage render(const CameraPose& pose, double t_s, unsigned index) const;
 
  private:

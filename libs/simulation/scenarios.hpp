@@ -22,7 +22,7 @@ Scenario wavingWater(unsigned seed);
 inline constexpr size_t kPondPatch = 0;
 /// Grass under a camera pitched 60 degrees down that turns strongly about all axes.
 Scenario calibrationFlight(unsigned seed);
-/// Grass and five people on foot; the first stops from 3 s to 5 s and goes on.
+/// Grass and five pedestrians; the first one pauses from 3 s to 5 s.
 Scenario walkers(unsigned seed);
 
 }  // namespace redbee::simulation

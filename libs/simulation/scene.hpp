@@ -10,7 +10,7 @@
 
 namespace redbee::simulation {
 
-/// Straight motion at constant velocity that may pause once.
+/// Linear motion at constant velocity, with an optional pause.
 struct Motion {
   struct Pause {
     double begin_s, end_s;
@@ -23,10 +23,10 @@ struct Motion {
   bool isMovingAt(double t_s) const;
 };
 
-/// A surface whose texture sways incoherently: travelling waves of many directions shift it by some
+/// A surface whose texture moves incoherently: travelling waves of many directions shift it by some
 /// centimetres.
 struct Waving {
-  double amplitude_m = 0.06;  ///< of each of the waves' shifts
+  double amplitude_m = 0.06;  ///< of each wave's shift
   double wavelength_m = 0.7;  ///< mean
   double frequency_hz = 0.9;  ///< mean
   unsigned seed = 1;

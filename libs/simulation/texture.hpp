@@ -20,7 +20,7 @@ struct Material {
   double texel_m = 0.015;        ///< m; the map repeats after 1024 texels
   double mean = 110;             ///< grey level
   double contrast = 26;          ///< standard deviation, grey levels
-  Eigen::Vector3d bgr{1, 1, 1};  ///< colour of the surface; only its hue counts, the grey level stays
+  Eigen::Vector3d bgr{1, 1, 1};  ///< colour of the surface; scaled so that the grey level is unchanged
 };
 
 /// A pixel's footprint on the surface: one pixel along x and along y moves the point by these [m].
@@ -34,8 +34,7 @@ class Texture {
   explicit Texture(const Material& material);
 
   /// Grey level at (u, v) [m], averaged over the pixel's footprint: trilinear in the mip chain, with several
-  /// taps along the longer side of the footprint, so that ground seen at a low angle keeps its detail without
-  /// aliasing.
+  /// taps along the longer side of the footprint (anisotropic filtering).
   float sample(float u_m, float v_m, const Footprint& footprint) const;
 
  private:

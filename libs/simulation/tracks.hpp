@@ -1,4 +1,4 @@
-// Correspondences without images: tracks over two planes, with the true plane of each.
+// Simulated correspondences over two planes, with the true plane of each.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +21,8 @@ struct SimulatedTracks {
 };
 
 /// Points on a grid, moved by H_ground, or by H_other in the rightmost columns that make up `other_fraction`
-/// of the points. A fraction `outlier_ratio` of all points, drawn at random, moves by neither: at least 5 px
-/// and up to 30 px off its plane's place. Every point but the outliers has white noise of `noise_px` per
-/// axis. The same seed gives the same tracks.
+/// of the points. A fraction `outlier_ratio` of all points, drawn at random, is displaced by 5 to 30 px. All
+/// points except the outliers have white noise of `noise_px` per axis. The same seed gives the same tracks.
 SimulatedTracks simulateTracks(const Eigen::Matrix3d& H_ground, const Eigen::Matrix3d& H_other,
                                double other_fraction, double noise_px, double outlier_ratio,
                                const TrackGrid& grid, unsigned seed);

@@ -1,5 +1,5 @@
-// An analytic flight: position and attitude as sums of sinusoids, so that velocity, acceleration and angular
-// rate are exact.
+// An analytic trajectory: position and attitude as sums of sinusoids, with exact velocity, acceleration and
+// angular rate.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ struct TrajectoryState {
   Eigen::Vector3d v_GI;  ///< m/s
   Eigen::Vector3d a_GI;  ///< m/s^2
   Eigen::Matrix3d R_GI;
-  Eigen::Vector3d omega_I;  ///< rad/s, of I against G, in I
+  Eigen::Vector3d omega_I;  ///< rad/s, of I relative to G, in I
 };
 
 class Trajectory {
@@ -42,10 +42,9 @@ class Trajectory {
   TrajectoryState at(double t_s) const;
 
   /// Ordinary flight along +x of G: one to three metres a second, turns within 10 degrees about all axes. The
-  /// mean tilt of the camera comes from its mounting (R_CI), not from here. The same seed gives the same
-  /// flight.
+  /// mean tilt of the camera is in its mounting (R_CI). The same seed gives the same flight.
   static Trajectory ordinary(unsigned seed, double height_m);
-  /// Strong rotation about all axes (25 degrees, 0.3 to 1 Hz) over flat ground, as a calibration needs.
+  /// Strong rotation about all axes (25 degrees, 0.3 to 1 Hz) over flat ground, for calibration.
   static Trajectory calibration(unsigned seed, double height_m);
 
  private:

@@ -1,4 +1,4 @@
-// The shift of a waving surface's texture: a sum of travelling waves, each of its own direction, length and
+// Displacement of a waving surface's texture: a sum of travelling waves of different direction, length and
 // speed.
 #pragma once
 

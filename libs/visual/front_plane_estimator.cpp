@@ -20,8 +20,8 @@ std::optional<HomographyEstimate> FrontPlaneEstimator::estimate(const PointTrack
                                                                 const Eigen::Matrix3d& ground) const {
   const ImageScaling scaling(width_, height_);
   std::vector<uint8_t> unexplained;
-  flagWithin(ScaledPairs(tracks, scaling), scaling.scale(ground), parameters_.ground_px / scaling.unit_px,
-             unexplained);
+  flagInliers(ScaledPairs(tracks, scaling), scaling.scale(ground), parameters_.ground_px / scaling.unit_px,
+              unexplained);
   for (uint8_t& flag : unexplained) flag = flag ? 0 : 1;
   auto front = estimateHomographyAmong(tracks, unexplained, width_, height_, parameters_.ransac);
   if (!front) return std::nullopt;

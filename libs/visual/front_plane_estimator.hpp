@@ -1,4 +1,4 @@
-// The front plane (libs/README.md): a second plane before the ground, such as a wall.
+// Estimates the front plane (libs/README.md): a plane in front of the ground, such as a wall.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +14,9 @@ struct FrontPlaneParameters {
   double ground_px = 1.5;  ///< px: a point within this of the ground homography belongs to the ground
   RansacParameters ransac;
   double min_separation_px =
-      0.5;  ///< px: a front plane whose motion differs less from the ground's, where its points are, is none
-  FrontPlaneParameters();  ///< stricter minima of inlier ratio and spread than the ground's: the rest is
-                           ///< mostly outliers
+      0.5;  ///< px: minimum mean distance between the front plane's and the ground's motion at its points
+  FrontPlaneParameters();  ///< higher minima of inlier ratio and spread than for the ground, as most
+                           ///< remaining points are outliers
 };
 
 class FrontPlaneEstimator {
@@ -26,7 +26,7 @@ class FrontPlaneEstimator {
       : width_(width), height_(height), parameters_(parameters) {}
 
   /// By RANSAC over the tracks that the ground's homography (previous to current, ideal pixels) does not
-  /// explain. std::nullopt if they show no plane that moves unlike the ground.
+  /// explain. std::nullopt if there is no such plane.
   std::optional<HomographyEstimate> estimate(const PointTracks& tracks, const Eigen::Matrix3d& ground) const;
 
  private:

@@ -1,4 +1,5 @@
-// A plane's homography from point correspondences with outliers: RANSAC, then a fit refined on the inliers.
+// Estimates a plane's homography from point correspondences with outliers: RANSAC, then refinement on the
+// inliers.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +23,8 @@ struct HomographyEstimate {
   double rms_px = 0;  ///< of the inliers' transfer errors
 };
 
-/// The plane with most inliers; std::nullopt if no plane passes the minima. Least squares on the inliers by
-/// Gauss-Newton.
+/// The plane with most inliers; std::nullopt if no plane reaches the minima of the parameters. Least squares
+/// on the inliers by Gauss-Newton.
 std::optional<HomographyEstimate> estimateHomography(const PointTracks& tracks, int width, int height,
                                                      const RansacParameters& parameters);
 
@@ -32,8 +33,8 @@ std::optional<HomographyEstimate> estimateHomographyAmong(const PointTracks& tra
                                                           const std::vector<uint8_t>& chosen, int width,
                                                           int height, const RansacParameters& parameters);
 
-/// The plane nearest to a predicted one: candidates are the points that agree with `prediction` within its
-/// own uncertainty (scaled covariance) plus inlier_px; RANSAC selects the plane among them (libs/README.md,
+/// The plane closest to a predicted one: candidates are the points that agree with `prediction` within its
+/// uncertainty (scaled covariance) plus inlier_px; RANSAC selects the plane among them (libs/README.md,
 /// "Visual homography"). Inlier flags refer to all tracks.
 std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& tracks, int width, int height,
                                                          const Eigen::Matrix3d& prediction,

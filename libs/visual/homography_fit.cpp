@@ -12,7 +12,7 @@ namespace redbee {
 namespace {
 
 /// A step shorter than this moves no point of the image by a thousandth of a pixel (scaled units, 640 px).
-constexpr double kSettled = 1e-6;
+constexpr double kConverged = 1e-6;
 
 /// Factor of (J' W J)^-1 for the estimate's covariance (Huber, Robust Statistics, 7.6): E[psi^2] / E[psi']^2
 /// belongs to (J'J)^-1, and W brings in its mean.
@@ -94,7 +94,7 @@ std::optional<LeastSquares> fitHomography(const ScaledPairs& pairs, const std::v
     } else {
       damping = std::max(1e-4, damping * 10);
     }
-    if (step.norm() < kSettled) break;
+    if (step.norm() < kConverged) break;
   }
   const Eigen::LDLT<Matrix8d> factors(equations.information);
   if (factors.info() != Eigen::Success || !factors.isPositive() || factors.rcond() < 1e-12)

@@ -14,8 +14,8 @@
 namespace redbee {
 
 /// The homography through four pairs (Hartley and Zisserman, 2nd ed., 4.1.1, by way of the projective basis);
-/// std::nullopt if three points are nearly in a line or the pairs turn the quadrilateral over, which no plane
-/// seen from one side does.
+/// std::nullopt if three points are nearly collinear or the pairs flip the quadrilateral's orientation, which
+/// is impossible for a plane seen from one side.
 std::optional<Eigen::Matrix3d> homographyThroughFour(const ScaledPairs& pairs,
                                                      const std::array<std::size_t, 4>& sample);
 
@@ -23,7 +23,7 @@ struct LeastSquares {
   Eigen::Matrix3d H;
   Matrix8d inverse_information;  ///< (J' W J)^-1
   double variance =
-      0;  ///< per coordinate: times inverse_information it is the covariance for independent errors
+      0;  ///< per coordinate; variance * inverse_information is the covariance for independent errors
 };
 
 /// Prior on the homography, weighted against the pairs' squared residuals.

@@ -1,5 +1,5 @@
 // Eight 16-bit integers at once for the patch alignment: SSE2 where the processor has it, plain loops
-// elsewhere. Both do the same integer arithmetic, so their results are equal to the bit.
+// elsewhere. Both do the same integer arithmetic, so their results are identical.
 #pragma once
 
 #include <array>

@@ -31,8 +31,8 @@ class PackedPairs {
 
  private:
   int size_ = 0;
-  ScaledPairs pairs_;          ///< filled up to a multiple of four with pairs that do not count
-  std::vector<float> counts_;  ///< 1 for a pair that counts, else 0
+  ScaledPairs pairs_;          ///< padded to a multiple of four with pairs of weight 0
+  std::vector<float> counts_;  ///< weight: 1, or 0 for padding
 };
 
 }  // namespace redbee

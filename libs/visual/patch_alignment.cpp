@@ -55,7 +55,7 @@ struct PatchTemplate<Lanes>::Moments {
 };
 
 template <typename Lanes>
-void PatchTemplate<Lanes>::take(const PyramidLevel& level, int x, int y) {
+void PatchTemplate<Lanes>::extract(const PyramidLevel& level, int x, int y) {
   solve(cut(level, x, y));
   if (smallest_eigenvalue_ > 0) projectGradients();
 }
@@ -187,10 +187,10 @@ Alignment PatchTemplate<Lanes>::align(const PyramidLevel& level, Eigen::Vector2d
     const Eigen::Vector2d step(inverse_xx_ * bx + inverse_xy_ * by, inverse_xy_ * bx + inverse_yy_ * by);
     centre -= step;
     if (step.squaredNorm() < limits.epsilon_px * limits.epsilon_px) {
-      return isNear(level, centre) ? Alignment::kSettled : Alignment::kLost;
+      return isNear(level, centre) ? Alignment::kConverged : Alignment::kLost;
     }
   }
-  return isNear(level, centre) ? Alignment::kUnsettled : Alignment::kLost;
+  return isNear(level, centre) ? Alignment::kNotConverged : Alignment::kLost;
 }
 
 template <typename Lanes>

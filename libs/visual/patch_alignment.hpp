@@ -1,7 +1,7 @@
-// Alignment of one patch of an image in another: the inner loop of the point tracker.
+// Alignment of a patch of one image with another image: the inner loop of the point tracker.
 //
 // Inverse-compositional Lucas-Kanade (Baker and Matthews, 2004) for a translation: the gradient and its
-// matrix belong to the template and are computed once; an iteration samples the other image and makes two
+// matrix belong to the template and are computed once; an iteration samples the other image and computes two
 // scalar products. The gradients are made orthogonal to the constant and to the template itself ("project
 // out", part 3 of the same), which makes the step invariant to brightness and contrast at no cost.
 #pragma once
@@ -19,11 +19,11 @@ namespace redbee {
 /// Sides of the square patch.
 struct PatchShape {
   explicit PatchShape(int window_px);
-  int side;   ///< px, odd
-  int half;   ///< px
-  int lanes;  ///< groups of eight pixels in a row, the last one filled up with columns that do not count
+  int side;            ///< px, odd
+  int half;            ///< px
+  int lanes;           ///< groups of eight pixels per row, the last one padded with masked columns
   int gradient_scale;  ///< of the stored gradients; the largest that cannot overflow
-  /// Margin that a pyramid needs for patches whose centre lies up to kOverhang px outside the image.
+  /// Margin that a pyramid needs for patches with a centre up to kOverhang px outside the image.
   int margin() const { return half + kOverhang + 12; }
   static constexpr int kOverhang = 8;
 };
@@ -34,9 +34,9 @@ struct AlignmentLimits {
 };
 
 enum class Alignment {
-  kLost,       ///< left the image
-  kUnsettled,  ///< still moving at the last iteration
-  kSettled,    ///< the last step was short
+  kLost,          ///< left the image
+  kNotConverged,  ///< still moving at the last iteration
+  kConverged,     ///< the last step was short
 };
 
 /// Lanes: PortableLanes or Sse2Lanes.
@@ -53,19 +53,19 @@ class PatchTemplate {
     for (int x = 0; x < shape.side; ++x) mask_[static_cast<std::size_t>(x)] = -1;
   }
 
-  /// Takes the patch around a pixel; the pixel lies in the image.
-  void take(const PyramidLevel& level, int x, int y);
+  /// Extracts the template around a pixel, which must lie in the image.
+  void extract(const PyramidLevel& level, int x, int y);
 
-  /// smallestEigenvalue() of the patch around a pixel; the template stays as it is.
+  /// smallestEigenvalue() of the patch around a pixel; the template is unchanged.
   double texture(const PyramidLevel& level, int x, int y);
 
   /// grey levels^2 / px^2, per pixel: the smaller eigenvalue of the mean gradient matrix.
   double smallestEigenvalue() const { return smallest_eigenvalue_; }
 
-  /// Moves `centre` [px of `level`] to where the patch fits.
+  /// Moves `centre` [px of `level`] to the best alignment.
   Alignment align(const PyramidLevel& level, Eigen::Vector2d& centre, const AlignmentLimits& limits) const;
 
-  /// Mean absolute difference [grey levels] to the patch at `centre`, the means taken out.
+  /// Mean absolute difference [grey levels] to the patch at `centre`, after subtracting the means.
   double residual(const PyramidLevel& level, const Eigen::Vector2d& centre) const;
 
  private:

@@ -15,13 +15,13 @@ constexpr double kSigmaFloorPx = 0.04;
 /// points, which cross the ground's motion somewhere, are spread evenly over the threshold, the ground's own
 /// are not.
 constexpr double kNearFraction = 0.6;
-/// Where the robust kernel bends: in standard deviations of the residuals, within these fractions of the
+/// Threshold of the Huber kernel in standard deviations of the residuals, bounded by these fractions of the
 /// inlier threshold.
 constexpr double kKneeSigmas = 1.5;
 constexpr double kSmallestKnee = 0.1;
 constexpr double kLargestKnee = 0.5;
 
-/// Square cells over the image, so many to its width. Scaled coordinates run from -1 to 1 over the width.
+/// Number of square cells along the image's width. Scaled coordinates range from -1 to 1 over the width.
 class Cells {
  public:
   Cells(cv::Size image, int columns)
@@ -73,10 +73,10 @@ double rmsOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vect
   return count > 0 ? std::sqrt(sum / count) : 0.0;
 }
 
-/// How much larger the covariance is than independent errors would make it: the sum over blocks of the
-/// squared sum of a block's residuals, against the sum of squared residuals (the "design effect" of clustered
-/// samples). One where residuals are independent; the number of pairs in a block where a block errs as one,
-/// as relief does that was taken for the plane.
+/// Inflation of the covariance by correlated errors: the sum over blocks of the squared sum of a block's
+/// residuals, over the sum of squared residuals (the "design effect" of clustered samples). 1 for independent
+/// residuals; the number of pairs in a block if a block's errors are equal, as with relief taken for the
+/// plane.
 double correlationOf(const ScaledPairs& pairs, const Eigen::Matrix3d& H, const std::vector<uint8_t>& inlier,
                      cv::Size image) {
   constexpr int kColumns = 6;
@@ -123,8 +123,8 @@ std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const st
   double knee = kLargestKnee * threshold;
   for (int round = 0; round < kRounds; ++round) {
     if (round == 0 || selection == Selection::kFollowsFit) {
-      flagWithin(pairs, H, selection == Selection::kFromStart ? kNearFraction * threshold : threshold,
-                 estimate.inlier);
+      flagInliers(pairs, H, selection == Selection::kFromStart ? kNearFraction * threshold : threshold,
+                  estimate.inlier);
       keepAllowed(allowed, estimate.inlier);
     }
     fit = fitHomography(pairs, estimate.inlier, H, knee, 5);
@@ -137,7 +137,7 @@ std::optional<HomographyEstimate> refinePlane(const ScaledPairs& pairs, const st
   const double inflation = std::max(kCorrelationInflation, correlationOf(pairs, H, estimate.inlier, image));
   estimate.covariance = inflation * std::max(fit->variance, floor * floor) * fit->inverse_information;
   estimate.H = scaling.unscale(H);
-  flagWithin(pairs, H, threshold, estimate.inlier);
+  flagInliers(pairs, H, threshold, estimate.inlier);
   keepAllowed(allowed, estimate.inlier);
   estimate.inliers = countOf(estimate.inlier);
   estimate.outliers = static_cast<int>(pairs.size()) - estimate.inliers;

@@ -1,4 +1,4 @@
-// Refinement of RANSAC's plane: least squares on all its inliers, and the covariance of the result.
+// Refinement of RANSAC's plane: least squares on all inliers, and the covariance of the result.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 
 namespace redbee {
 
-/// kFromStart: only the pairs near the starting plane are fitted. A fit that selected its pairs again could
-/// slide from the predicted ground to a larger plane nearby.
+/// kFromStart: only the pairs near the initial plane are fitted; selecting inliers again (kFollowsFit) could
+/// drift from the predicted ground to a larger plane nearby.
 enum class Selection { kFollowsFit, kFromStart };
 
 /// Of the pairs only those that are `allowed` may be inliers. `start`: scaled. std::nullopt if the minima of

@@ -16,11 +16,11 @@ namespace {
 
 /// px: shorter side of the smallest level.
 constexpr int kMinSide = 24;
-/// Level whose whole image is shifted when no guess is given (an eighth of the size), and how far, in its
-/// pixels.
+/// Pyramid level (1/8 of the size) at which the whole image is shifted if there is no guess, and the largest
+/// shift in its pixels.
 constexpr int kShiftLevel = 3;
 constexpr int kShiftReach = 8;
-/// Of texture on the grid; where there are fewer, the grid is twice as fine.
+/// Least number of grid points with texture; with fewer, the grid is twice as fine.
 constexpr int kEnoughPoints = 160;
 /// Limits of a point found directly: iterations, and distance from its starting point [px].
 constexpr int kQuickIterations = 5;
@@ -34,11 +34,11 @@ bool isFinite(const Eigen::Vector2d& p) { return p.allFinite(); }
 
 class PointTracker::Implementation {
  public:
-  Implementation(const TrackerParameters& parameters, const cv::Mat& unseen)
+  Implementation(const TrackerParameters& parameters, const cv::Mat& unknown)
       : parameters_(parameters), shape_(parameters.window_px), forward_(shape_), backward_(shape_) {
-    if (!unseen.empty()) {
+    if (!unknown.empty()) {
       const int side = 2 * (shape_.half + 1) + 1;
-      cv::dilate(unseen, blocked_, cv::Mat::ones(side, side, CV_8U));
+      cv::dilate(unknown, blocked_, cv::Mat::ones(side, side, CV_8U));
     }
     if (parameters.grid_px < 1 || parameters.levels < 1 || parameters.iterations < 1) {
       throw std::invalid_argument("the tracker's grid, levels and iterations must be positive");
@@ -69,7 +69,7 @@ class PointTracker::Implementation {
  private:
   bool hasPrevious() const { return !previous_.empty() && previous_[0].size() == current_[0].size(); }
 
-  /// Where little of an image has texture, the grid is denser there.
+  /// The grid; denser in images of little texture.
   int stepFor(const Pyramid& image) const {
     const int step = parameters_.grid_px;
     return hasTexture(image, kEnoughPoints, step) ? step : std::max(1, step / 2);
@@ -85,7 +85,7 @@ class PointTracker::Implementation {
     return textured >= points;
   }
 
-  /// Grid points whose patch and gradients lie wholly in the image, and in the part of it that is seen.
+  /// Grid points whose patch and gradients lie completely in the known part of the image.
   template <typename Visitor>
   void forEachGridPoint(const PyramidLevel& level, int step, const Visitor& visit) const {
     const int edge = shape_.half + 1;
@@ -99,7 +99,7 @@ class PointTracker::Implementation {
   PointTracks track(const std::optional<Eigen::Matrix3d>& guess) {
     const Eigen::Vector2d shift = guess ? Eigen::Vector2d::Zero() : coarseShift();
     const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-    Eigen::Vector2d neighbour = unknown;  // displacement of the point before
+    Eigen::Vector2d neighbour = unknown;  // displacement of the previous point
     PointTracks tracks;
     forEachGridPoint(previous_[0], stepFor(previous_), [&](int x, int y) {
       ++tracks.sampled;
@@ -120,11 +120,11 @@ class PointTracker::Implementation {
     return Eigen::Vector2d(shift.x, shift.y) * (1 << level);
   }
 
-  /// Position of a point that is `expected` somewhere, either `predicted` or only a starting point. A point
-  /// found directly at its prediction, with a small residual, needs no backward check.
+  /// Position of a point near `expected`, which is `predicted` or only an initial guess. A point found
+  /// directly at its prediction, with a small residual, needs no backward check.
   std::optional<Eigen::Vector2d> follow(int x, int y, const Eigen::Vector2d& expected, bool predicted,
                                         const Eigen::Vector2d& neighbour) {
-    forward_.take(previous_[0], x, y);
+    forward_.extract(previous_[0], x, y);
     if (forward_.smallestEigenvalue() < parameters_.min_eigenvalue || !isFinite(expected))
       return std::nullopt;
     Eigen::Vector2d found = expected;
@@ -142,7 +142,7 @@ class PointTracker::Implementation {
   bool settlesNear(Eigen::Vector2d& found) const {
     const Eigen::Vector2d start = found;
     const AlignmentLimits limits{kQuickIterations, parameters_.epsilon_px};
-    return forward_.align(current_[0], found, limits) == Alignment::kSettled &&
+    return forward_.align(current_[0], found, limits) == Alignment::kConverged &&
            (found - start).norm() <= kQuickReachPx && isInside(found) && looksAlike(found);
   }
 
@@ -158,7 +158,7 @@ class PointTracker::Implementation {
       const double scale = 1 << level;
       const Eigen::Vector2d at = (start / scale).array().round();
       Eigen::Vector2d there = at + (found - start) / scale;
-      coarse_.take(previous_[level], static_cast<int>(at.x()), static_cast<int>(at.y()));
+      coarse_.extract(previous_[level], static_cast<int>(at.x()), static_cast<int>(at.y()));
       if (coarse_.smallestEigenvalue() < parameters_.min_eigenvalue) continue;
       if (coarse_.align(current_[level], there, limits) == Alignment::kLost) continue;
       found = start + (there - at) * scale;
@@ -171,7 +171,7 @@ class PointTracker::Implementation {
   bool returns(int x, int y, const Eigen::Vector2d& found) {
     const Eigen::Vector2d displacement = found - Eigen::Vector2d(x, y);
     const Eigen::Vector2d nearest = found.array().round();
-    backward_.take(current_[0], static_cast<int>(nearest.x()), static_cast<int>(nearest.y()));
+    backward_.extract(current_[0], static_cast<int>(nearest.x()), static_cast<int>(nearest.y()));
     if (backward_.smallestEigenvalue() < parameters_.min_eigenvalue) return false;
     const Eigen::Vector2d expected = nearest - displacement;
     Eigen::Vector2d back = expected;
@@ -180,7 +180,7 @@ class PointTracker::Implementation {
     return (back - expected).norm() <= parameters_.max_forward_backward_px;
   }
 
-  /// The patch lies wholly in the current image.
+  /// True if the patch lies completely in the current image.
   bool isInside(const Eigen::Vector2d& p) const {
     const double edge = shape_.half + 1;
     return p.x() >= edge && p.y() >= edge && p.x() <= current_[0].width - 1 - edge &&
@@ -197,11 +197,11 @@ class PointTracker::Implementation {
   Template forward_, backward_;
   Template coarse_{shape_};
   Pyramid previous_, current_;
-  cv::Mat1b blocked_;  ///< 255 at the centres of patches that touch what is not seen; may be empty
+  cv::Mat1b blocked_;  ///< 255 at the centres of patches that touch unknown pixels; may be empty
 };
 
-PointTracker::PointTracker(const TrackerParameters& parameters, const cv::Mat& unseen)
-    : implementation_(std::make_unique<Implementation>(parameters, unseen)) {}
+PointTracker::PointTracker(const TrackerParameters& parameters, const cv::Mat& unknown)
+    : implementation_(std::make_unique<Implementation>(parameters, unknown)) {}
 PointTracker::~PointTracker() = default;
 
 Pyramid PointTracker::pyramidOf(const cv::Mat& grey) const { return implementation_->pyramidOf(grey); }

@@ -10,10 +10,10 @@ namespace {
 /// A candidate with fewer inliers than this fraction of the best one's is not refined: it would not become
 /// the best.
 constexpr double kWorthRefining = 0.8;
-/// Inlier threshold of the first refinement, in units of the final one: a plane through four noisy pairs is
-/// off.
+/// Inlier threshold of the first refinement, in units of the final one, as a plane through four noisy pairs
+/// is inaccurate.
 constexpr double kFirstThreshold = 2.0;
-/// Where the robust kernel bends, as a fraction of the inlier threshold.
+/// Threshold of the Huber kernel, as a fraction of the inlier threshold.
 constexpr double kKnee = 0.5;
 
 }  // namespace
@@ -76,8 +76,8 @@ std::array<std::size_t, 4> Ransac::draw() {
   return sample;
 }
 
-/// Truncated squared errors (MSAC) in units of the tracking noise, plus the prior's squared distance. Tracks
-/// err together, so that many of them count less than their number: otherwise a facade outvotes the prior.
+/// Truncated squared errors (MSAC) in units of the tracking noise, plus the prior's squared distance. Errors
+/// of tracks are correlated, so their sum is scaled down; otherwise a facade outweighs the prior.
 Ransac::Candidate Ransac::score(const Eigen::Matrix3d& H) {
   squaredErrors(candidates_, H, squared_);
   const auto limit = static_cast<float>(threshold_ * threshold_);
@@ -97,7 +97,7 @@ bool Ransac::improve(const Eigen::Matrix3d& start, Candidate& best) {
   constexpr int kRounds = 2;
   Eigen::Matrix3d H = start;
   for (int round = 0; round < kRounds; ++round) {
-    flagWithin(candidates_, H, round == 0 ? kFirstThreshold * threshold_ : threshold_, chosen_);
+    flagInliers(candidates_, H, round == 0 ? kFirstThreshold * threshold_ : threshold_, chosen_);
     const auto fit =
         fitHomography(candidates_, chosen_, H, kKnee * threshold_, 2, fit_prior_ ? &*fit_prior_ : nullptr);
     if (!fit) break;

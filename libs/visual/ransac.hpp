@@ -1,5 +1,5 @@
-// The plane that most of a set of pairs follow, by random sampling with local optimisation (Chum, Matas,
-// Kittler 2003). Scaled coordinates (geometry/homography.hpp, ImageScaling).
+// RANSAC for the dominant plane, with local optimisation (Chum, Matas, Kittler 2003). Scaled coordinates
+// (geometry/homography.hpp, ImageScaling).
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -18,19 +18,19 @@ namespace redbee {
 struct RansacParameters {
   double inlier_px = 1.0;  ///< px: transfer error below which a point follows the plane
   int max_iterations = 400;
-  double confidence = 0.999;      ///< of having drawn one clean sample
-  int min_inliers = 40;           ///< fewer is no plane
+  double confidence = 0.999;      ///< probability of having drawn one sample without outliers
+  int min_inliers = 40;           ///< with fewer, no plane is found
   double min_inlier_ratio = 0.0;  ///< of all correspondences
   double min_spread = 0.02;       ///< of the image's area: what the inliers' grid cells must cover
   uint32_t seed = 1;              ///< of the sampler: the same input gives the same output
 };
 
-/// Neighbouring patches overlap, share noise and bias (interpolation, compression, relief), and so err
-/// together; the part of that error which the fit absorbs does not show in its residuals. The covariance of
+/// Neighbouring patches overlap and have common noise and bias (interpolation, compression, relief), so their
+/// errors are correlated; the part that the fit absorbs does not show in its residuals. The covariance of
 /// independent errors is inflated by this factor: consistent (median normalised error at most that of
-/// chi-square with 8 degrees of freedom) for rendered flights over flat ground. Where relief makes whole
-/// blocks of residuals err as one, the factor is measured and larger. The bias of a facade taken for ground
-/// shows in no residual.
+/// chi-square with 8 degrees of freedom) for rendered flights over flat ground. If relief makes the residuals
+/// of whole blocks equal, a larger factor is measured (plane_refinement.cpp). The bias of a facade taken for
+/// ground does not show in the residuals.
 inline constexpr double kCorrelationInflation = 6.0;
 
 /// px: typical tracking noise, the unit in which points are weighted against the prediction.
@@ -52,8 +52,7 @@ struct PlanePrior {
 
 class Ransac {
  public:
-  /// `candidates`: pairs that samples are drawn from and that are scored. `unit_px`: pixels in one scaled
-  /// unit.
+  /// `candidates`: the pairs to sample from and to score with. `unit_px`: pixels per scaled unit.
   Ransac(ScaledPairs candidates, double unit_px, const RansacParameters& parameters, const PlanePrior* prior);
 
   /// std::nullopt if no plane has five inliers.

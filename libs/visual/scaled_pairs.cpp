@@ -30,8 +30,8 @@ void squaredErrors(const ScaledPairs& pairs, const Eigen::Matrix3d& H, std::vect
   }
 }
 
-int flagWithin(const ScaledPairs& pairs, const Eigen::Matrix3d& H, double reach,
-               std::vector<uint8_t>& within) {
+int flagInliers(const ScaledPairs& pairs, const Eigen::Matrix3d& H, double reach,
+                std::vector<uint8_t>& within) {
   std::vector<float> squared;
   squaredErrors(pairs, H, squared);
   const auto limit = static_cast<float>(reach * reach);

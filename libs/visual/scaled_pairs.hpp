@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// Each coordinate on its own so that loops over them vectorise.
+/// Structure of arrays, so that loops vectorise.
 struct ScaledPairs {
   ScaledPairs() = default;
   ScaledPairs(const PointTracks& tracks, const ImageScaling& scaling);
@@ -32,8 +32,9 @@ struct ScaledPairs {
 /// camera.
 void squaredErrors(const ScaledPairs& pairs, const Eigen::Matrix3d& H, std::vector<float>& squared);
 
-/// Pairs whose transfer error is at most `reach`: 1 in `within`. Returns how many.
-int flagWithin(const ScaledPairs& pairs, const Eigen::Matrix3d& H, double reach,
-               std::vector<uint8_t>& within);
+/// Sets `within` to 1 for each pair whose transfer error is at most `reach`, else to 0. Returns the number of
+/// ones.
+int flagInliers(const ScaledPairs& pairs, const Eigen::Matrix3d& H, double reach,
+                std::vector<uint8_t>& within);
 
 }  // namespace redbee

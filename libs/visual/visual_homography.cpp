@@ -13,8 +13,8 @@ namespace {
 constexpr double kContradiction = 0.6;
 constexpr double kOverwhelming = 2.0;
 
-/// Mean squared gradient [grey levels^2] of the half-size image in the direction that has least of it: noise
-/// counts little at half size, and an image blurred along one direction only is blurred.
+/// Mean squared gradient [grey levels^2] of the half-size image in the direction with the smallest: noise has
+/// little effect at half size, and motion blur affects one direction only.
 double sharpnessOf(const Pyramid& pyramid) {
   if (pyramid.size() < 2) return 0;
   const cv::Mat half = pyramid[1].image();
@@ -69,8 +69,8 @@ HomographyPrediction compose(const HomographyPrediction& later, const Homography
 }
 
 VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& parameters,
-                                                     const cv::Mat& unseen)
-    : parameters_(parameters), tracker_(parameters.tracker, unseen) {}
+                                                     const cv::Mat& unknown)
+    : parameters_(parameters), tracker_(parameters.tracker, unknown) {}
 
 void VisualHomographyEstimator::resetReference() {
   tracker_.reset();
@@ -78,13 +78,13 @@ void VisualHomographyEstimator::resetReference() {
   reference_sharpness_ = 0;
 }
 
-void VisualHomographyEstimator::adopt(CameraTime time, cv::Size size, double sharpness) {
+void VisualHomographyEstimator::setReference(CameraTime time, cv::Size size, double sharpness) {
   previous_time_ = time;
   size_ = size;
   reference_sharpness_ = sharpness;
 }
 
-bool VisualHomographyEstimator::isBlind(const Pyramid& image, double sharpness) const {
+bool VisualHomographyEstimator::lacksTexture(const Pyramid& image, double sharpness) const {
   if (sharpness < parameters_.min_sharpness) return true;
   if (sharpness < parameters_.min_sharpness_fraction * reference_sharpness_) return true;
   return !tracker_.hasTexture(image, parameters_.ransac.min_inliers);
@@ -99,7 +99,7 @@ std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
   const auto all = static_cast<double>(tracks.previous.size());
   if (near && near->inliers >= kContradiction * all) return near;
   // A plane that contradicts the prediction is accepted only when it explains most of the image: then the
-  // prediction is wrong, and the few points near it are chance.
+  // prediction is wrong, and the few points near it are coincidental.
   ransac.min_inlier_ratio = std::max(ransac.min_inlier_ratio, kContradiction);
   auto largest = estimateHomography(tracks, size_.width, size_.height, ransac);
   if (near && (!largest || largest->inliers < kOverwhelming * near->inliers)) return near;
@@ -121,14 +121,14 @@ VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat&
 
   Pyramid image = tracker_.pyramidOf(grey);
   const double sharpness = sharpnessOf(image);
-  if (isBlind(image, sharpness)) {
+  if (lacksTexture(image, sharpness)) {
     result.status = VisualStatus::kNoTexture;
     return result;
   }
   const std::optional<Eigen::Matrix3d> guess =
       prediction && prediction->H.allFinite() ? std::optional(prediction->H) : std::nullopt;
   result.tracks = tracker_.advance(std::move(image), guess);
-  adopt(time, grey.size(), sharpness);
+  setReference(time, grey.size(), sharpness);
   if (!connected) return result;
 
   if (static_cast<int>(result.tracks.previous.size()) < parameters_.ransac.min_inliers) {

@@ -1,5 +1,4 @@
-// The visual stage: tracking and the ground's homography, frame by frame (libs/README.md, "Visual
-// homography").
+// The visual stage: tracking and the ground homography for each frame (libs/README.md, "Visual homography").
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -14,16 +13,16 @@ namespace redbee {
 struct VisualParameters {
   TrackerParameters tracker;
   RansacParameters ransac;
-  double max_frame_gap_s = 0.5;  ///< s: frames further apart than this are not tracked into each other
+  double max_frame_gap_s = 0.5;  ///< s: frames further apart are not tracked
   double min_sharpness =
       0.0;  ///< mean squared gradient [grey levels^2] below which an image is blank, black or blurred
   double min_sharpness_fraction =
-      0.15;  ///< of the sharpness of the frame tracked from, below which an image is blurred
+      0.15;  ///< of the sharpness of the reference frame, below which an image is blurred
 };
 
 enum class VisualStatus {
   kGood,
-  kFirstFrame,  ///< nothing to track from: the first frame, after a gap, a repeated or earlier time, or a
+  kFirstFrame,  ///< no reference frame: at the first frame, after a gap, a repeated or earlier time, or a
                 ///< change of size
   kNoTexture,   ///< blank, black or blurred: too few points can be tracked
   kNoPlane,     ///< points were tracked, but no plane explains enough of them
@@ -50,23 +49,23 @@ struct VisualHomography {
 
 class VisualHomographyEstimator {
  public:
-  /// `unseen` as the tracker takes it.
-  explicit VisualHomographyEstimator(const VisualParameters& parameters, const cv::Mat& unseen = {});
+  /// `unknown`: see PointTracker.
+  explicit VisualHomographyEstimator(const VisualParameters& parameters, const cv::Mat& unknown = {});
 
-  /// Time of the frame that the next one is tracked from; nothing before the first.
+  /// Time of the reference frame, from which the next one is tracked; std::nullopt before the first.
   std::optional<CameraTime> previousTime() const { return previous_time_; }
 
   /// `grey`: 8-bit, undistorted; anything else throws std::invalid_argument. A blank or blurred frame
-  /// (kNoTexture) is skipped: the next one is tracked from the last good frame, as long as that is not older
-  /// than max_frame_gap_s, so `prediction` starts at previousTime(). A time that does not move forward
-  /// restarts from this frame.
+  /// (kNoTexture) does not become the reference: the next one is tracked from the last good frame, unless
+  /// that is older than max_frame_gap_s, so `prediction` starts at previousTime(). A time that does not
+  /// increase restarts from this frame.
   VisualHomography step(CameraTime time, const cv::Mat& grey,
                         const std::optional<HomographyPrediction>& prediction);
 
  private:
   void resetReference();
-  void adopt(CameraTime time, cv::Size size, double sharpness);
-  bool isBlind(const Pyramid& image, double sharpness) const;
+  void setReference(CameraTime time, cv::Size size, double sharpness);
+  bool lacksTexture(const Pyramid& image, double sharpness) const;
   std::optional<HomographyEstimate> estimateGround(
       const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const;
 
@@ -74,7 +73,7 @@ class VisualHomographyEstimator {
   PointTracker tracker_;
   std::optional<CameraTime> previous_time_;
   cv::Size size_;
-  double reference_sharpness_ = 0;  ///< of the frame tracked from; 0 where there is none
+  double reference_sharpness_ = 0;  ///< of the reference frame; 0 if there is none
 };
 
 }  // namespace redbee

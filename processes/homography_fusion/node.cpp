@@ -29,16 +29,16 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
       visual_(fromSeconds(configuration.waits.fusion_s), true) {
   const auto& channels = configuration_.channels;
   on<inertial_homography_t>(channels.inertial_homography,
-                            [this](const inertial_homography_t& m) { return takeInertial(m); });
+                            [this](const inertial_homography_t& m) { return onInertial(m); });
   on<filter_snapshot_t>(channels.filter_snapshot, [this](const filter_snapshot_t& m) { snapshot_ = m; });
   on<visual_homography_t>(channels.visual_homography,
-                          [this](const visual_homography_t& m) { return takeVisual(m); });
+                          [this](const visual_homography_t& m) { return onVisual(m); });
   if (configuration_.has_imu) {
     on<ins_t>(channels.imu, [this](const ins_t& m) { clock_.noteOther(ImuTime(fromUtime(m.utime))); });
   }
 }
 
-bool HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
+bool HomographyFusionNode::onInertial(const inertial_homography_t& message) {
   if (!plausibleTimes(message) || (!isFinite(message.ground) && message.valid != 0)) return false;
   if (message.valid == 0 && message.status == inertial_homography_t::INITIALISING) {
     inertial_at_first_frame_ = true;
@@ -48,7 +48,7 @@ bool HomographyFusionNode::takeInertial(const inertial_homography_t& message) {
   return true;
 }
 
-bool HomographyFusionNode::takeVisual(const visual_homography_t& message) {
+bool HomographyFusionNode::onVisual(const visual_homography_t& message) {
   const bool is_good = message.status == visual_homography_t::GOOD;
   if (!plausibleTimes(message) || (!isFinite(message.ground) && is_good)) return false;
   expect(timeOf(message));
@@ -59,7 +59,7 @@ bool HomographyFusionNode::takeVisual(const visual_homography_t& message) {
 void HomographyFusionNode::expect(CameraTime time) {
   if (pending_.count(time) > 0) return;
   const bool is_companion_of_last = frameOrder().last() == time;
-  if (is_companion_of_last) return;  // arrived after its frame had timed out
+  if (is_companion_of_last) return;  // late: its frame has timed out
   const CameraTime newest_frame =
       pending_.empty() ? frameOrder().last().value_or(time) : pending_.rbegin()->first;
   if (newest_frame - time > FrameOrder::kSetBack) restart();
@@ -94,7 +94,7 @@ bool HomographyFusionNode::isReadyFor(CameraTime time) {
 }
 
 void HomographyFusionNode::process() {
-  publishWarmStart();  // before its first frame is answered, which it waits for
+  publishWarmStart();  // before the fused message of its first frame, which it waits for
   while (!pending_.empty() && isReadyFor(pending_.begin()->first)) {
     const auto [time, arrival] = *pending_.begin();
     pending_.erase(pending_.begin());
@@ -151,7 +151,7 @@ void HomographyFusionNode::validateCalibration(const FusedHomography& fused, con
                                                const VisualInput& visual) {
   if (inertial.time_previous != visual.time_previous) return;
   calibration_.note(fused.test_ratio, meanTransferError(inertial.H, visual.H, camera_.width, camera_.height));
-  health().setCalibration(calibration_.verdict());
+  health().setCalibration(calibration_.status());
 }
 
 fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused) const {
@@ -162,7 +162,7 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
   message.utime_anchor = toUtime(fused.time_anchor);
   message.width = camera_.width;
   message.height = camera_.height;
-  message.calibration = calibration_.verdict();
+  message.calibration = calibration_.status();
   fill(message.step, fused.H_step, fused.covariance_step);
   fill(message.anchor, fused.H_anchor, fused.covariance_anchor);
   message.has_innovation = fused.has_innovation ? 1 : 0;

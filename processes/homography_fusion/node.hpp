@@ -1,5 +1,5 @@
-// INERTIAL_HOMOGRAPHY and VISUAL_HOMOGRAPHY in; FUSED_HOMOGRAPHY out. IMU is listened to for the passing of
-// time only. FILTER_SNAPSHOT is kept, and goes back as WARM_START.
+// INERTIAL_HOMOGRAPHY and VISUAL_HOMOGRAPHY in; FUSED_HOMOGRAPHY out. IMU messages only advance the message
+// clock. The latest FILTER_SNAPSHOT is stored and published as WARM_START.
 #pragma once
 
 #include <cstdint>
@@ -20,28 +20,28 @@
 
 namespace redbee {
 
-/// One message per frame that either source has reported, in order of time.
+/// Publishes one message per frame for which either source has published one, in order of time.
 class HomographyFusionNode : public Stage {
  public:
   HomographyFusionNode(Bus& bus, const Configuration& configuration);
   void process() override;
 
  private:
-  bool takeInertial(const inertial_homography_t& message);
-  bool takeVisual(const visual_homography_t& message);
+  bool onInertial(const inertial_homography_t& message);
+  bool onVisual(const visual_homography_t& message);
   void expect(CameraTime time);
   bool isReadyFor(CameraTime time);
   void fuse(CameraTime time);
   fused_homography_t messageOf(const FusedHomography& fused) const;
-  /// Compares the two sources' homographies of one pair of frames: whether the calibration fits the flight.
+  /// Updates the calibration monitor with the two sources' homographies of one pair of frames.
   void validateCalibration(const FusedHomography& fused, const InertialInput& inertial,
                            const VisualInput& visual);
-  /// Vision's own homography, rejected by the fusion or not: the inertial filter validates it for itself, or
-  /// a diverged filter would never be corrected.
+  /// Adds vision's own homography, whether the fusion rejected it or not: the inertial filter has its own
+  /// gate, and a diverged filter could otherwise never be corrected.
   void addObservation(fused_homography_t& message, const VisualInput& visual) const;
   static void addFrontPlane(fused_homography_t& message, const HomographyEstimate& front);
-  /// To an inertial process at its first frame: it may have replaced one that died. It validates the snapshot
-  /// for itself.
+  /// Offers the snapshot to an inertial process at its first frame, which may have been restarted and
+  /// validates the snapshot itself.
   void publishWarmStart();
   void restart() override;
 
@@ -50,10 +50,10 @@ class HomographyFusionNode : public Stage {
   HomographyFusion fusion_;
   FrontPlaneEstimator front_plane_;
   CalibrationMonitor calibration_;
-  std::map<CameraTime, WorkTimer> pending_;  ///< frames by time, each since its first message arrived
+  std::map<CameraTime, WorkTimer> pending_;  ///< by frame time; timers since the first message of the frame
   MessageSynchronizer<inertial_homography_t> inertial_;
   MessageSynchronizer<visual_homography_t> visual_;
-  std::optional<filter_snapshot_t> snapshot_;  ///< the newest of the inertial process
+  std::optional<filter_snapshot_t> snapshot_;  ///< the latest one received
   bool inertial_at_first_frame_ = false;
   MessageClock clock_;
 };

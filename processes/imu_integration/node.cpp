@@ -12,9 +12,9 @@ namespace redbee {
 namespace {
 
 constexpr size_t kMaxPendingFrames = 256;
-/// Frames in a row at which vision must have agreed before a snapshot is published: what vision contradicts
-/// is better estimated again from the start, and a process that dies at once again must not spoil the last
-/// one.
+/// Consecutive frames with an accepted correction by vision before a snapshot is published: a state that
+/// vision contradicts should not be restored, and a process that crashes immediately must not overwrite the
+/// last good snapshot.
 constexpr int kAgreedFrames = 12;
 
 }  // namespace
@@ -27,19 +27,19 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
       filter_(camera_, configuration.inertial),
       feedback_(fromSeconds(configuration.waits.inertial_s), true) {
   const auto& channels = configuration_.channels;
-  on<image_t>(channels.camera, [this](const image_t& m) { takeFrame(m); });
-  on<ins_t>(channels.imu, [this](const ins_t& m) { return takeImu(m); });
+  on<image_t>(channels.camera, [this](const image_t& m) { onFrame(m); });
+  on<ins_t>(channels.imu, [this](const ins_t& m) { return onImu(m); });
   if (configuration_.has_altimeter) {
     on<altimeter_t>(channels.altimeter, [this](const altimeter_t& m) {
       return filter_.addAltitude({ImuTime(fromUtime(m.utime)), m.height, m.sigma});
     });
   }
   on<fused_homography_t>(channels.fused_homography,
-                         [this](const fused_homography_t& m) { return takeFused(m); });
+                         [this](const fused_homography_t& m) { return onFused(m); });
   on<filter_snapshot_t>(channels.warm_start, [this](const filter_snapshot_t& m) { warm_start_ = m; });
 }
 
-void ImuIntegrationNode::takeFrame(const image_t& message) {
+void ImuIntegrationNode::onFrame(const image_t& message) {
   if (!acceptFrame(timeOf(message))) return;
   clock_.noteFrame(timeOf(message));
   pending_.push_back({timeOf(message), {}});
@@ -49,7 +49,7 @@ void ImuIntegrationNode::takeFrame(const image_t& message) {
   }
 }
 
-bool ImuIntegrationNode::takeImu(const ins_t& message) {
+bool ImuIntegrationNode::onImu(const ins_t& message) {
   const ImuTime time(fromUtime(message.utime));
   clock_.noteOther(time);
   const bool plausible = filter_.addImu({time, vector3(message.gyro), vector3(message.accel)});
@@ -57,7 +57,7 @@ bool ImuIntegrationNode::takeImu(const ins_t& message) {
   return plausible;
 }
 
-bool ImuIntegrationNode::takeFused(const fused_homography_t& message) {
+bool ImuIntegrationNode::onFused(const fused_homography_t& message) {
   if (!plausibleTimes(message)) return false;
   health().setCalibration(message.calibration);
   feedback_.put(timeOf(message), message);

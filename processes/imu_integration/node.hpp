@@ -21,18 +21,19 @@
 
 namespace redbee {
 
-/// One message per frame, as soon as the IMU's samples reach its exposure and the fusion has answered for the
-/// frame before. While vision agrees with the filter, a snapshot of it is published as well; at its first
-/// frame the filter starts warm from the snapshot that the fusion has kept (processes/homography_fusion).
+/// Publishes one message per frame, as soon as the IMU samples reach its exposure and the fused homography of
+/// the previous frame has arrived. While vision agrees with the filter, a filter snapshot is published as
+/// well; at its first frame the filter is warm-started from the snapshot that the fusion has stored
+/// (processes/homography_fusion).
 class ImuIntegrationNode : public Stage {
  public:
   ImuIntegrationNode(Bus& bus, const Configuration& configuration);
   void process() override;
 
  private:
-  void takeFrame(const image_t& message);
-  bool takeImu(const ins_t& message);
-  bool takeFused(const fused_homography_t& message);
+  void onFrame(const image_t& message);
+  bool onImu(const ins_t& message);
+  bool onFused(const fused_homography_t& message);
   bool isReadyFor(CameraTime frame);
   void warmStart();
   void applyFeedback();
@@ -48,9 +49,9 @@ class ImuIntegrationNode : public Stage {
   MessageSynchronizer<fused_homography_t> feedback_;
   MessageClock clock_;
   std::optional<CameraTime> last_frame_;
-  std::optional<filter_snapshot_t> warm_start_;  ///< the latest offered
+  std::optional<filter_snapshot_t> warm_start_;  ///< the latest one received
   CorrectionReport feedback_report_;             ///< of the last frame
-  int agreed_in_a_row_ = 0;                      ///< frames at which vision's correction was accepted
+  int agreed_in_a_row_ = 0;                      ///< consecutive frames with an accepted correction by vision
   bool imu_alive_ = true;
 };
 

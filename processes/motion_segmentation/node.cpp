@@ -74,15 +74,15 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_
       input.motion = motionOf(fused->motion);
     }
   } else if (fused->epoch == last_->epoch && fused->utime_anchor == last_->utime_anchor) {
-    // A frame between was missed: the anchor homographies bridge it (libs/README.md, equation 25). A
-    // restarted fusion counts its epochs from 0 again, so the anchor's time is compared as well.
+    // Frames in between were missed: the anchor homographies bridge them (libs/README.md, equation 25). A
+    // restarted fusion counts epochs from 0 again, so the anchor's time is compared as well.
     input.ground = normaliseHomography(matrix3(fused->anchor.H) * last_->H_anchor.inverse());
   }
   return input;
 }
 
-/// While the fusion is away or knows nothing yet (its process was started again): vision's own homography
-/// keeps background and identities.
+/// While the fusion is not running or has no estimate yet after a restart, vision's own homography preserves
+/// background and identities.
 void MotionSegmentationNode::addVisual(FrameInput& input) const {
   const visual_homography_t* visual = visual_.find(timeOf(input));
   if (visual == nullptr || visual->status != visual_homography_t::GOOD ||
@@ -99,7 +99,7 @@ void MotionSegmentationNode::work(const image_t& message) {
   const DetectorOutput output = detector_->step(input);
   noteResultReady();
   publishOutput(message, input, output);
-  noteState(output.status, fused != nullptr);
+  updateState(output.status, fused != nullptr);
   if (fused != nullptr) {
     last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->anchor.H)};
   } else {
@@ -125,7 +125,7 @@ void MotionSegmentationNode::publishOutput(const image_t& message, const FrameIn
   foreground_.publish(message, input.utime_previous, std::move(output));
 }
 
-void MotionSegmentationNode::noteState(DetectorStatus status, bool has_fused) {
+void MotionSegmentationNode::updateState(DetectorStatus status, bool has_fused) {
   if (status != DetectorStatus::kGood) {
     health().setState(HealthState::kDegraded, toString(status));
   } else if (needs_.camera_motion && !has_fused) {

@@ -1,5 +1,5 @@
-// CAMERA in and, for detectors that need the camera's motion, FUSED_HOMOGRAPHY, or VISUAL_HOMOGRAPHY while
-// the fusion is away; FOREGROUND, DETECTIONS and OVERLAY out. Serves every detector.
+// CAMERA in and, for detectors that need the camera's motion, FUSED_HOMOGRAPHY, or VISUAL_HOMOGRAPHY while no
+// fused homography is available; FOREGROUND, DETECTIONS and OVERLAY out. Runs any detector.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace redbee {
 
-/// One message of each kind per frame. Maps and boxes are on the raw image's grid.
+/// Publishes one message of each kind per frame. Maps and boxes are on the raw image's grid.
 class MotionSegmentationNode : public ImageStage<fused_homography_t> {
  public:
   MotionSegmentationNode(Bus& bus, const Configuration& configuration);
@@ -26,7 +26,7 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   }
 
  private:
-  /// The last frame that was processed, and where it lay in its epoch.
+  /// The last processed frame and its anchor homography.
   struct Last {
     int64_t utime;
     int32_t epoch;
@@ -36,13 +36,13 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
 
   MotionSegmentationNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Detector> detector);
   void work(const image_t& message) override;
-  /// `fused`: of this frame; null where there is none.
+  /// `fused`: of this frame, or nullptr.
   FrameInput inputFor(const image_t& message, const fused_homography_t* fused) const;
   void addVisual(FrameInput& input) const;
-  /// Images stay empty if there is none of the camera's size.
+  /// Leaves the images empty if the message cannot be decoded to the camera's size.
   void decodeInto(FrameInput& input, const image_t& message);
   void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output);
-  void noteState(DetectorStatus status, bool has_fused);
+  void updateState(DetectorStatus status, bool has_fused);
   void reset() override;
 
   Configuration configuration_;

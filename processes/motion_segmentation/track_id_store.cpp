@@ -13,23 +13,23 @@ namespace redbee {
 TrackIdStore::TrackIdStore(std::filesystem::path file) : file_(std::move(file)) {
   std::ifstream stream(file_);
   if (!stream) return;
-  if (!(stream >> before_) || before_ < 0) {
+  if (!(stream >> offset_) || offset_ < 0) {
     spdlog::warn("{}: holds no identity: they start at 1", file_.string());
-    before_ = 0;
+    offset_ = 0;
   }
-  highest_ = before_;
+  highest_ = offset_;
 }
 
 int TrackIdStore::globalId(int id) {
-  const int number = before_ + id;
+  const int number = offset_ + id;
   if (number > highest_) {
     highest_ = number;
-    keep();
+    save();
   }
   return number;
 }
 
-void TrackIdStore::keep() {
+void TrackIdStore::save() {
   if (file_.empty()) return;
   try {
     writeAtomically(file_, std::to_string(highest_) + "\n");

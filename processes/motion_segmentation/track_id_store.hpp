@@ -1,29 +1,29 @@
-// Identities that are not given twice, not even by the process that takes a dead one's place.
+// Track identities that stay unique across restarts of the process.
 #pragma once
 
 #include <filesystem>
 
 namespace redbee {
 
-/// The tracker counts its objects from 1. What is told of them goes on from the highest number that was told
-/// before, which a file keeps: where nothing kept it, from 1.
+/// The tracker numbers its objects from 1. Published identities continue from the highest one published
+/// before, which is stored in a file; without a file they start at 1.
 class TrackIdStore {
  public:
-  /// Keeps nothing.
+  /// Not persistent.
   TrackIdStore() = default;
-  /// Goes on from what the file says. A file that cannot be read or holds no number counts as none, and is
-  /// said in the log.
+  /// Continues from the number in the file. If it cannot be read or is not a number, a warning is logged and
+  /// identities start at 1.
   explicit TrackIdStore(std::filesystem::path file);
 
-  /// The number to tell. A file that cannot be written is said in the log, once: the flight goes on.
+  /// The identity to publish for a tracker's `id`. If the file cannot be written, a warning is logged once.
   int globalId(int id);
 
  private:
-  void keep();
+  void save();
 
   std::filesystem::path file_;
-  int before_ = 0;   ///< told by those that came before
-  int highest_ = 0;  ///< told by anyone
+  int offset_ = 0;   ///< highest identity published by earlier processes
+  int highest_ = 0;  ///< highest identity published
 };
 
 }  // namespace redbee

@@ -13,7 +13,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
       configuration_(configuration),
       camera_(configuration.camera),
       rectifier_(camera_),
-      estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual, rectifier_.unseen())) {
+      estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual, rectifier_.unknown())) {
   on<inertial_homography_t>(configuration_.channels.inertial_homography,
                             [this](const inertial_homography_t& m) {
                               const bool plausible = plausibleTimes(m) && isFinite(m.ground);
@@ -23,7 +23,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
 }
 
 void VisualHomographyNode::reset() {
-  estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unseen());
+  estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unknown());
 }
 
 std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime time) const {
@@ -60,8 +60,8 @@ void VisualHomographyNode::work(const image_t& message) {
   const VisualHomography result = estimator_->step(time, rectifier_.toIdeal(*grey), predicted);
   noteResultReady();
   publishResult(result);
-  // After an image that nothing could be tracked in, the next one is tracked from an earlier frame: its
-  // links are still needed.
+  // After an image without tracks the next one is tracked from an earlier frame, so inertial messages since
+  // then are still needed.
   companions().eraseThrough(estimator_->previousTime().value_or(time));
 }
 

@@ -15,14 +15,14 @@
 
 namespace redbee {
 
-/// One message per frame. The inertial homography of the frame is waited for while its publisher is alive.
+/// Publishes one message per frame, with the inertial homography of the frame as prediction unless it timed
+/// out.
 class VisualHomographyNode : public ImageStage<inertial_homography_t> {
  public:
   VisualHomographyNode(Bus& bus, const Configuration& configuration);
 
  private:
-  /// The inertial messages from the frame that is tracked from up to this one, composed; std::nullopt if one
-  /// is missing.
+  /// The composed inertial homographies from the reference frame to this one; std::nullopt if one is missing.
   std::optional<HomographyPrediction> prediction(CameraTime time) const;
   void work(const image_t& message) override;
   void refuse(const image_t& image);

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "redbee/detection/appearance/carried_background.hpp"
+#include "redbee/detection/appearance/appearance_model.hpp"
 #include "redbee/detection/detector.hpp"
 #include "redbee/detection/objects/object_tracker.hpp"
 #include "redbee/detection/parallax/earlier_frames.hpp"
@@ -27,7 +27,7 @@ const std::vector<FrameInput>& inputs() {
   return flight.inputs;
 }
 
-/// A detector restarts at the end of the flight: one frame in thirty is cheaper than the others.
+/// The detector restarts at the end of the loop, so one frame in thirty is cheaper than the others.
 void wholeStep(benchmark::State& state, const DetectionParameters& parameters) {
   inputs();
   const auto detector = makeDetector(parameters);
@@ -74,21 +74,21 @@ void alignHalfSize(benchmark::State& state) {
 }
 BENCHMARK(alignHalfSize)->Unit(benchmark::kMillisecond);
 
-void carriedBackground(benchmark::State& state) {
+void appearanceModel(benchmark::State& state) {
   cv::Mat colour, moving = cv::Mat::zeros(inputs()[0].grey.size(), CV_32F);
   cv::cvtColor(inputs()[0].grey, colour, cv::COLOR_GRAY2BGRA);
   colour.convertTo(colour, CV_32F);
   const SurfaceSpeed speed(colour.size(), cv::Vec2f(0, 0.1F));
-  CarriedBackground background{{}, {}, ParallaxParameters{}.evidence_sigmas};
+  AppearanceModel background{{}, {}, ParallaxParameters{}.evidence_sigmas};
   background.learn(colour, moving, speed, 0.04);
   const SceneMotion scene(*inputs()[1].ground, inputs()[1].motion, inputs()[1].K);
   for (auto _ : state) {
-    background.carry(scene);
+    background.propagate(scene);
     benchmark::DoNotOptimize(background.appearanceDifference(colour, speed));
     background.learn(colour, moving, speed, 0.04);
   }
 }
-BENCHMARK(carriedBackground)->Unit(benchmark::kMillisecond);
+BENCHMARK(appearanceModel)->Unit(benchmark::kMillisecond);
 
 void guidedFilterHalfSize(benchmark::State& state) {
   const cv::Mat grey = halfSize(inputs()[0].grey);
@@ -108,10 +108,10 @@ BENCHMARK(denseFlowHalfSize)->Unit(benchmark::kMillisecond);
 void travelHalfSize(benchmark::State& state) {
   const cv::Size half(320, 240);
   const FrameEvidence now{cv::Mat2f(half, cv::Vec2f(1, 0)), cv::Mat2f(half, cv::Vec2f(0.5F, 0))};
-  TravellingEvidence evidence{{}};
-  const cv::Mat unseen = cv::Mat::zeros(half, CV_8U);
+  PropagatedEvidence evidence{{}};
+  const cv::Mat unknown = cv::Mat::zeros(half, CV_8U);
   for (auto _ : state) {
-    evidence.update(now, Eigen::Matrix3d::Identity(), unseen);
+    evidence.update(now, Eigen::Matrix3d::Identity(), unknown);
     benchmark::DoNotOptimize(evidence.motion());
   }
 }
@@ -131,7 +131,7 @@ void twoPlaneBackground(benchmark::State& state) {
   std::size_t k = 0;
   for (auto _ : state) {
     const FrameInput& input = inputs()[1 + k++ % (kFrames - 1)];
-    background.carry(*input.ground, input.front);
+    background.propagate(*input.ground, input.front);
     benchmark::DoNotOptimize(background.learn(input.grey));
   }
 }

@@ -1,6 +1,7 @@
-// Processor time a frame of the whole stack and of rivals, decoding included, in one run: read the ratios.
-// The bundled flight's images, from memory, on memq://. `work` is what the answer took, `publishing` what
-// it took to make messages of it [ms a frame]; the time of an iteration holds both and the bus.
+// Processor time per frame of the whole stack and of rivals, decoding included, in one run, so that ratios
+// are comparable. The bundled flight's images, from memory, on memq://. `work` is what the answer took,
+// `publishing` what it took to make messages of it [ms a frame]; the time of an iteration holds both and the
+// bus.
 #include <benchmark/benchmark.h>
 
 #include <memory>

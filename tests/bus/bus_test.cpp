@@ -72,7 +72,7 @@ TEST_F(BusTest, ADamagedMessageIsCountedAndTheNextArrives) {
   EXPECT_EQ(received_, std::vector<int64_t>{5});
 }
 
-TEST_F(BusTest, AnExceptionOfAHandlerGoesNoFurther) {
+TEST_F(BusTest, ExceptionsOfHandlersAreCaught) {
   const Subscription broken =
       bus_->subscribe("A", 30, [](const uint8_t*, int) { throw std::runtime_error("broken handler"); });
   const Subscription strange = bus_->subscribe("A", 30, [](const uint8_t*, int) { throw 1; });

@@ -45,7 +45,7 @@ class CodecTest : public testing::Test {
     Message message;
     return decodeMessage(data.data(), static_cast<int>(data.size()), message);
   }
-  /// Decodes bytes that may lie, and fails the test where that throws or costs much.
+  /// Decodes untrusted bytes; the test fails if decoding throws or allocates too much.
   static bool decodesCheaply(const std::vector<uint8_t>& data) {
     bool decoded = false;
     largest_allocation = 0;
@@ -110,8 +110,8 @@ TYPED_TEST(CodecTest, RefusesAnotherHash) {
   }
 }
 
-// Wherever a length may stand: what decodes must encode to the same bytes, all else is refused, and neither
-// costs much.
+// For each length field: bytes that decode must encode to the same bytes, all others are refused, and neither
+// allocates much.
 TYPED_TEST(CodecTest, AFalseLengthAnywhereAllocatesNothing) {
   const auto data = encodeMessage(sample<TypeParam>());
   const int32_t lies[] = {-1,

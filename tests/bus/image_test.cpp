@@ -16,7 +16,7 @@ cv::Mat ramp() {
   return grey;
 }
 
-TEST(Image, RawGreyComesBackUnchanged) {
+TEST(Image, RawGreyRoundTripIsExact) {
   const auto decoded = decodeGrey(rawGreyMessage(7, ramp()));
   ASSERT_TRUE(decoded);
   EXPECT_EQ(cv::norm(*decoded, ramp(), cv::NORM_INF), 0);
@@ -34,13 +34,13 @@ TEST(Image, RowsMayBePadded) {
   EXPECT_EQ(cv::norm(*decoded, ramp(), cv::NORM_INF), 0);
 }
 
-TEST(Image, JpegComesBackNearly) {
+TEST(Image, JpegRoundTripIsClose) {
   const auto decoded = decodeGrey(jpegMessage(7, ramp(), 95));
   ASSERT_TRUE(decoded);
   EXPECT_LT(cv::norm(*decoded, ramp(), cv::NORM_L1) / ramp().total(), 2.0);
 }
 
-TEST(Image, LiesAboutTheSizeAreRefused) {
+TEST(Image, WrongSizesAreRefused) {
   const auto refused = [](image_t message, auto&& lie) {
     lie(message);
     return !decodeGrey(message) && !decodeColour(message);
@@ -72,8 +72,7 @@ TEST(Image, AJpegThatIsCutShortIsRefused) {
 }
 
 TEST(Image, SmallerOnesAreTheMeanOfBlocks) {
-  // Smooth, so that a JPEG's own way of shrinking, which leaves out the finest waves, finds nothing to leave
-  // out.
+  // Smooth, so that JPEG's scaled decoding, which omits high frequencies, loses nothing.
   for (const int downscale : {2, 4}) {
     cv::Mat expected;
     cv::resize(ramp(), expected, ramp().size() / downscale, 0, 0, cv::INTER_AREA);

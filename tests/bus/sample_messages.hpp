@@ -1,4 +1,4 @@
-// One filled message of every type, made from its generated shape.
+// Sample messages of every type, filled by the generated visitor.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@
 namespace redbee {
 namespace {
 
-TEST(SocketDrops, AreThoseOfTheSocketsAskedFor) {
+TEST(SocketDrops, CountsTheGivenSockets) {
   std::istringstream table(
       "   sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout inode ref "
       "pointer drops\n"
@@ -25,7 +25,7 @@ TEST(SocketDrops, AreThoseOfTheSocketsAskedFor) {
   EXPECT_EQ(droppedPackets(table, {4711, 4713}), 19);
 }
 
-TEST(SocketDrops, WhatTheKernelCouldNotKeepIsCounted) {
+TEST(SocketDrops, DroppedDatagramsAreCounted) {
   const int receiver = socket(AF_INET, SOCK_DGRAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;

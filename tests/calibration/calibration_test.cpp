@@ -1,4 +1,4 @@
-// The whole calibration against simulated truth.
+// The complete calibration, compared with simulated truth.
 #include "redbee/calibration/calibration.hpp"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ struct Consistency {
   double rms() const { return std::sqrt(sum / count); }
 };
 
-/// REDBEE_CALIBRATION_SEEDS=50 in the environment flies them all; five take some seconds.
+/// REDBEE_CALIBRATION_SEEDS=50 in the environment runs more seeds; five take some seconds.
 unsigned numberOfSeeds() {
   const char* number = std::getenv("REDBEE_CALIBRATION_SEEDS");
   return number != nullptr ? static_cast<unsigned>(std::max(1, std::atoi(number))) : 5U;
@@ -90,8 +90,7 @@ TEST(Calibration, SimulatedFlightsStayWithinTheLimitsAndTheirDeviations) {
   }
 }
 
-/// Errors that all points of a quarter of the image share do not average out over the points; the residuals
-/// show them.
+/// Errors common to all points of a quarter of the image do not average out; the residuals show them.
 TEST(Calibration, DeviationsGrowWithErrorsThatNeighbouringPointsShare) {
   Consistency rotation;
   for (unsigned seed = 1; seed <= 2; ++seed) {
@@ -146,7 +145,7 @@ TEST(Calibration, HoverRefusesRotationTimeShiftAndHeight) {
   EXPECT_EQ(result.values.kept.start_height_m, r.input.nominal.start_height_m);
 }
 
-TEST(Calibration, ConstantVelocityHidesTheHeightUntilAnAltimeterOrAPersonGivesIt) {
+TEST(Calibration, ConstantVelocityNeedsAMeasuredHeight) {
   SimulatedRecording blind = simulateRecording(Trajectory(straightFlight(1.5)), 22, briefly());
   EXPECT_EQ(calibrate(blind.input).parameter("plane.height_m").verdict, Verdict::kRefused);
 

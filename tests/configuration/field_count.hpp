@@ -1,4 +1,4 @@
-// How many members an aggregate has, so that a test notices one that the configuration forgot.
+// Number of members of an aggregate, to find members without a configuration key.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace redbee::test {
 
-/// Turns into whatever a member is initialised with.
+/// Converts to the type of any member.
 struct Anything {
   template <typename T>
-  operator T() const;  // NOLINT(google-explicit-constructor): that is its purpose
+  operator T() const;  // NOLINT(google-explicit-constructor): must be implicit
 };
 
 template <typename Aggregate, typename Indices, typename = void>

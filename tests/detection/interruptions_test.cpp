@@ -1,4 +1,4 @@
-// A detector whose input is interrupted, damaged or out of order claims nothing, and recovers.
+// If its input is interrupted, damaged or out of order, a detector reports nothing and recovers.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -40,7 +40,7 @@ TEST(ObjectMeasures, EveryRegionOfAMaskIsAnObject) {
   EXPECT_EQ(counts.false_alarms, 0);
 }
 
-TEST(ObjectMeasures, NothingDetectedFindsNothingAndAlarmsNobody) {
+TEST(ObjectMeasures, AnEmptyMaskHasNoFalseAlarms) {
   ObjectMeasures measures;
   measures.add(emptyMask(), objectsOfMask(maskWith({{0, 0, 5, 5}})));
   EXPECT_EQ(measures.recall(), 0);

@@ -1,4 +1,4 @@
-// The fusion where a source is wrong, damaged, late or lost.
+// The fusion with wrong, damaged, late or lost sources.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -9,9 +9,9 @@
 namespace redbee::test {
 namespace {
 
-TEST(HomographyFusion, AGrossVisualErrorIsRefusedAndLaterAccepted) {
+TEST(HomographyFusion, AGrossVisualErrorIsRejectedAndLaterAccepted) {
   FusionInputs inputs(2);
-  FusionParameters parameters = honestNoise();
+  FusionParameters parameters = consistentNoise();
   HomographyFusion fusion = makeFusion(parameters);
   FusedHomography out;
   for (int k = 1; k <= parameters.max_gated_in_a_row; ++k) {
@@ -50,7 +50,7 @@ TEST(HomographyFusion, EitherSourceMayBeLostForASecondAndComeBack) {
   }
 }
 
-TEST(HomographyFusion, AnInertialStepThatKnowsNoVelocityIsNoHomographyByItself) {
+TEST(HomographyFusion, AnInertialStepOfUnknownVelocityIsNotUsedAlone) {
   FusionInputs inputs(4);
   HomographyFusion fusion(kWidth, kHeight, {});
   const double unknown_velocity = 3.0 / kFrameRate;  // m in a frame, at 3 m/s

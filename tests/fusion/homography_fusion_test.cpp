@@ -74,7 +74,7 @@ TEST(HomographyFusion, OutliersWeakenVision) {
 }
 
 TEST(HomographyFusion, PaperPresetGivesThePapersGainInPixels) {
-  FusionParameters parameters = honestNoise();
+  FusionParameters parameters = consistentNoise();
   parameters.noise = FusionNoise::kPaper;
   parameters.gate_probability = 1 - 1e-12;
   HomographyFusion fusion = makeFusion(parameters);

@@ -1,4 +1,4 @@
-// What the fuzz targets share: LLVMFuzzerTestOneInput is called with one input
+// Common parts of the fuzz targets. LLVMFuzzerTestOneInput is called with one input
 // (llvm.org/docs/LibFuzzer.html), by libFuzzer or by replay_main.cpp.
 #pragma once
 
@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace redbee::fuzz {
 
-/// A folder of this process alone, gone at its end.
+/// A temporary folder of this process.
 class Folder {
  public:
   Folder() : path_(std::filesystem::temp_directory_path() / ("redbee_fuzz_" + std::to_string(getpid()))) {
@@ -36,7 +36,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// The input cut at lines that hold nothing but "%%": for targets that take several files.
+/// Splits the input at lines "%%", for targets that take several files.
 inline std::vector<std::string> parts(const uint8_t* data, size_t size, size_t count) {
   std::string rest(reinterpret_cast<const char*>(data), size);
   std::vector<std::string> result;

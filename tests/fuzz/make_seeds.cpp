@@ -34,7 +34,7 @@ void write(const fs::path& file, const Bytes& content) {
   write(file, std::string(content.begin(), content.end()));
 }
 
-/// A message as a recording holds it: time, channel's number in messages_fuzz, bytes.
+/// A message of a recording: time, channel's number in messages_fuzz, bytes.
 struct Event {
   int64_t utime;
   uint8_t channel;

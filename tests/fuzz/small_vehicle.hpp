@@ -25,8 +25,7 @@ inline Configuration smallVehicle() {
   configuration.camera = scenario.intrinsics;
   configuration.inertial.extrinsics = scenario.extrinsics;
   configuration.inertial.noise = scenario.imu.noise;
-  // Few points and draws: every input flies a whole stack, and an instrumented tracker takes most of its
-  // time.
+  // Few points and RANSAC iterations, as every input runs the whole stack.
   configuration.visual.tracker.grid_px = 8;
   configuration.visual.tracker.window_px = 5;
   configuration.visual.tracker.levels = 1;

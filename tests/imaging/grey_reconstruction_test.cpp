@@ -74,7 +74,7 @@ TEST(FillHoles, NothingFallsAndTheInputStays) {
   EXPECT_LE(most, 1);
 }
 
-TEST(FillHoles, AImageOfOnePixelAndAnEmptyMapStayAsTheyAre) {
+TEST(FillHoles, AnImageOfOnePixelAndAnEmptyMapAreUnchanged) {
   const cv::Mat one(1, 1, CV_32F, cv::Scalar(0.5));
   EXPECT_EQ(largestDifference(fillHoles(one, 7), one), 0);
   EXPECT_EQ(largestDifference(fillHoles(empty(), 7), empty()), 0);

@@ -16,7 +16,7 @@ TEST(Rectifier, PassesImagesOfAnIdealCameraThrough) {
   const cv::Mat image(48, 64, CV_8U, cv::Scalar(7));
   EXPECT_EQ(rectifier.toIdeal(image).data, image.data);
   EXPECT_EQ(rectifier.toRaw(image, 255).data, image.data);
-  EXPECT_TRUE(rectifier.unseen().empty());
+  EXPECT_TRUE(rectifier.unknown().empty());
 }
 
 TEST(Rectifier, MarksWhatAWideLensShowsBeyondTheIdealImage) {
@@ -38,9 +38,9 @@ TEST(Rectifier, MarksWhatAWideLensShowsBeyondTheIdealImage) {
 TEST(Rectifier, MarksWhatTheRawImageDoesNotShow) {
   CameraIntrinsics pincushion{640, 480, 500, 500, 319.5, 239.5, {0.2, 0, 0, 0, 0}};
   const Rectifier rectifier{Camera(pincushion)};
-  ASSERT_EQ(rectifier.unseen().size(), cv::Size(640, 480));
-  EXPECT_EQ(rectifier.unseen().at<uchar>(0, 0), 255);
-  EXPECT_EQ(rectifier.unseen().at<uchar>(240, 320), 0);
+  ASSERT_EQ(rectifier.unknown().size(), cv::Size(640, 480));
+  EXPECT_EQ(rectifier.unknown().at<uchar>(0, 0), 255);
+  EXPECT_EQ(rectifier.unknown().at<uchar>(240, 320), 0);
   const cv::Mat ideal = rectifier.toIdeal(cv::Mat(480, 640, CV_8U, cv::Scalar(90)));
   EXPECT_EQ(ideal.at<uchar>(0, 0), 0);
 }

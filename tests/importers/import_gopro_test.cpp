@@ -91,7 +91,7 @@ TEST(ImportGoproTest, AKarmaFlight) {
   EXPECT_LT(accel_error, 0.05);
 }
 
-/// The axes' signs against the autopilot's own velocity: whoever accelerates forward feels it forward.
+/// Checks the signs of the axes by the autopilot's velocity: forward acceleration is positive along x.
 TEST(ImportGoproTest, KarmaAccelerometerAgreesWithTheVelocityOfTheDrone) {
   const auto flight = sharedFlight("karma");
   if (!flight) GTEST_SKIP() << "the recorded flights are not here (REDBEE_SHARED)";

@@ -31,7 +31,7 @@ std::vector<ImuSample> gentleFlight(int samples) {
 std::vector<ImuSample> accepted(ImuSampleCheck& check, const std::vector<ImuSample>& samples) {
   std::vector<ImuSample> result;
   for (const ImuSample& sample : samples) {
-    for (const ImuSample& good : check.take(sample)) result.push_back(good);
+    for (const ImuSample& good : check.filter(sample)) result.push_back(good);
   }
   return result;
 }
@@ -74,7 +74,7 @@ TEST(ImuSampleCheck, AcceptsAManoeuvre) {
   EXPECT_EQ(refused(check), 0);
 }
 
-TEST(ImuSampleCheck, RefusesWhatTheRangeCutsOff) {
+TEST(ImuSampleCheck, RefusesSaturatedSamples) {
   ImuSampleCheck check({10, 80});
   std::vector<ImuSample> flight = gentleFlight(60);
   for (size_t i = 20; i < 30; ++i) flight[i].gyro.z() = -10;

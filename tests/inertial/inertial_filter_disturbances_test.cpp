@@ -23,7 +23,7 @@ TEST(InertialFilter, LateAndRepeatedSamplesChangeNothing) {
   }
 }
 
-TEST(InertialFilter, AHoleInTheImuIsBridgedWithAGrownCovariance) {
+TEST(InertialFilter, AnImuGapIsBridgedWithALargerCovariance) {
   const FilteredFlight flight(1, 8, ConsumerImu(1));
   InertialFilter filter(camera(), flight.parameters());
   const ImuTime begin = toImu(kStart, std::chrono::milliseconds(1020));

@@ -131,7 +131,7 @@ TEST(InertialFilter, LateAltitudesStillCount) {
   EXPECT_NEAR(result.height_m, flight.motion(frameTime(72), frameTime(73)).h_a, 0.2);
 }
 
-TEST(InertialFilter, RefusedVisionIsAcceptedAgainInTheEnd) {
+TEST(InertialFilter, RejectedVisionIsEventuallyAccepted) {
   const FilteredFlight flight(1, 8, ConsumerImu(1));
   InertialParameters parameters = flight.parameters();
   parameters.start_velocity_sigma = 0.05;  // and yet the drone flies at more than a metre a second

@@ -1,5 +1,5 @@
-// The filter on the rendered flights, whose IMU has bias, noise and a vibrating airframe: exact homographies
-// with pixel noise come back to it, and its own are held against the exact ones.
+// The filter on the rendered flights, whose IMU has bias, noise and airframe vibration: exact homographies
+// with pixel noise are fed back, and the filter's are compared with the exact ones.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -140,7 +140,7 @@ TEST(HealthMonitor, AMissingInputIsReportedAndHasNoRate) {
   EXPECT_EQ(health.nextMessage().state, 1);
 }
 
-TEST(HealthMonitor, StoppingIsNotOverwrittenByQuiet) {
+TEST(HealthMonitor, StoppingIsNotOverwrittenByAMissingInput) {
   HealthMonitor health("redbee-test", "");
   health.setInputSilence(9);
   health.setState(HealthState::kStopping);

@@ -15,7 +15,7 @@
 namespace redbee {
 namespace {
 
-/// Keeps what is published and hands out nothing.
+/// Stores published messages and delivers none.
 class RecordingBus : public Bus {
  public:
   using Bus::publish;

@@ -86,7 +86,7 @@ TEST_F(StageTest, WaitsForACompanionUntilTheLastMessage) {
   EXPECT_EQ(stage_->health().skipped(), 1) << "of more than three images the oldest is skipped";
   stage_->finish();
   EXPECT_EQ(stage_->heights, (std::vector<double>{-1, -1, -1}))
-      << "after the last message nothing is waited for";
+      << "after the last message nothing is pending";
   EXPECT_EQ(stage_->health().late(), 0);
 }
 

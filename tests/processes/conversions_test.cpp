@@ -9,7 +9,7 @@
 namespace redbee {
 namespace {
 
-TEST(Conversions, PointsThatLieNowhereAreLeftOut) {
+TEST(Conversions, DamagedPointsAreLeftOut) {
   tracks_t message{};
   message.x_previous = {1, std::numeric_limits<float>::quiet_NaN(), 3, 4};
   message.y_previous = {1, 2, 3, 4};

@@ -1,4 +1,5 @@
-// What a bus and its other users do to the stack: loss, doubles, disorder, other publishers, clocks.
+// Faults of the bus and of other publishers: lost, duplicate and reordered messages, other publishers,
+// clocks.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -31,13 +32,13 @@ void expectAllKindsSurvived(double probability, int within_frames) {
                {"lost, duplicated, reordered", {probability, probability, probability}}};
   unsigned seed = 1;
   for (const auto& kind : kinds) {
-    const StackOutput output = runLossy(calmFlight(), kind.faults, seed++);
-    expectRecovery(std::to_string(percent) + " % " + kind.name, output, calmFlight(), within_frames);
+    const StackOutput output = runLossy(undisturbedFlight(), kind.faults, seed++);
+    expectRecovery(std::to_string(percent) + " % " + kind.name, output, undisturbedFlight(), within_frames);
   }
 }
 
 TEST(BusFault, UndisturbedRunsAgree) {
-  const Damage damage = assess(StackRun(calmFlight()).run(), calmFlight());
+  const Damage damage = assess(StackRun(undisturbedFlight()).run(), undisturbedFlight());
   EXPECT_EQ(damage.frames_to_recovery, 0);
   EXPECT_EQ(damage.without_mask, 0);
   EXPECT_LT(damage.worst_px, 0.3);
@@ -48,7 +49,7 @@ TEST(BusFault, FivePercentOfPackets) { expectAllKindsSurvived(0.05, 24); }
 TEST(BusFault, TwentyPercentOfPackets) { expectAllKindsSurvived(0.2, 24); }
 
 TEST(BusFault, RandomBytesOnEveryChannel) {
-  StackFlight flight = calmFlight();
+  StackFlight flight = undisturbedFlight();
   std::mt19937 random(7);
   const Channels& c = flight.configuration.channels;
   std::vector<SensorMessage> with_rubbish;
@@ -68,9 +69,9 @@ TEST(BusFault, RandomBytesOnEveryChannel) {
   EXPECT_GE(output.health.at("redbee-imu-integration").damaged, kFaultEnd - kFaultBegin);
 }
 
-/// Well-formed, with wrong values: a bit flipped anywhere behind the hash.
+/// Decodable messages with wrong values: one bit flipped anywhere after the hash.
 TEST(BusFault, FlippedBitsInEveryKindOfMessage) {
-  StackFlight flight = calmFlight();
+  StackFlight flight = undisturbedFlight();
   std::mt19937 random(8);
   for (SensorMessage& sent : flight.messages) {
     if (!isDisturbed(flight, sent.utime) || random() % 20 != 0) continue;
@@ -81,7 +82,7 @@ TEST(BusFault, FlippedBitsInEveryKindOfMessage) {
 }
 
 TEST(BusFault, TimesThatNoClockShows) {
-  StackFlight flight = calmFlight();
+  StackFlight flight = undisturbedFlight();
   std::mt19937 random(9);
   const int64_t times[] = {
       std::numeric_limits<int64_t>::max(),    std::numeric_limits<int64_t>::min(),   0, -1,
@@ -101,8 +102,8 @@ TEST(BusFault, TimesThatNoClockShows) {
 
 TEST(BusFault, ACameraTimeThatNoClockShows) {
   for (const int64_t utime : {std::numeric_limits<int64_t>::max(), std::numeric_limits<int64_t>::min(),
-                              calmFlight().frame_utimes[0] + 3'600'000'000}) {
-    StackFlight flight = calmFlight();
+                              undisturbedFlight().frame_utimes[0] + 3'600'000'000}) {
+    StackFlight flight = undisturbedFlight();
     const SensorMessage first = *std::find_if(
         flight.messages.begin(), flight.messages.end(),
         [&](const SensorMessage& a) { return a.channel == "CAMERA" && a.utime == beginTime(flight); });
@@ -118,7 +119,7 @@ TEST(BusFault, ACameraTimeThatNoClockShows) {
 
 /// The clock of all sensors jumps ahead by five seconds for the stretch, and back after it.
 TEST(BusFault, ClocksThatJumpAheadAndBack) {
-  StackFlight flight = calmFlight();
+  StackFlight flight = undisturbedFlight();
   const auto shifted = [](int64_t utime) { return utime + 5'000'000; };
   flight = withChanged<image_t>(flight, "CAMERA", [&](image_t& m) { m.utime = shifted(m.utime); });
   flight = withChanged<ins_t>(flight, "IMU", [&](ins_t& m) { m.utime = shifted(m.utime); });
@@ -128,12 +129,12 @@ TEST(BusFault, ClocksThatJumpAheadAndBack) {
 
 TEST(BusFault, TheImusClockAloneJumps) {
   const StackFlight flight =
-      withChanged<ins_t>(calmFlight(), "IMU", [](ins_t& m) { m.utime += 3'600'000'000; });
+      withChanged<ins_t>(undisturbedFlight(), "IMU", [](ins_t& m) { m.utime += 3'600'000'000; });
   expectRecovery("the IMU's clock is an hour ahead", StackRun(flight).run(), flight, 30);
 }
 
 StackFlight withSecondPublisher(const std::string& channel, int64_t delay_us) {
-  StackFlight flight = calmFlight();
+  StackFlight flight = undisturbedFlight();
   std::vector<SensorMessage> both = flight.messages;
   for (const SensorMessage& sent : flight.messages) {
     if (sent.channel != channel || !isDisturbed(flight, sent.utime)) continue;
@@ -165,7 +166,7 @@ TEST(BusFault, TwoPublishersOnOneChannel) {
 
 /// The whole stack started twice by mistake: every process publishes twice on each channel.
 TEST(BusFault, TwoStacksAtOnce) {
-  const StackFlight& flight = calmFlight();
+  const StackFlight& flight = undisturbedFlight();
   const auto bus = makeLcmBus("memq://");
   std::unique_ptr<KillableStack> second;
   bool over = false;

@@ -1,4 +1,4 @@
-// How the stack takes sensors that fail and go on publishing.
+// Faulty sensors that keep publishing.
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
@@ -25,10 +25,10 @@ int complaints(const StackOutput& output, const StackFlight& flight) {
 }
 
 StackFlight withChangedImu(const std::function<void(ins_t&)>& change) {
-  return withChanged<ins_t>(calmFlight(), "IMU", change);
+  return withChanged<ins_t>(undisturbedFlight(), "IMU", change);
 }
 StackFlight withChangedImages(const std::function<void(cv::Mat&)>& change) {
-  return withChanged<image_t>(calmFlight(), "CAMERA", [&](image_t& m) {
+  return withChanged<image_t>(undisturbedFlight(), "CAMERA", [&](image_t& m) {
     cv::Mat grey = decodeGrey(m).value();
     change(grey);
     m = rawGreyMessage(m.utime, grey);
@@ -36,7 +36,7 @@ StackFlight withChangedImages(const std::function<void(cv::Mat&)>& change) {
 }
 
 TEST(SensorFault, ImuGaps) {
-  StackFlight flight = calmFlight();
+  StackFlight flight = undisturbedFlight();
   const int64_t begin = beginTime(flight);
   const auto is_in_gap = [&](const SensorMessage& a) {
     return a.channel == "IMU" && isDisturbed(flight, a.utime) && (a.utime - begin) % 300'000 < 200'000;
@@ -116,7 +116,7 @@ TEST(SensorFault, ImuNotANumber) {
 
 TEST(SensorFault, AltimeterWrong) {
   const StackFlight flight =
-      withChanged<altimeter_t>(calmFlight(), "ALTIMETER", [](altimeter_t& m) { m.height *= 3; });
+      withChanged<altimeter_t>(undisturbedFlight(), "ALTIMETER", [](altimeter_t& m) { m.height *= 3; });
   const Damage damage = expectRecovery("altimeter three times too high", StackRun(flight).run(), flight, 24);
   EXPECT_LT(damage.worst_px, 2) << "what the filter does not know any more is not published as known";
 }
@@ -140,7 +140,7 @@ TEST(SensorFault, BlackFrames) {
   const StackFlight flight = withChangedImages([](cv::Mat& grey) { grey.setTo(0); });
   const StackOutput output = StackRun(flight).run();
   const Damage damage = expectRecovery("black frames", output, flight, 30);
-  EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "a black image has no trusted mask";
+  EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "a black image has no GOOD mask";
 }
 
 TEST(SensorFault, NoiseInsteadOfImages) {
@@ -148,11 +148,11 @@ TEST(SensorFault, NoiseInsteadOfImages) {
   const StackFlight flight =
       withChangedImages([&](cv::Mat& grey) { random.fill(grey, cv::RNG::UNIFORM, 0, 255); });
   const Damage damage = expectRecovery("noise instead of images", StackRun(flight).run(), flight, 30);
-  EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "noise has no trusted mask";
+  EXPECT_EQ(damage.without_mask, kFaultEnd - kFaultBegin) << "noise has no GOOD mask";
 }
 
 TEST(SensorFault, CutShortJpegs) {
-  const StackFlight flight = withChanged<image_t>(calmFlight(), "CAMERA", [](image_t& m) {
+  const StackFlight flight = withChanged<image_t>(undisturbedFlight(), "CAMERA", [](image_t& m) {
     m = jpegMessage(m.utime, decodeGrey(m).value(), 80);
     m.data.resize(m.data.size() / 3);
     m.size = static_cast<int32_t>(m.data.size());

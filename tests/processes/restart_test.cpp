@@ -1,5 +1,5 @@
-// A process of the stack is killed in the middle of a flight and comes back: in flight time, and the same on
-// every machine. What supervisor adds is in tests/integration/survives_kills.
+// A process of the stack is killed during a flight and restarted: in flight time, so reproducible on every
+// machine. tests/integration/survives_kills includes supervisor.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -26,7 +26,7 @@ struct RunResult {
   StackOutput output;
 };
 
-/// `kills`: who dies at which frame; each is back kDownFrames later.
+/// `kills`: the process killed at each frame; it is restarted kDownFrames later.
 RunResult flyWith(const StackFlight& flight, const std::map<int, const ProcessDescription*>& kills) {
   const auto bus = makeLcmBus("memq://");
   RunResult result;
@@ -59,8 +59,7 @@ bool isGood(const StackOutput& output, int k) {
   return it != output.foreground.end() && it->second.status == 0;
 }
 
-/// How long nothing trusted was published, in frames that had been sent by then: what an autopilot
-/// sees.
+/// Longest time without a GOOD mask, in frames sent: what an autopilot observes.
 int framesWithoutMask(const RunResult& result, int killed_at) {
   int longest = 0;
   int last = killed_at;
@@ -78,7 +77,7 @@ int untrusted(const StackOutput& output, int from, int to) {
   return count;
 }
 
-/// No mask that is called good is wilder than a few percent of the image.
+/// No GOOD mask has more than a few percent of false area.
 void expectNoWrongMask(const StackOutput& output) {
   for (int k = 0; k < kFrames; ++k) {
     if (!isGood(output, k)) continue;
@@ -111,7 +110,7 @@ struct Case {
   const char* name;
   const ProcessDescription* killed;
   int without_mask;  ///< frames in a row at most, 24 a second
-  int never;         ///< frames at most that never get a trusted mask
+  int never;         ///< limit of the number of frames that never get a GOOD mask
 };
 
 class ProcessKilled : public testing::TestWithParam<Case> {};
@@ -122,7 +121,7 @@ TEST_P(ProcessKilled, TheOthersContinueAndNoWrongMaskIsPublished) {
   expectNoWrongMask(result.output);
   const int without_mask = framesWithoutMask(result, kKilledAt - 1);
   const int lost = untrusted(result.output, kKilledAt, kFrames - 10);
-  std::cout << c.name << ": " << without_mask << " frames without a trusted mask, " << lost
+  std::cout << c.name << ": " << without_mask << " frames without a GOOD mask, " << lost
             << " never got one\n";
   EXPECT_LE(without_mask, c.without_mask);
   EXPECT_LE(lost, c.never);
@@ -141,16 +140,16 @@ INSTANTIATE_TEST_SUITE_P(Each, ProcessKilled,
                                          Case{"segmentation", &kMotionSegmentation, 24, 16}),
                          [](const auto& each) { return each.param.name; });
 
-/// An overloaded machine does this: the IMU's homographies come in time, vision's do not, and the filter
-/// does not know how fast the drone is.
-TEST(ProcessesStart, WithoutVisionNoWrongMaskIsCalledGood) {
+/// As on an overloaded machine: inertial homographies arrive in time, visual ones do not, and the filter's
+/// velocity is unknown.
+TEST(ProcessesStart, WithoutVisionNoWrongMaskIsGood) {
   const RunResult result = flyWith(walk(), {{0, &kVisualHomography}});
   expectNoWrongMask(result.output);
   for (int k = 0; k < kDownFrames; ++k) EXPECT_FALSE(isGood(result.output, k)) << "frame " << k;
   EXPECT_EQ(untrusted(result.output, kKilledAt, kFrames), 0);
 }
 
-TEST(RestartedTracker, GivesNoIdentityTwice) {
+TEST(RestartedTracker, NeverReusesAnIdentity) {
   const ScratchFolder folder;
   TrackIdStore first(folder.path() / "identities");
   EXPECT_EQ(first.globalId(1), 1);
@@ -162,7 +161,7 @@ TEST(RestartedTracker, GivesNoIdentityTwice) {
   EXPECT_EQ(third.globalId(2), 10);
 }
 
-TEST(RestartedTracker, WhatCannotBeReadOrWrittenEndsNoFlight) {
+TEST(RestartedTracker, FileErrorsDoNotEndTheFlight) {
   const ScratchFolder folder;
   std::ofstream(folder.path() / "identities") << "seven";
   EXPECT_EQ(TrackIdStore(folder.path() / "identities").globalId(1), 1);

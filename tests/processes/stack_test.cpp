@@ -75,7 +75,7 @@ int falsePixels(const StackOutput& output, const StackFlight& flight, int k) {
   return cv::countNonZero(mask & (truth == 0));
 }
 
-/// No mask of a frame that is called good is wilder than a few percent of the image.
+/// No GOOD mask has more than a few percent of false area.
 void expectNoWrongMaskCalledGood(const StackOutput& output, const StackFlight& flight) {
   for (int k = 0; k < static_cast<int>(flight.frame_utimes.size()); ++k) {
     if (status(output, flight, k) != 0) continue;
@@ -90,7 +90,7 @@ void expectRecovered(const StackOutput& output, const StackFlight& flight, int f
   for (int k = from; k < kFrames; ++k) EXPECT_EQ(status(output, flight, k), 0) << "frame " << k;
 }
 
-TEST(Stack, FollowsTheGroundAndAnswersEveryFrame) {
+TEST(Stack, FollowsTheGroundAndPublishesEveryFrame) {
   const StackOutput& output = undisturbedOutput();
   const Accuracy all = accuracy(output, undisturbed(), 1, kFrames);
   std::cout << "fused ground homography: " << all.mean_px << " px mean transfer error over " << kFrames - 1
@@ -199,7 +199,7 @@ TEST(Stack, AClockThatIsSetBackRestarts) {
   }
   for (int k = 30; k < kFrames; ++k) flight.frame_utimes[static_cast<size_t>(k)] += jump;
   const StackOutput output = StackRun(flight).run();
-  EXPECT_NE(status(output, flight, 30), 0) << "the first frame after the jump has no trusted mask";
+  EXPECT_NE(status(output, flight, 30), 0) << "the first frame after the jump has no GOOD mask";
   expectNoWrongMaskCalledGood(output, flight);
   expectRecovered(output, flight, 50);
 }
@@ -223,7 +223,7 @@ TEST(Stack, ACalibrationThatDoesNotFitIsReported) {
       expSO3({0, 0, M_PI / 2}) *
       flight.configuration.inertial.extrinsics.R_CI;  // axes swapped, the usual mistake
   const StackOutput wrong = StackRun(flight).run();
-  // The fusion decides; its message carries the verdict to the processes that work with it.
+  // The fusion decides; its message passes the result on to other processes.
   for (const ProcessDescription* process : {&kImuIntegration, &kHomographyFusion, &kMotionSegmentation}) {
     EXPECT_EQ(right.health.at(programName(*process)).calibration, "fits") << process->name;
     EXPECT_NE(wrong.health.at(programName(*process)).calibration, "fits") << process->name;

@@ -1,4 +1,4 @@
-// An inertial process that is killed in flight is warm-started from what the flight had learned.
+// An inertial process that is killed in flight is warm-started from the filter snapshot.
 #include <gtest/gtest.h>
 
 #include "tests/support/warm_start_run.hpp"
@@ -38,7 +38,7 @@ TEST(WarmStart, ARestartedProcessKnowsWhatTheFlightHasLearned) {
   EXPECT_LT(with.second_px, 0.6 * without.second_px);
 }
 
-/// Otherwise a process that dies as soon as it is started would overwrite what was learned.
+/// Otherwise a process that crashes right after its start would overwrite the snapshot.
 TEST(WarmStart, IsNotPublishedBeforeAnythingWasLearned) {
   const WarmStartFlight flight(1);
   FaultInjection dropped;
@@ -62,8 +62,9 @@ TEST(WarmStart, ServesForSecondsAndNoLonger) {
   EXPECT_NE(after_more.log.find("too old"), std::string::npos) << after_more.log;
 }
 
-/// One machine flies, the other replays its recording: nothing is offered where nobody has died.
-TEST(WarmStart, IsOfferedToNobodyWhereNobodyDies) {
+/// Without a restart no warm start is published, for instance while a recording is replayed beside the
+/// flight.
+TEST(WarmStart, IsNotPublishedWithoutARestart) {
   const WarmStartFlight flight(1);
   FaultInjection none;
   none.restarted_at = -1;
@@ -73,14 +74,14 @@ TEST(WarmStart, IsOfferedToNobodyWhereNobodyDies) {
   EXPECT_EQ(result.offers, 0);
 }
 
-/// A filter that vision contradicts has diverged: its state must not outlive it.
+/// The state of a filter that vision contradicts has diverged and must not be restored.
 TEST(WarmStart, AStateThatVisionContradictsIsNotPublished) {
   const WarmStartFlight flight(1);
   constexpr int kWrongFrom = 180;
   FaultInjection faults;
   faults.corrupt_vision = [](int k, visual_homography_t& m) {
     if (k < kWrongFrom) return;
-    // The image rolls to and fro while the gyro measures no such rotation.
+    // The image rolls back and forth while the gyro measures no such rotation.
     const Eigen::Vector3d roll(0, 0, k % 2 == 0 ? 0.5 : -0.5);
     const Eigen::Matrix3d K = camera().K();
     fill(m.ground.H, normaliseHomography(K * expSO3(roll) * K.inverse() * matrix3(m.ground.H)));
@@ -96,8 +97,7 @@ TEST(WarmStart, AStateThatVisionContradictsIsNotPublished) {
   EXPECT_NE(result.log.find("too old"), std::string::npos) << result.log;
 }
 
-/// Plausible, and yet wrong by a factor of two: no check finds it. It costs no more than a wrong
-/// configuration.
+/// Plausible, but wrong by a factor of two: no check detects it. It is no worse than a wrong configuration.
 TEST(WarmStart, AWrongHeightThatCouldBeRightIsCorrected) {
   for (const bool altimeter : {false, true}) {
     const WarmStartFlight flight(2, altimeter);

@@ -1,6 +1,6 @@
-// restart_trial: flies the endless flight into a running stack, kills its processes (-9) at random moments,
-// in turn, and compares the output with the truth. Exit 1 where something that is promised did not hold.
-// Times are printed without a limit: the machine may be busy with other things.
+// restart_trial: publishes the endless flight to a running stack, kills its processes (SIGKILL) at random
+// times, in turn, and compares the output with the truth. Exit status 1 if a requirement is not met. Times
+// are printed but not checked, as the machine may be busy.
 #include <signal.h>
 
 #include <CLI/CLI.hpp>

@@ -93,7 +93,7 @@ TEST(RunFolder, PreparingRemovesTheMapsOfAnEarlierRun) {
   EXPECT_TRUE(run.times(RunMap::kProbability).empty());
 }
 
-TEST(RunFolder, ComplaintsNameTheFile) {
+TEST(RunFolder, ErrorsNameTheFile) {
   const ScratchFolder folder;
   const RunFolder run(folder.path());
   EXPECT_NE(errorMessageOf([&] { run.times(RunMap::kMask); }).find("mask: no such folder"),

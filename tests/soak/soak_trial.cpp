@@ -1,6 +1,6 @@
-// soak_trial: flies the endless flight (tests/support/endless_flight.hpp) into a running stack for a given
-// time, and checks the health messages: does memory grow, do the frames take longer and longer, is anything
-// lost. Exit 1 where it does.
+// soak_trial: publishes the endless flight (tests/support/endless_flight.hpp) to a running stack for a given
+// time, and checks by the health messages that neither memory nor processing time grows and no message is
+// lost. Exit status 1 otherwise.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>

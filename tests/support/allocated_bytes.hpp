@@ -1,5 +1,4 @@
-// What is allocated now. Resident memory would measure the same in an ordinary build, but a sanitizer's
-// shadow and quarantine count there as well.
+// Bytes currently allocated. Unlike resident memory this excludes a sanitizer's shadow memory and quarantine.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +14,7 @@
 #endif
 
 #ifdef REDBEE_SANITIZER_ALLOCATES
-// GCC brings the function without clang's <sanitizer/allocator_interface.h>.
+// GCC has the function, but not clang's <sanitizer/allocator_interface.h>.
 extern "C" size_t __sanitizer_get_current_allocated_bytes();
 #else
 #include <malloc.h>

@@ -1,4 +1,4 @@
-// A small flight in the ASL layout, which a test may damage before it is imported.
+// A small flight in the ASL layout, which tests may damage before importing it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace redbee::test {
 
 inline constexpr int64_t kAslStart = 1'600'000'000'000'000'000;  // ns
 
-/// A whole ASL flight of five frames at 20 Hz, IMU at 200 Hz, altimeter at 10 Hz; the tests damage it.
+/// An ASL flight of five frames at 20 Hz, IMU at 200 Hz, altimeter at 10 Hz.
 class AslFolder : public testing::Test {
  protected:
   AslFolder() {
@@ -57,7 +57,7 @@ class AslFolder : public testing::Test {
     options.log = log();
     return aslImporter().import(options, progress);
   }
-  /// The complaint; fails where it holds more than one line or leaves a log behind.
+  /// The import's error message. The test fails if it has several lines or a log is left behind.
   std::string errorMessage() const {
     std::string line = errorMessageOf([&] { import(); });
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;

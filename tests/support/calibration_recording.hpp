@@ -1,5 +1,5 @@
-// Calibration inputs with a known truth, without images: ground points moved by the exact homographies of
-// an analytic flight.
+// Simulated calibration inputs without images: ground points moved by the exact homographies of an analytic
+// trajectory.
 #pragma once
 
 #include <cmath>
@@ -83,8 +83,8 @@ inline PointTracks simulatedPoints(const Eigen::Matrix3d& H, const CameraIntrins
   return tracks;
 }
 
-/// Camera looking 60 degrees down; mounted 1.5 to 3.5 degrees off and 5 cm away from nominal, time shift up
-/// to 8 ms: all by the seed.
+/// Camera pitched 60 degrees down; the true mounting deviates by 1.5 to 3.5 degrees and 5 cm from nominal,
+/// time shift up to 8 ms, depending on the seed.
 inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajectory, unsigned seed,
                                             const RecordingOptions& options = {}) {
   std::mt19937 random(1000 + seed);

@@ -12,7 +12,7 @@ inline constexpr int kHeight = 480;  ///< px
 inline CameraIntrinsics intrinsics() { return {kWidth, kHeight, 500, 500, 319.5, 239.5, {}}; }
 inline Camera camera() { return Camera(intrinsics()); }
 
-/// The same view in a quarter of the pixels, for flights that need to be cheap and no detail.
+/// The same view with a quarter of the pixels, for faster tests.
 inline CameraIntrinsics halved(CameraIntrinsics half) {
   half.width /= 2;
   half.height /= 2;

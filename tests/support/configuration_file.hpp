@@ -1,4 +1,4 @@
-// Vehicle files written by a test, and the complaint about bad ones.
+// Vehicle files written by a test, and the error messages for invalid ones.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ inline const fs::path kConfigFolder = fs::path(REDBEE_SOURCE_DIR) / "config";
 inline constexpr const char* kCamera =
     "camera: {width: 640, height: 480, fx: 500, fy: 500, cx: 319.5, cy: 239.5}\n";
 
-/// A folder of its own for every test.
+/// Each test has its own folder.
 class ConfigurationFile : public testing::Test {
  protected:
   fs::path write(const std::string& name, const std::string& text) const {
@@ -24,7 +24,7 @@ class ConfigurationFile : public testing::Test {
     return folder_ / name;
   }
   Configuration load(const std::string& text) const { return loadConfiguration(write("vehicle.yaml", text)); }
-  /// The complaint about vehicle.yaml, without the folder.
+  /// The error message for vehicle.yaml, without the folder.
   std::string errorMessage(const std::string& text) const {
     try {
       load(text);

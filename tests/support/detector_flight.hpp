@@ -1,5 +1,5 @@
-// A rendered flight with its exact homographies as a detector's input, and the detector's output against the
-// truth.
+// A rendered flight with its exact homographies as input of a detector, and comparison of the detector's
+// output with the truth.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ struct DetectorFlight {
   std::vector<FrameInput> inputs;
   std::vector<simulation::RenderedImage> truths;
 
-  /// `front_patch`: the surface whose homography is given as the front plane's; nothing gives none.
+  /// `front_patch`: the patch whose homography is used as the front plane's, if any.
   DetectorFlight(const simulation::Scenario& scenario, int frames, std::optional<size_t> front_patch = {}) {
     const RenderedFlight flight(scenario, frames);
     TrackerParameters dense;
@@ -43,7 +43,7 @@ struct DetectorFlight {
   }
 };
 
-/// Pixels, pooled over frames.
+/// Pixel counts over all frames.
 struct PixelCounts {
   double mover = 0, found = 0;        ///< of the movers, and of these in the mask
   double static_ = 0, false_ = 0;     ///< of everything else, and of these in the mask
@@ -73,8 +73,8 @@ struct PixelCounts {
   }
 };
 
-/// `change` may alter an input before it is used (drop the motion). The first frames, while things settle, do
-/// not count.
+/// `change` may modify inputs (e.g. remove the motion). The first frames, while the background is learned,
+/// are not counted.
 inline PixelCounts detect(const DetectorFlight& flight, const DetectionParameters& parameters, size_t patch,
                           const std::function<void(FrameInput&)>& change = {}) {
   const auto detector = makeDetector(parameters);

@@ -1,5 +1,5 @@
-// A flight without end from a few seconds of images: trajectory and traffic repeat themselves smoothly, so
-// that image k follows image k - 1 for ever and the truth about every frame is known.
+// An endless flight from a loop of images: trajectory and traffic are periodic, so that images continue
+// smoothly and the truth of every frame is known.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr int kFps = 24;
 constexpr int kLoopFrames = kPeriod_s * kFps;
 constexpr int kCarsInLane = 9;
 
-/// A drone that sways over a road. Every frequency is a multiple of 1 / kPeriod_s.
+/// A drone swaying over a road. All frequencies are multiples of 1 / kPeriod_s.
 inline simulation::Trajectory swaying() {
   constexpr double f = 1.0 / kPeriod_s;
   simulation::TrajectoryParameters p;
@@ -48,7 +48,7 @@ inline simulation::Scenario endlessScenario() {
   s.frames = kLoopFrames;
   s.fps = kFps;
   for (const Lane& lane : lanes()) {
-    // Equal cars in a row: after one period each is where the one ahead of it was.
+    // Identical cars in a row: after one period each is at the place of the next one.
     for (int i = 0; i < kCarsInLane; ++i) {
       const int from_middle = i - kCarsInLane / 2;
       const double y_m = from_middle * std::abs(lane.speed) * kPeriod_s;
@@ -62,11 +62,11 @@ inline simulation::Scenario endlessScenario() {
   return s;
 }
 
-/// What is true of one frame of the endless flight.
+/// Ground truth of one frame.
 struct FrameTruth {
   cv::Mat moving;  ///< CV_8U, not 0 on movers
   std::map<int, cv::Rect>
-      cars;  ///< by car, boxes of those of which enough is in view; a car keeps its number
+      cars;  ///< boxes of sufficiently visible cars, by a number that is unique over all loops
 };
 
 class EndlessFlight {

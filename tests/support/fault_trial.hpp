@@ -1,9 +1,7 @@
-// A flight that is disturbed for a stretch in its middle, compared with the same flight undisturbed: how far
-// off the stack was meanwhile, and how many frames it took to agree again.
-//
-// Agreement of a frame: homography from both sources and within kSamePx of the undisturbed one, the mask
-// trusted and, where there is something to compare, overlapping the undisturbed one by kSameIoU. Not to the
-// bit: filters remember.
+// Compares a flight that is disturbed for one second with the undisturbed flight: errors during the
+// disturbance, and number of frames until recovery. A frame agrees if its homography is fused from the same
+// sources and within kSamePx of the undisturbed one, its mask is GOOD and overlaps the undisturbed one by
+// kSameIoU. Exact equality cannot be expected, as filters have memory.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,25 +19,25 @@ namespace redbee::test {
 
 constexpr int kFaultFrames = 110;
 constexpr int kFaultBegin = 40;  ///< the first frame that is disturbed
-constexpr int kFaultEnd = 64;    ///< the first that is not: one second
+constexpr int kFaultEnd = 64;    ///< the first frame after the disturbance: one second
 constexpr int kFaultWidth = 320;
 constexpr int kFaultHeight = 240;
 constexpr double kSamePx = 0.15;
 constexpr double kSameIoU = 0.6;
-constexpr int kComparablePx = 60;  ///< masks smaller than this (union) are not compared by their overlap
+constexpr int kComparablePx = 60;  ///< the overlap of smaller masks (union) is not compared
 
-/// A car over grass beside a facade, seen by a camera of a quarter of the usual pixels: fast to simulate.
+/// A car on grass beside a facade, at half the usual resolution.
 inline StackFlight faultFlight() {
   StackFlight flight = stackFlight(halfSize(simulation::twoPlanes(3)), kFaultFrames);
   flight.configuration.visual.tracker.grid_px = 8;
   return flight;
 }
-inline const StackFlight& calmFlight() {
+inline const StackFlight& undisturbedFlight() {
   static const StackFlight flight = faultFlight();
   return flight;
 }
-inline const StackOutput& calmOutput() {
-  static const StackOutput output = StackRun(calmFlight()).run();
+inline const StackOutput& undisturbedOutput() {
+  static const StackOutput output = StackRun(undisturbedFlight()).run();
   return output;
 }
 
@@ -57,24 +55,25 @@ inline bool agrees(const StackOutput& output, const StackOutput& expected, int64
   const auto fused = output.fused.find(utime);
   const auto foreground = output.foreground.find(utime);
   if (fused == output.fused.end() || foreground == output.foreground.end()) return false;
-  const fused_homography_t& calm = expected.fused.at(utime);
-  if (fused->second.source != calm.source || fused->second.utime_previous != calm.utime_previous)
+  const fused_homography_t& undisturbed = expected.fused.at(utime);
+  if (fused->second.source != undisturbed.source ||
+      fused->second.utime_previous != undisturbed.utime_previous)
     return false;
-  const Eigen::Matrix3d H = Eigen::Map<const RowMajor3d>(calm.step.H);
+  const Eigen::Matrix3d H = Eigen::Map<const RowMajor3d>(undisturbed.step.H);
   if (groundError(fused->second, H) > kSamePx || foreground->second.status != 0) return false;
   const cv::Mat mask = maskOf(foreground->second);
-  const cv::Mat calm_mask = maskOf(expected.foreground.at(utime));
-  const int both = cv::countNonZero(mask | calm_mask);
-  return both < kComparablePx || cv::countNonZero(mask & calm_mask) >= kSameIoU * both;
+  const cv::Mat undisturbed_mask = maskOf(expected.foreground.at(utime));
+  const int both = cv::countNonZero(mask | undisturbed_mask);
+  return both < kComparablePx || cv::countNonZero(mask & undisturbed_mask) >= kSameIoU * both;
 }
 
-/// What a disturbance did.
+/// Effect of a disturbance.
 struct Damage {
-  int frames_to_recovery = 0;       ///< after the disturbance's last frame, until all that follow agree
-  double worst_px = 0;              ///< homography against the truth, of disturbed frames that have one
+  int frames_to_recovery = 0;       ///< after the disturbance, until all following frames agree
+  double worst_px = 0;              ///< largest error of the homography in disturbed frames
   int without_homography = 0;       ///< disturbed frames
-  int without_mask = 0;             ///< disturbed frames without a trusted mask
-  double worst_false_fraction = 0;  ///< of the image, in masks that are called good
+  int without_mask = 0;             ///< disturbed frames without a GOOD mask
+  double worst_false_fraction = 0;  ///< of the image, in masks with status GOOD
 };
 
 inline Damage assess(const StackOutput& output, const StackFlight& flight) {
@@ -91,7 +90,8 @@ inline Damage assess(const StackOutput& output, const StackFlight& flight) {
           std::max(damage.worst_false_fraction,
                    cv::countNonZero(wrong) / static_cast<double>(kFaultWidth * kFaultHeight));
     }
-    if (k >= kFaultEnd && !agrees(output, calmOutput(), utime)) damage.frames_to_recovery = k - kFaultEnd + 1;
+    if (k >= kFaultEnd && !agrees(output, undisturbedOutput(), utime))
+      damage.frames_to_recovery = k - kFaultEnd + 1;
     if (!disturbed) continue;
     damage.without_mask += trusted ? 0 : 1;
     const bool has_homography = fused != output.fused.end() && fused->second.source != 0;
@@ -106,8 +106,8 @@ inline Damage assess(const StackOutput& output, const StackFlight& flight) {
   return damage;
 }
 
-/// Prints the figures, and holds the stack to them: recovered within `within_frames`, and never a wild mask
-/// that is called good.
+/// Prints the figures and checks them: recovery within `within_frames`, and no GOOD mask with more than
+/// `most_false_fraction` false area.
 inline Damage expectRecovery(const std::string& fault, const StackOutput& output, const StackFlight& flight,
                              int within_frames, double most_false_fraction = 0.04) {
   const Damage damage = assess(output, flight);
@@ -117,11 +117,12 @@ inline Damage expectRecovery(const std::string& fault, const StackOutput& output
       fault.c_str(), damage.frames_to_recovery, kFaultEnd - kFaultBegin, damage.without_homography,
       damage.worst_px, damage.without_mask, 100 * damage.worst_false_fraction);
   EXPECT_LE(damage.frames_to_recovery, within_frames) << fault;
-  EXPECT_LT(damage.worst_false_fraction, most_false_fraction) << fault << ": a wrong mask was called good";
+  EXPECT_LT(damage.worst_false_fraction, most_false_fraction)
+      << fault << ": a wrong mask has the status GOOD";
   return damage;
 }
 
-/// The flight with every sent of `channel` in the disturbed stretch passed through `change`.
+/// The flight with `change` applied to the messages of `channel` during the disturbance.
 template <typename Message>
 StackFlight withChanged(StackFlight flight, const std::string& channel,
                         const std::function<void(Message&)>& change) {

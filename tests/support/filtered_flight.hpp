@@ -1,5 +1,4 @@
-// A simulated flight through the inertial filter: what the filter is given, and what its homographies are
-// worth.
+// A simulated flight for the inertial filter: its inputs and the errors of its homographies.
 #pragma once
 
 #include <random>
@@ -21,16 +20,16 @@ struct FilteredFlight : SimulatedFlight {
     p.extrinsics = extrinsics;
     p.noise = consumerNoise();
     p.start_velocity_sigma = 2;
-    p.feedback_correlation_frames = 1;  // the simulated corrections err independently
+    p.feedback_correlation_frames = 1;  // errors of the simulated corrections are independent
     return p;
   }
-  /// A filter that has all samples.
+  /// A filter with all samples added.
   InertialFilter filter(const InertialParameters& with) const {
     InertialFilter filter(camera(), with);
     for (const ImuSample& sample : samples) filter.addImu(sample);
     return filter;
   }
-  /// What vision measures of the same step, with 0.3 px of noise.
+  /// Simulated visual measurement of the same step, with 0.3 px of noise.
   HomographyObservation observe(const InertialHomography& result, std::mt19937& random) const {
     HomographyObservation z = noisyHomography(homography(result.time_previous, result.time), 0.3, random);
     z.time_previous = result.time_previous;

@@ -1,4 +1,4 @@
-// What the fusion is given on a simulated flight.
+// Simulated inputs of the fusion.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +13,7 @@
 
 namespace redbee::test {
 
-/// Of the whole image [px].
+/// Homography of a shift of the whole image [px].
 inline Eigen::Matrix3d translation(double x_px, double y_px = 0) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Identity();
   H(0, 2) = x_px;
@@ -21,14 +21,14 @@ inline Eigen::Matrix3d translation(double x_px, double y_px = 0) {
   return H;
 }
 
-/// Measurements of a simulated flight, by frame numbers, whose covariances are true.
+/// Simulated measurements between frame numbers, with correct covariances.
 class FusionInputs {
  public:
   explicit FusionInputs(unsigned seed) : flight_(seed, 8), random_(seed), scaling_(kWidth, kHeight) {}
 
   Eigen::Matrix3d exact(int a, int b) const { return flight_.homography(frameTime(a), frameTime(b)); }
 
-  /// The errors of an IMU: rotation and translation, hence a covariance of another shape than vision's.
+  /// With IMU errors, in rotation and translation; the covariance differs in shape from vision's.
   InertialInput inertial(int a, int b, double rotation_sigma = 4e-4, double translation_sigma = 6e-3) {
     const PlaneMotion motion = flight_.motion(frameTime(a), frameTime(b));
     const PlaneHomographyJacobians J = planeHomographyJacobians(scaling_.T * camera().K(), motion);
@@ -40,8 +40,7 @@ class FusionInputs {
     return {frameTime(a), disturbed(exact(a, b), covariance), covariance};
   }
 
-  /// The errors of tracking: pixel noise on `points` points of the lower left quarter, extrapolated to the
-  /// rest.
+  /// With tracking errors: pixel noise of points in the lower left quarter, extrapolated to the rest.
   VisualInput visual(int a, int b, double sigma_px = 0.4, int inliers = 300, int outliers = 100) {
     const Eigen::Matrix3d H = scaling_.scale(exact(a, b));
     Matrix8d information = Matrix8d::Zero();
@@ -81,14 +80,14 @@ class FusionInputs {
   ImageScaling scaling_;
 };
 
-/// The simulated covariances are the true ones and need no inflation.
-inline FusionParameters honestNoise() {
+/// The simulated covariances are correct and need no inflation.
+inline FusionParameters consistentNoise() {
   FusionParameters parameters;
   parameters.visual_inflation = 1;
   return parameters;
 }
 
-inline HomographyFusion makeFusion(const FusionParameters& parameters = honestNoise()) {
+inline HomographyFusion makeFusion(const FusionParameters& parameters = consistentNoise()) {
   HomographyFusion fusion(kWidth, kHeight, parameters);
   fusion.step(frameTime(0), std::nullopt, std::nullopt);
   return fusion;

@@ -1,4 +1,4 @@
-// GPMF payloads as a camera writes them, built byte by byte.
+// Builds GPMF payloads as a camera writes them.
 #pragma once
 
 #include <cstdint>

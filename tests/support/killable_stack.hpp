@@ -1,4 +1,4 @@
-// The nodes of the process table on one bus, any of which may be killed and started again in flight time.
+// The nodes of the process table on one bus; each can be killed and restarted during a flight.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Publishes the endless flight at its own speed, or so many times faster, as a vehicle's drivers would.
+// Publishes the endless flight at `speed` times real time, like the drivers of a vehicle.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@ class LivePlayer {
                                                s.altimeter.rate_hz, s.altimeter.sigma_m, s.altimeter.seed);
   }
 
-  /// Everything that is due by now.
+  /// Publishes all messages due by now.
   void publishDue() {
     const std::chrono::duration<double, std::micro> elapsed = Clock::now() - start_;
     const Duration until =

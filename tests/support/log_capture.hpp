@@ -1,4 +1,4 @@
-// What this process logs while a test runs.
+// Captures the log output of this process during a test.
 #pragma once
 
 #include <spdlog/sinks/ostream_sink.h>
@@ -10,7 +10,7 @@
 
 namespace redbee::test {
 
-/// Takes the place of spdlog's default logger as long as it lives; of one thread.
+/// Replaces spdlog's default logger during its lifetime; not thread-safe.
 class LogCapture {
  public:
   LogCapture() {

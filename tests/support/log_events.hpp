@@ -1,4 +1,4 @@
-// The content of an LCM log, the complaint of who reads bad input, and images to write into a recording.
+// Content of LCM logs, error messages for bad input, and images for recordings.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ inline bool isSortedByTime(const std::vector<LogEvent>& events) {
                         [](const LogEvent& a, const LogEvent& b) { return a.utime < b.utime; });
 }
 
-/// The message of the InputError that `work` throws; empty if it throws none.
+/// Message of the InputError that `work` throws, or empty.
 inline std::string errorMessageOf(const std::function<void()>& work) {
   try {
     work();

@@ -1,4 +1,4 @@
-// A network that loses, doubles and reorders what is sent, for a stretch of the flight that the test chooses.
+// A bus that loses, duplicates and reorders messages while `disturbed` is set.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@
 
 namespace redbee::test {
 
-/// What netem would do to every packet: independent probabilities.
+/// Independent probabilities, as with netem.
 struct PacketFaults {
   double lost = 0;
   double duplicated = 0;
@@ -23,8 +23,8 @@ struct PacketFaults {
 
 /// Decorates a bus. A message is lost when any of its datagrams is: LCM cuts a message into pieces of
 /// kDatagramBytes (lcm/udpm_util.h of 1.3.1, LCM_FRAGMENT_MAX_PAYLOAD) and delivers whole ones only, so that
-/// images suffer more than the rest. A reordered message is overtaken by up to kMaxOvertaking later ones,
-/// about two frames' worth. The same seed does the same.
+/// images are lost more often. A reordered message is overtaken by up to kMaxOvertaking later ones, about two
+/// frames. Reproducible by the seed.
 class LossyBus : public Bus {
  public:
   using Bus::publish;

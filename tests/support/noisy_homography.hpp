@@ -1,4 +1,4 @@
-// What vision would measure of an exact homography, with a covariance that is true.
+// Simulated visual measurements of an exact homography, with correct covariance.
 #pragma once
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,4 @@
-// Jacobians by differences, to hold analytic ones against.
+// Numeric Jacobians, to check analytic ones.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// Collects the output of the stack while it is disturbed, and compares it with the truth.
+// Collects the output of the stack and compares it with the truth.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,14 @@
 
 namespace redbee::test {
 
-/// Track numbers by car, of the detections that lie on it: a car may be seen in pieces.
+/// Identities of the detections on each car; there may be several.
 using Identities = std::map<int, std::set<int>>;
 
 /// The stack's output for one frame.
 struct FrameResult {
   std::chrono::steady_clock::time_point received;
   int8_t status = -1;
-  double false_fraction = 0;  ///< of the image: called moving, background in truth
+  double false_fraction = 0;  ///< of the image: in the mask, but background in truth
   double found_fraction = 0;  ///< of the movers' pixels
   Identities ids_of_car;
 };
@@ -36,11 +36,11 @@ class Observer {
 
   Observer(Bus& bus, const EndlessFlight& flight) : flight_(flight) {
     subscriptions_.push_back(
-        bus.subscribe<foreground_t>("FOREGROUND", 64, [this](const foreground_t& m) { take(m); }));
+        bus.subscribe<foreground_t>("FOREGROUND", 64, [this](const foreground_t& m) { onMessage(m); }));
     subscriptions_.push_back(
-        bus.subscribe<detections_t>("DETECTIONS", 64, [this](const detections_t& m) { take(m); }));
-    subscriptions_.push_back(bus.subscribe<process_health_t>("PROCESS_HEALTH", 256,
-                                                             [this](const process_health_t& m) { take(m); }));
+        bus.subscribe<detections_t>("DETECTIONS", 64, [this](const detections_t& m) { onMessage(m); }));
+    subscriptions_.push_back(bus.subscribe<process_health_t>(
+        "PROCESS_HEALTH", 256, [this](const process_health_t& m) { onMessage(m); }));
   }
 
   const std::map<int64_t, FrameResult>& frames() const { return frames_; }
@@ -53,7 +53,7 @@ class Observer {
   const std::map<std::string, process_health_t>& health() const { return health_; }
   int deathsReported() const { return deaths_; }
 
-  /// The first frame after `utime` that has a trusted mask.
+  /// The first frame after `utime` with a GOOD mask.
   std::optional<std::pair<int64_t, FrameResult>> firstGoodAfter(int64_t utime) const {
     for (auto it = frames_.upper_bound(utime); it != frames_.end(); ++it) {
       if (it->second.status == 0) return *it;
@@ -69,7 +69,7 @@ class Observer {
   }
 
  private:
-  void take(const foreground_t& m) {
+  void onMessage(const foreground_t& m) {
     FrameResult& result = frames_[m.utime];
     result.received = Clock::now();
     result.status = m.status;
@@ -81,7 +81,7 @@ class Observer {
         cv::countNonZero(mask & truth) / std::max(1.0, static_cast<double>(cv::countNonZero(truth)));
   }
 
-  void take(const detections_t& m) {
+  void onMessage(const detections_t& m) {
     for (const auto& [car, box] : flight_.truth(flight_.frameAt(m.utime)).cars) {
       for (const detection_t& d : m.detections) {
         const cv::Rect detected(d.x, d.y, d.width, d.height);
@@ -91,7 +91,7 @@ class Observer {
     }
   }
 
-  void take(const process_health_t& m) {
+  void onMessage(const process_health_t& m) {
     constexpr int8_t kDead = 4;
     deaths_ += m.state == kDead ? 1 : 0;
     health_[m.process] = m;

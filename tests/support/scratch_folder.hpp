@@ -1,4 +1,4 @@
-// A folder of a test's own, which is gone afterwards, and the texts in it.
+// A temporary folder for a test, and text files in it.
 #pragma once
 
 #include <cstdlib>

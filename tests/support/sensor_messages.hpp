@@ -1,4 +1,4 @@
-// What a vehicle's drivers publish.
+// Messages as published by a vehicle's drivers.
 #pragma once
 
 #include <opencv2/core.hpp>

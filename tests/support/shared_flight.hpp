@@ -1,4 +1,4 @@
-// Recorded and rendered flights outside the repository, for tests that skip where there are none.
+// Recorded and rendered flights outside the repository; tests are skipped without them.
 #pragma once
 
 #include <cstdlib>
@@ -10,7 +10,7 @@ namespace redbee::test {
 
 namespace fs = std::filesystem;
 
-/// The folder of this flight, or nothing. REDBEE_SHARED names the folder that holds them all.
+/// The folder of this flight, if it exists. REDBEE_SHARED: the folder of all of them.
 inline std::optional<fs::path> sharedFlight(const std::string& name) {
   const char* folder = std::getenv("REDBEE_SHARED");
   const fs::path shared =

@@ -1,6 +1,5 @@
-// A flight of the camera over flat ground without images: exact motions and homographies between any two
-// times, and what IMU and altimeter measure meanwhile. The trajectory runs on the IMU's clock, frames are on
-// the camera's.
+// A simulated flight over flat ground without images: exact motions and homographies between any two times,
+// and measurements of IMU and altimeter. The trajectory runs on the IMU's clock, frames are on the camera's.
 #pragma once
 
 #include <cmath>

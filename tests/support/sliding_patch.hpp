@@ -1,4 +1,4 @@
-// A textured plane under a camera whose motion is known exactly, and a patch that slides over it.
+// Images of a textured plane and a patch that slides over it, with exact camera motion.
 #pragma once
 
 #include <Eigen/LU>
@@ -95,13 +95,13 @@ inline const std::vector<PatchFrame>& slidingPatch() {
   static const std::vector<PatchFrame> frames = slidingPatch(SlidingPatch());
   return frames;
 }
-/// The plane's, from frame k-1 to frame k.
+/// Homography of the plane from frame k-1 to frame k.
 inline Eigen::Matrix3d trueStep(size_t k) {
   return planeHomography(slidingPatch()[k].input.K, *slidingPatch()[k].input.motion);
 }
 
-/// How well scores separate the patch from the rest: the chance that a pixel of the patch scores above one of
-/// the rest, ties one half.
+/// Area under the ROC curve: the probability that a pixel of the patch scores above one of the rest, ties
+/// counting one half.
 class RankStatistic {
  public:
   void add(const cv::Mat& score, const cv::Mat& truth) {

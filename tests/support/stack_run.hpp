@@ -1,4 +1,4 @@
-// The whole stack on memq://, given a simulated flight that a test may disturb on its way in.
+// Runs the whole stack on memq:// over a simulated flight, whose messages a test may modify.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct StackFlight {
   std::vector<cv::Mat> masks;
 };
 
-/// The first `frames` of a scenario, its configuration with the true extrinsics.
+/// The first `frames` of a scenario, with a configuration that has the true extrinsics.
 inline StackFlight stackFlight(const simulation::Scenario& scenario, int frames) {
   const RenderedFlight rendered(scenario, frames);
   StackFlight flight;
@@ -62,8 +62,8 @@ struct StackOutput {
   std::map<int64_t, detections_t> detections;
   std::map<std::string, process_health_t> health;
 
-  /// Everything that is published on this bus from now on. This must not move meanwhile.
-  /// Fills in the messages from `bus` until the subscriptions end.
+  /// Stores the messages published on `bus` until the subscriptions end. This object must not be moved
+  /// meanwhile.
   std::vector<Subscription> subscribe(Bus& bus) {
     const auto keep = [](auto& into) { return [&into](const auto& m) { into[m.utime] = m; }; };
     std::vector<Subscription> all;
@@ -78,14 +78,14 @@ struct StackOutput {
   }
 };
 
-/// One flight through a stack of its own, in the order of its messages.
+/// Runs one flight through a new stack, in the order of its messages.
 class StackRun {
  public:
   explicit StackRun(const StackFlight& flight)
       : flight_(flight), own_bus_(makeLcmBus("memq://")), bus_(*own_bus_) {}
   StackRun(const StackFlight& flight, Bus& bus) : flight_(flight), bus_(bus) {}
 
-  /// `before` is called with each message on its way in.
+  /// `before` is called with each message before it is published.
   StackOutput run(const std::function<void(const SensorMessage&)>& before = nullptr) {
     StackOutput output;
     const std::vector<Subscription> subscriptions = output.subscribe(bus_);

@@ -22,7 +22,8 @@ inline cv::Mat noiseImage(cv::Size size, int seed, double mean, double sigma) {
   return image;
 }
 
-/// The ground from 6 m, camera 40 degrees down, 1/24 s at this rate and velocity.
+/// Motion over the ground at 6 m height, camera pitched 40 degrees down, during 1/24 s at this rate and
+/// velocity.
 inline PlaneMotion groundMotion(const Eigen::Vector3d& rate_deg_s, const Eigen::Vector3d& velocity) {
   const double dt = 1.0 / 24;
   const double pitch = 40 * M_PI / 180;

@@ -1,4 +1,4 @@
-// Trajectories of two rigid motions, exact.
+// Exact point trajectories of two rigid motions.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,8 @@ namespace redbee::test {
 inline constexpr Eigen::Index kTrajectoryFrames = 8;
 inline constexpr Eigen::Index kEach = 40;
 
-/// Points of a body 1 m across, 5 m away, that turns and travels; seen at f = 500 px, perspective or affine.
+/// Points of a rotating and translating body of 1.6 m size at 5 m distance; f = 500 px, perspective or affine
+/// projection.
 inline Eigen::MatrixXd bodyTrajectories(std::mt19937& random, const Eigen::Vector3d& centre,
                                         const Eigen::Vector3d& turn, const Eigen::Vector3d& travel,
                                         bool perspective) {
@@ -43,7 +44,7 @@ inline Eigen::MatrixXd twoMotions(bool perspective) {
 /// Scaled so that the largest entry is 1.
 inline Eigen::MatrixXd unit(const Eigen::MatrixXd& X) { return X / X.cwiseAbs().maxCoeff(); }
 
-/// Of labels that separate the two motions.
+/// Fraction of labels that separate the two motions correctly.
 inline double rightFraction(const std::vector<int>& labels) {
   double same = 0;
   for (size_t i = 0; i < labels.size(); ++i) same += labels[i] == (i < kEach ? 0 : 1) ? 1 : 0;

@@ -1,5 +1,5 @@
-// A flight through inertial process and fusion alone, in which the inertial process is killed and comes back.
-// Vision is the truth with noise, so that a long flight costs little.
+// A flight through inertial process and fusion, in which the inertial process is killed and restarted. Vision
+// is simulated without images, so that long flights are fast.
 #pragma once
 
 #include <algorithm>
@@ -28,11 +28,11 @@
 namespace redbee::test {
 
 inline constexpr int kFrames = 324;
-inline constexpr int kKilledAt = 240;  ///< ten seconds of flight have taught the height
+inline constexpr int kKilledAt = 240;  ///< the height has been learned after ten seconds
 inline constexpr int kDownFrames = 8;  ///< a third of a second: what supervisor needs
 inline constexpr int kBackAt = kKilledAt + kDownFrames;
 
-/// A drone whose configured height is 40 % off, with a sigma that admits it.
+/// A drone with an error of 40 % in its configured height, and a matching sigma.
 struct WarmStartFlight : SimulatedFlight {
   explicit WarmStartFlight(unsigned seed, bool with_altimeter = false) : SimulatedFlight(seed, 8) {
     ConsumerImu parameters(seed);
@@ -58,8 +58,8 @@ struct WarmStartFlight : SimulatedFlight {
 };
 
 struct FaultInjection {
-  int restarted_at = kBackAt;    ///< frame; below 0: the process is not killed
-  bool drop_warm_start = false;  ///< no warm start reaches the process that comes back
+  int restarted_at = kBackAt;                                ///< frame; below 0: the process is not killed
+  bool drop_warm_start = false;                              ///< the restarted process receives no warm start
   std::function<void(filter_snapshot_t&)> corrupt_snapshot;  ///< of the last snapshot, before it is offered
   std::function<void(int, visual_homography_t&)> corrupt_vision;
 };
@@ -175,8 +175,8 @@ inline RunResult run(const WarmStartFlight& flight, const FaultInjection& faults
 }
 
 struct Errors {
-  double first_px = 0;   ///< of the first homography after the process is back
-  double second_px = 0;  ///< mean over the second after that
+  double first_px = 0;   ///< of the first homography after the restart
+  double second_px = 0;  ///< mean over the following second
   double height = 0;     ///< mean over the same, fraction of the true height
 };
 

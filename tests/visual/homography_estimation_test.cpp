@@ -105,7 +105,7 @@ TEST(HomographyEstimation, PredictionPicksTheGroundWhereAWallHasMostPoints) {
   ASSERT_TRUE(near);
   // The ground's points fill the left 30 % of the view; it is evaluated there.
   const double error = meanTransferError(near->H, ground(), kWidth * 3 / 10, kHeight);
-  std::cout << "ground error where it is seen: " << error << " px, most inliers' "
+  std::cout << "ground error where it is visible: " << error << " px, most inliers' "
             << meanTransferError(most->H, ground(), kWidth * 3 / 10, kHeight) << " px\n";
   EXPECT_LT(meanTransferError(most->H, wall(), kWidth, kHeight), 0.3);
   EXPECT_LT(error, 0.1);

@@ -30,7 +30,7 @@ ScaledPairs disturbedPairs(int count) {
   return pairs;
 }
 
-/// As the book has it, pair by pair.
+/// Textbook implementation, pair by pair.
 NormalEquations summed(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen) {
   NormalEquations sum;
   for (std::size_t i = 0; i < pairs.size(); ++i) {

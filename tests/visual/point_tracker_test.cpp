@@ -70,7 +70,7 @@ TEST(PointTracker, FollowsTwentyPixelsWithoutAGuess) {
   EXPECT_GT(a.fraction, 0.9);
 }
 
-TEST(PointTracker, IsBlindToExposure) {
+TEST(PointTracker, IsInvariantToExposure) {
   const Eigen::Matrix3d H = groundHomography({3, -4, 2}, {1, 0, 2});
   const Accuracy a = trackOnce(H, {}, 0.8, 30);
   std::cout << "median error " << a.median_px << " px, fraction tracked " << a.fraction << "\n";
@@ -137,8 +137,8 @@ TEST(PatchTemplate, PortableAndNativeAgreeToTheBit) {
     PatchTemplate<PortableLanes> portable(shape);
     PatchTemplate<NativeLanes> native(shape);
     for (int x = 3; x < kWidth; x += 37) {
-      portable.take(before[0], x, x % kHeight);
-      native.take(before[0], x, x % kHeight);
+      portable.extract(before[0], x, x % kHeight);
+      native.extract(before[0], x, x % kHeight);
       Eigen::Vector2d a(x + 0.3, x % kHeight + 1.7), b = a;
       EXPECT_EQ(portable.residual(after[0], a), native.residual(after[0], b));
       EXPECT_EQ(portable.align(after[0], a, {8, 0.01}), native.align(after[0], b, {8, 0.01}));

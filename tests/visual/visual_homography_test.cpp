@@ -16,7 +16,7 @@ CameraTime frameTime(int k) { return CameraTime(k * Duration(41667)); }
 
 cv::Mat still(unsigned noise_seed) { return Canvas(8).view(Eigen::Matrix3d::Identity(), 1.5, noise_seed); }
 
-/// Covers a fraction of the image, in scattered blocks, with a texture that moves by its own ways.
+/// Covers a fraction of the image, in scattered blocks, with independently moving texture.
 void scatter(cv::Mat& before, cv::Mat& after, double fraction, unsigned seed) {
   constexpr int kBlock = 40;
   cv::RNG rng(seed);

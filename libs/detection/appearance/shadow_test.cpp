@@ -8,8 +8,8 @@ namespace {
 
 constexpr int kColours = 3;
 constexpr int kWindow = 3;  // px, both ways
-// Brightness of a shadow, in the image's (gamma) grey levels: the sky alone gives a tenth to a half of the
-// light, 0.35 to 0.75 of the grey levels.
+// Brightness of a shadow relative to the lit surface, in gamma-encoded grey levels: skylight is 0.1 to 0.5 of
+// the total light, which gives 0.35 to 0.75.
 constexpr float kDarkest = 0.4F;
 constexpr float kDarkestRamp = 0.1F;
 constexpr float kLightest = 0.95F;

@@ -1,5 +1,5 @@
-// Whether a pixel is the background in shadow: a shadow scales the background by one factor for all colours
-// and keeps its texture (Horprasert et al. 1999; here over a window, against the noise).
+// Shadow detection: a shadow scales the background by one factor for all colours and preserves its texture
+// (Horprasert et al. 1999; here over a window, relative to the noise).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,11 +9,11 @@ namespace redbee {
 
 class ShadowTest {
  public:
-  /// Both blue, green, red, anything; they share their memory. `noise`: grey levels, residual
-  /// of a shadow after scaling.
+  /// Both images: blue, green, red, unused; they are not copied. `noise`: grey levels, residual of a shadow
+  /// after scaling.
   ShadowTest(const cv::Mat4f& image, const cv::Mat4f& background, double noise);
 
-  /// For each pixel of row y: 0 no shadow, 1 certainly one. Rows must be requested in order, from 0.
+  /// For each pixel of row y: 0 (no shadow) to 1 (shadow). Rows must be requested in order, from 0.
   const std::vector<float>& row(int y);
 
  private:

@@ -11,7 +11,7 @@ namespace redbee {
 namespace {
 
 constexpr double kVelocityRate = 0.3;       // of the newest step in an object's velocity
-constexpr double kUnseenVelocity = 0.85;    // fraction of its velocity that a missed object keeps per frame
+constexpr double kMissedVelocity = 0.85;    // fraction of its velocity that a missed object keeps per frame
 constexpr double kReachInDiagonals = 0.75;  // of the larger box: how far apart a match may be
 constexpr double kReach_px = 4;             // and this much further; one more for each missed frame
 constexpr int kUnmatched = -1;
@@ -26,8 +26,8 @@ cv::Rect boxAt(const cv::Rect& box, const Eigen::Vector2d& centre) {
           static_cast<int>(std::lround(centre.y() - 0.5 * box.height)), box.width, box.height};
 }
 
-/// Distance of a component from an object: 0 on top of each other, above 1 no match. It is relative to the
-/// larger of the two boxes, and the gate opens with the number of missed frames.
+/// Gated distance of a component from an object: 0 at the same position, above 1 no match. The gate scales
+/// with the larger of the two boxes and grows with the number of missed frames.
 double misfit(const Eigen::Vector2d& centre, const cv::Rect& box, int missed, const Detection& component) {
   const double reach =
       kReachInDiagonals * std::max(diagonal(box), diagonal(component.box)) + kReach_px + missed;
@@ -36,8 +36,8 @@ double misfit(const Eigen::Vector2d& centre, const cv::Rect& box, int missed, co
 
 cv::Mat1b disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
 
-/// What exceeds the lower threshold, opened and closed. Most images are empty but for a corner, so only the
-/// part around the foreground is worked on; `part` says which.
+/// Pixels above the lower threshold, after opening and closing. Only the bounding box of the foreground is
+/// processed; it is returned in `part`.
 cv::Mat1b foregroundPart(const cv::Mat1b& probability, const cv::Mat1b& unknown,
                          const ObjectParameters& parameters, cv::Rect& part) {
   cv::Mat1b mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
@@ -86,7 +86,7 @@ ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1
   return found;
 }
 
-void ObjectTracker::carry(const Eigen::Matrix3d& ground) {
+void ObjectTracker::propagate(const Eigen::Matrix3d& ground) {
   for (Object& object : objects_) object.centre = transfer(ground, object.centre) + object.velocity;
 }
 
@@ -126,11 +126,11 @@ void ObjectTracker::observe(Object& object, const Detection& component) const {
   object.last.id = id;
   ++object.hits;
   object.missed = 0;
-  object.blind = 0;
+  object.skipped = 0;
 }
 
 void ObjectTracker::miss(Object& object) {
-  object.velocity *= kUnseenVelocity;
+  object.velocity *= kMissedVelocity;
   ++object.missed;
 }
 
@@ -139,7 +139,7 @@ void ObjectTracker::deleteLostTracks(const cv::Rect& view) {
     // An unconfirmed track is deleted at its first miss.
     const int max_missed = object.confirmed ? parameters_.max_missed_frames : 0;
     const bool in_view = (boxAt(object.last.box, object.centre) & view).area() > 0;
-    return object.missed - object.blind > max_missed || !in_view;
+    return object.missed - object.skipped > max_missed || !in_view;
   };
   objects_.erase(std::remove_if(objects_.begin(), objects_.end(), lost), objects_.end());
 }
@@ -161,7 +161,7 @@ std::vector<Detection> ObjectTracker::confirmedTracks(const cv::Rect& view) {
 std::vector<Detection> ObjectTracker::skip(cv::Size image) {
   for (Object& object : objects_) {
     miss(object);
-    if (object.confirmed && object.blind < parameters_.max_missed_frames) ++object.blind;
+    if (object.confirmed && object.skipped < parameters_.max_missed_frames) ++object.skipped;
   }
   deleteLostTracks({{}, image});
   return confirmedTracks({{}, image});

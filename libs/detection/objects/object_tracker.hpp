@@ -1,4 +1,4 @@
-// From masks to objects with an identity.
+// Segmentation of the foreground into components, and tracking of objects over time.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,15 +10,15 @@
 namespace redbee {
 
 struct Detection {
-  int id = 0;          ///< identity, kept through missed frames and stops
+  int id = 0;          ///< identity, kept while the object is missed or stops
   cv::Rect box;        ///< px
-  double area_px = 0;  ///< of its mask
-  double score = 0;    ///< mean P_FG over its mask, 0..1
-  bool seen = true;    ///< false: predicted by the tracker in a frame without a component
+  double area_px = 0;  ///< area of its mask, px^2
+  double score = 0;    ///< mean P_FG in its mask, 0..1
+  bool seen = true;    ///< false: no component in this frame, predicted by the tracker
 };
 
-/// Two thresholds (hysteresis), opening, closing, and the components that are large enough. `mask` (0 or
-/// 255) holds exactly those. `probability`: P_FG * 255.
+/// Components of the foreground by hysteresis thresholding, opening, closing and a minimum area. `mask` (0 or
+/// 255) contains exactly these components. `probability`: P_FG * 255.
 struct ForegroundComponents {
   cv::Mat1b mask;
   std::vector<Detection> components;  ///< without identity
@@ -26,30 +26,30 @@ struct ForegroundComponents {
 ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
                                     const ObjectParameters& parameters);
 
-/// Tracks objects over the ground: each has a velocity relative to it, which decays while the object is
-/// missed, for a missed object has most likely stopped.
+/// Tracks objects over the ground. Each has a velocity relative to the ground, which decays while the object
+/// is missed, since it has probably stopped.
 class ObjectTracker {
  public:
   explicit ObjectTracker(const ObjectParameters& parameters) : parameters_(parameters) {}
 
   void reset() { objects_.clear(); }
-  /// The camera moves by the ground homography (previous to current, pixels).
-  void carry(const Eigen::Matrix3d& ground);
-  /// Assigns components to tracks. Confirmed tracks without a component follow with seen = false, until
-  /// max_missed_frames or until they have left the image.
+  /// Predicts all tracks by the camera's motion: ground homography, previous to current pixels.
+  void propagate(const Eigen::Matrix3d& ground);
+  /// Assigns components to tracks. Confirmed tracks without a component are returned with seen = false, until
+  /// max_missed_frames or until they leave the image.
   std::vector<Detection> update(const std::vector<Detection>& components, cv::Size image);
-  /// A frame in which nothing could be detected, as while a process restarts: nothing counts as missed. Up to
-  /// max_missed_frames of these in a row cost no identity.
+  /// For a frame without detection, e.g. while a process restarts: no track counts as missed. Identities
+  /// survive up to max_missed_frames such frames in a row.
   std::vector<Detection> skip(cv::Size image);
 
  private:
   struct Object {
     Detection last;
     Eigen::Vector2d centre;    ///< px
-    Eigen::Vector2d velocity;  ///< px a frame, against the ground
+    Eigen::Vector2d velocity;  ///< px per frame, relative to the ground
     int hits = 1;
-    int missed = 0;  ///< frames in a row without a component
-    int blind = 0;   ///< of these, frames that were skipped
+    int missed = 0;   ///< consecutive frames without a component
+    int skipped = 0;  ///< of these, skipped frames
     bool confirmed = false;
   };
 

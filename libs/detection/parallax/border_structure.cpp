@@ -9,10 +9,10 @@
 namespace redbee {
 namespace {
 
-constexpr double kShrink = 2;  // evidence is smooth: half its size will do
+constexpr double kShrink = 2;  // evidence is smooth, so half the resolution is enough
 constexpr int kLeastSide_px = 8;
 
-/// Levels that the line reaches over at least `stretch` pixels (its opening).
+/// Opening of the line by `stretch` pixels.
 cv::Mat1f wideLevels(const cv::Mat1f& line, int stretch) {
   const cv::Mat1b bar = line.rows == 1 ? cv::Mat1b::ones(1, stretch) : cv::Mat1b::ones(stretch, 1);
   cv::Mat1f opened;
@@ -20,7 +20,7 @@ cv::Mat1f wideLevels(const cv::Mat1f& line, int stretch) {
   return opened;
 }
 
-/// The wide levels of the four sides, each one pixel inside.
+/// The opened levels of the four sides, one pixel inside the border.
 cv::Mat1f seeds(const cv::Mat1f& motion, int stretch) {
   cv::Mat1f seeds = cv::Mat1f::zeros(motion.size());
   const cv::Rect lines[] = {{0, 1, motion.cols, 1},
@@ -52,7 +52,7 @@ cv::Mat1f fractionOfBorderStructure(const cv::Mat1f& motion, const cv::Mat1b& un
   cv::Mat1f whole = cv::Mat1f::zeros(small.size());
   level.copyTo(whole(known));
   cv::resize(whole, whole, motion.size(), 0, 0, cv::INTER_LINEAR);
-  constexpr double kNone = 1e-3;  // less evidence counts as none, and its fraction is 0
+  constexpr double kNone = 1e-3;  // less evidence counts as none, with fraction 0
   return cv::Mat1f(cv::min(whole / (motion + kNone), 1));
 }
 

@@ -30,8 +30,8 @@ void growUnknown(cv::Mat1b& unknown, int margin_px) {
 
 }  // namespace
 
-void EarlierFrames::carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
-                          const std::optional<Eigen::Matrix3d>& front) {
+void EarlierFrames::propagate(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
+                              const std::optional<Eigen::Matrix3d>& front) {
   for (EarlierFrame& frame : frames_) {
     frame.ground = normaliseHomography(ground * frame.ground);
     if (front && (frame.front || frame.still)) {
@@ -71,11 +71,11 @@ const EarlierFrame* EarlierFrames::aged(int64_t now, double age_s) const {
 
 AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px) {
   const SceneMotion scene(frame.ground, frame.motion, K);
-  AlignedImage aligned{carryMap(frame.grey, scene.ground, cv::INTER_LINEAR),
+  AlignedImage aligned{warpToCurrent(frame.grey, scene.ground, cv::INTER_LINEAR),
                        ~overlapMask(frame.grey.size(), scene.ground)};
   const cv::Mat1b above = aboveHorizon(frame.grey.size(), scene);
   if (cv::countNonZero(above) > 0) {
-    carryMap(frame.grey, scene.far, cv::INTER_LINEAR).copyTo(aligned.grey, above);
+    warpToCurrent(frame.grey, scene.far, cv::INTER_LINEAR).copyTo(aligned.grey, above);
     cv::Mat1b(~overlapMask(frame.grey.size(), scene.far)).copyTo(aligned.unknown, above);
   }
   growUnknown(aligned.unknown, margin_px);

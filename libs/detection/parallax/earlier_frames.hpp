@@ -1,4 +1,4 @@
-// Images of the last second and the camera's motion from each of them to now.
+// The latest images, each with the camera's motion from it to the current frame.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +15,19 @@ struct EarlierFrame {
   cv::Mat1b grey;
   Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  ///< this frame's pixels to the current frame's
   std::optional<PlaneMotion> motion;                     ///< from this frame to the current one
-  std::optional<Eigen::Matrix3d> front;                  ///< like `ground`, of the front plane
-  bool still = true;                                     ///< no carry() since: all motion is the identity
+  std::optional<Eigen::Matrix3d> front;                  ///< the same of the front plane
+  bool still = true;                                     ///< no propagate() since: the motion is the identity
 };
 
 class EarlierFrames {
  public:
   void reset() { frames_.clear(); }
-  /// The camera moves (previous to current, pixels of the stored images).
-  void carry(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
-             const std::optional<Eigen::Matrix3d>& front = std::nullopt);
-  /// Stores an image, which shares its memory, and erases those older than span_s.
+  /// Adds the camera's motion to all frames (previous to current, pixels of the stored images).
+  void propagate(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
+                 const std::optional<Eigen::Matrix3d>& front = std::nullopt);
+  /// Stores an image (not copied) and erases those older than span_s.
   void remember(int64_t utime, const cv::Mat1b& grey, double span_s);
-  /// The frame whose age is nearest to age_s; null while there is none.
+  /// The frame whose age is closest to age_s; nullptr if there is none.
   const EarlierFrame* aged(int64_t now, double age_s) const;
   const EarlierFrame* newest() const { return frames_.empty() ? nullptr : &frames_.back(); }
 
@@ -35,7 +35,7 @@ class EarlierFrames {
   std::deque<EarlierFrame> frames_;  ///< oldest first
 };
 
-/// An earlier image warped into the current view, for a scene of ground up to the horizon and infinitely far
+/// An earlier image warped into the current view, for a scene of ground up to the horizon and infinite depth
 /// above it.
 struct AlignedImage {
   cv::Mat1b grey;

@@ -11,7 +11,7 @@
 namespace redbee {
 namespace {
 
-constexpr float kUnknownVariance = 1e6F;  // px^2, of the speed of what no earlier frame shows
+constexpr float kUnknownVariance = 1e6F;  // px^2, of the speed where it is unknown
 
 }  // namespace
 
@@ -29,16 +29,16 @@ void ForegroundEvidence::reset() {
   background_.reset();
 }
 
-void ForegroundEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
-                               const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K) {
+void ForegroundEvidence::propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+                                   const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K) {
   // The IMU's translation drifts and is wrong until its filter has converged; the fused homography gives a
   // better one.
   std::optional<PlaneMotion> consistent = motion;
   if (consistent) consistent->t_ba = translationFromHomography(K, ground, *motion);
-  motion_.carry(ground, front, consistent);
+  motion_.propagate(ground, front, consistent);
   if (!appearance_.enabled) return;
-  background_.carry(SceneMotion(normaliseHomography(to_background_ * ground * to_background_.inverse()),
-                                motion, to_background_ * K));
+  background_.propagate(SceneMotion(normaliseHomography(to_background_ * ground * to_background_.inverse()),
+                                    motion, to_background_ * K));
 }
 
 cv::Mat4f ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour,
@@ -47,7 +47,7 @@ cv::Mat4f ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Ma
   if (image.empty()) cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
   cv::Mat3b small;
   cv::resize(image, small, shrunkSize(full, downscale_), 0, 0, cv::INTER_AREA);
-  // The noise of single pixels and of JPEG's blocks.
+  // Suppresses the noise of single pixels and of JPEG blocks.
   constexpr double kSigmaPx = 0.6;
   cv::GaussianBlur(small, small, {3, 3}, kSigmaPx);
   cv::Mat4b with_fourth;
@@ -57,7 +57,7 @@ cv::Mat4f ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Ma
   return compared;
 }
 
-/// Pixels of one region move together: each takes half of its evidence from similar pixels around it.
+/// Pixels of one region move together: half of each pixel's P_FG is taken from similar pixels around it.
 void ForegroundEvidence::fillRegions(const cv::Mat4f& image, cv::Mat1f& foreground) const {
   const double scale = downscale_;
   const int radius = std::max(1, static_cast<int>(std::lround(parallax_.region_radius_px / scale)));
@@ -88,7 +88,7 @@ ForegroundMaps ForegroundEvidence::learn(int64_t utime, const cv::Mat1b& grey, c
       }
       foreground = foreign;
       if (parallax_.region_radius_px > 0) fillRegions(image, foreground);
-      // Half is enough: an object learned by mistake is missed for the background's whole span.
+      // Half is enough: an object learned as background would be missed for the model's whole span.
       moving = cv::min(2 * foreground, 1);
     }
     background_.learn(image, moving, speed, elapsed_s);

@@ -1,5 +1,5 @@
-// Our detector: dense flow against the camera's motion; foreground is what no depth explains and what differs
-// from the background's appearance.
+// Our detector: dense flow relative to the camera's motion. Foreground is what moves unlike a static surface
+// at any depth and differs from the background's appearance.
 #pragma once
 
 #include "redbee/detection/ground_detector.hpp"
@@ -14,7 +14,7 @@ class ParallaxDetector : public GroundDetector {
 
  private:
   void resetBackground() override { evidence_.reset(); }
-  void carryBackground(const FrameInput& input) override;
+  void warpBackground(const FrameInput& input) override;
   ForegroundMaps learn(const FrameInput& input) override;
 
   DetectorNeeds needs_;

@@ -14,7 +14,7 @@ namespace redbee {
 namespace {
 
 constexpr double kExpectedErrorPx = 0.5;  // full-size px, of the registration of two frames
-constexpr double kMarginPx = 16;          // full-size px: flow so near to what is not there is made up
+constexpr double kMarginPx = 16;          // full-size px: the flow so close to unknown pixels is extrapolated
 
 int halvings(int from_downscale, int to_downscale) {
   int times = 0;
@@ -39,23 +39,23 @@ ParallaxEvidence::ParallaxEvidence(const ParallaxParameters& parameters)
       scale_(std::max(parameters.work_downscale, 1)),
       work_(downscaling(scale_)),
       dis_(makeMotionFlow(parameters)),
-      travelling_(parameters) {}
+      propagated_(parameters) {}
 
 void ParallaxEvidence::reset() {
   frames_.reset();
-  travelling_.reset();
+  propagated_.reset();
   fast_ = false;
   unknown_.release();
   speed_.release();
 }
 
-void ParallaxEvidence::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
-                             const std::optional<PlaneMotion>& motion) {
+void ParallaxEvidence::propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+                                 const std::optional<PlaneMotion>& motion) {
   const auto at_work = [&](const Eigen::Matrix3d& H) {
     return normaliseHomography(work_ * H * work_.inverse());
   };
   last_step_ = at_work(ground);
-  frames_.carry(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
+  frames_.propagate(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
 }
 
 cv::Mat1f ParallaxEvidence::learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
@@ -85,20 +85,20 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
                                              : ParallaxSegment(frame.motion, K, parameters_);
   FrameEvidence now = frameEvidence(segment, grey, flow, frames);
-  fast_ = parameters_.use_short_baseline && holdsFastMovers(flow, now.normalized_residual, frames);
+  fast_ = parameters_.use_short_baseline && hasFastMovers(flow, now.normalized_residual, frames);
   now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
-  travelling_.update(now, last_step_, unknown_);
+  propagated_.update(now, last_step_, unknown_);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
-  cv::Mat1f motion = guidedFilter(grey, travelling_.motion(), radius, parameters_.fill_contrast);
+  cv::Mat1f motion = guidedFilter(grey, propagated_.motion(), radius, parameters_.fill_contrast);
   motion = cv::min(cv::max(motion, 0), 1);
-  if (!frame.motion && parameters_.border_stretch > 0) muteBorderStructure(motion);
+  if (!frame.motion && parameters_.border_stretch > 0) suppressBorderStructure(motion);
   return motion;
 }
 
-bool ParallaxEvidence::holdsFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual,
-                                       double frames) const {
-  // Within two frames half a patch of the flow a frame makes a whole one: as wide are the halos that the
-  // flow then has where ground is covered and uncovered.
+bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual,
+                                     double frames) const {
+  // At this speed an object moves by a whole flow patch within two frames, and the halos of the flow at
+  // occlusions are as wide.
   constexpr double kFastPx = 8;  // full-size px a frame
   constexpr float kSureSigmas = 3;
   constexpr int kStep = 8;
@@ -116,8 +116,8 @@ bool ParallaxEvidence::holdsFastMovers(const cv::Mat2f& flow, const cv::Mat2f& n
   return fast_movers > kFraction * known;
 }
 
-void ParallaxEvidence::muteBorderStructure(cv::Mat1f& motion) const {
-  // Squared, because what enters the image has not gathered all of its evidence at the border yet.
+void ParallaxEvidence::suppressBorderStructure(cv::Mat1f& motion) const {
+  // Squared, because evidence at the border has not accumulated yet for objects that enter the image.
   const cv::Mat1f inside =
       1 - fractionOfBorderStructure(motion, unknown_, parameters_.border_stretch * motion.cols);
   motion = motion.mul(inside).mul(inside);
@@ -130,7 +130,7 @@ cv::Mat1f ParallaxEvidence::flowVariance(const cv::Mat1b& grey) const {
   constexpr double kSobelGain = 8;
   const double to_square_gradient = std::pow(kSobelGain / 2 * kBlock * 255 / (kBlock * kSobelGain), 2);
   constexpr double kQuarter = 4;
-  constexpr double kNoGradient2 = 1e-3;  // keeps the variance of no texture finite
+  constexpr double kNoGradient2 = 1e-3;  // keeps the variance finite without texture
   cv::Mat1b quarter;
   cv::Mat1f variance;
   cv::resize(grey, quarter, {}, scale_ / kQuarter, scale_ / kQuarter, cv::INTER_AREA);

@@ -1,10 +1,10 @@
-// Motion that no static surface at any depth explains (plane plus parallax; Irani and Anandan 1998;
-// libs/README.md, "Parallax").
+// Evidence of motion by plane plus parallax (Irani and Anandan 1998; libs/README.md, "Parallax").
 //
-// An earlier image is aligned to the current one by the ground homography (above the horizon, where there is
-// no ground, by the rotation). Does the dense flow that remains lie off the segment of possible parallax
-// (parallax_segment.hpp)? The answer is averaged along what moves (travelling_evidence.hpp). It excludes
-// trees and facades (without an IMU by their position, border_structure.hpp), but its outlines are coarse.
+// An earlier image is aligned to the current one by the ground homography (above the horizon by the
+// rotation). The distance of the residual dense flow from the parallax segment (parallax_segment.hpp) is
+// evidence of motion, which is averaged along the flow (propagated_evidence.hpp). Static surfaces at any
+// depth, such as trees and facades, are excluded (without an IMU by border_structure.hpp), but outlines are
+// coarse.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@
 
 #include "redbee/detection/parallax/earlier_frames.hpp"
 #include "redbee/detection/parallax/parallax_segment.hpp"
-#include "redbee/detection/parallax/travelling_evidence.hpp"
+#include "redbee/detection/parallax/propagated_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/homography.hpp"
 
 namespace redbee {
 
-/// Dense inverse-search flow for images of work_downscale, found at flow_downscale.
+/// Dense inverse search (DIS) flow for images at work_downscale, computed at flow_downscale.
 cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const ParallaxParameters& parameters);
 
 class ParallaxEvidence {
@@ -29,16 +29,17 @@ class ParallaxEvidence {
   explicit ParallaxEvidence(const ParallaxParameters& parameters);
 
   void reset();
-  /// The camera moves (previous to current; full-size pixels).
-  void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
-             const std::optional<PlaneMotion>& motion);
-  /// Evidence of motion per pixel of the work, 0..1; empty if there is no earlier frame. Stores the image
-  /// (`full` or smaller).
+  /// Propagates the stored images and evidence by the camera's motion (previous to current; full-size
+  /// pixels).
+  void propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
+                 const std::optional<PlaneMotion>& motion);
+  /// Evidence of motion, 0..1, at work_downscale; empty if there is no earlier frame. Stores the image (of
+  /// size `full` or smaller).
   cv::Mat1f learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full);
 
-  /// 255 where the earlier frame of the last learn() does not show the scene; the work's pixels.
+  /// 255 where the reference frame of the last learn() does not show the scene; at work_downscale.
   const cv::Mat1b& unknown() const { return unknown_; }
-  /// Flow of the last learn(); the work's pixels (see SurfaceSpeed). Empty if there was no earlier frame.
+  /// SurfaceSpeed of the last learn(), at work_downscale; empty if there was no earlier frame.
   const cv::Mat2f& speed() const { return speed_; }
 
  private:
@@ -46,20 +47,20 @@ class ParallaxEvidence {
                      double frames);
   FrameEvidence frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey, const cv::Mat2f& flow,
                               double frames);
-  /// Whether much of the image moves so fast that the previous frame is a better reference than an earlier
+  /// True if much of the image moves so fast that the previous frame is a better reference than an earlier
   /// one.
-  bool holdsFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;
-  void muteBorderStructure(cv::Mat1f& motion) const;
+  bool hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;
+  void suppressBorderStructure(cv::Mat1f& motion) const;
   cv::Mat1f flowVariance(const cv::Mat1b& grey) const;
 
   ParallaxParameters parameters_;
-  double scale_;          ///< full-size pixels to a pixel of the work
-  Eigen::Matrix3d work_;  ///< full-size pixels to the work's
+  double scale_;          ///< full-size pixels per pixel at work_downscale
+  Eigen::Matrix3d work_;  ///< full-size pixels to those at work_downscale
   cv::Ptr<cv::DISOpticalFlow> dis_;
   EarlierFrames frames_;
-  TravellingEvidence travelling_;
-  Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< in the work's pixels
-  bool fast_ = false;                                        ///< the last frame held fast movers
+  PropagatedEvidence propagated_;
+  Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< pixels at work_downscale
+  bool fast_ = false;                                        ///< the last frame had fast movers
   cv::Mat1b unknown_;
   cv::Mat2f speed_;
 };

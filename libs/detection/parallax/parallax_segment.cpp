@@ -29,9 +29,9 @@ ParallaxSegment::ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Mat
   if (parameters.use_epipolar) to_front_ = cv::Matx33f(toMatx(front * ground.inverse()));
 }
 
-/// From the ground's place in the image to that of the nearest static surface.
+/// From the position on the ground to that on the nearest static surface.
 cv::Vec2f ParallaxSegment::end(const cv::Vec2f& ground) const {
-  constexpr float kBeyondFront = 1.5F;  // parts of it stand out from the plane
+  constexpr float kBeyondFront = 1.5F;  // for parts that protrude from the plane
   // A point at depth z lies at (a + e / z) / (a_3 + e_3 / z), a its image at infinity: whatever the depth, it
   // moves along e_12 - e_3 ground.
   if (!to_front_) return {epipole_[0] - epipole_[2] * ground[0], epipole_[1] - epipole_[2] * ground[1]};

@@ -9,15 +9,16 @@ namespace {
 using Vector8f = Eigen::Matrix<float, 8, 1>;
 using Matrix8f = Eigen::Matrix<float, 8, 8>;
 
-constexpr int kStep_px = 8;       // between the samples
-constexpr int kIterations = 4;    // of the reweighting
-constexpr float kRobustness = 4;  // residuals of more variances than this lose their weight (Geman-McClure)
+constexpr int kStep_px = 8;     // between the samples
+constexpr int kIterations = 4;  // of the reweighting
+constexpr float kRobustness =
+    4;  // squared residuals beyond so many variances are down-weighted (Geman-McClure)
 constexpr float kPriorWeight = 4;
 
 /// One component of the flow at one pixel, linear in the eight entries of the homography's.
 struct Constraint {
   Vector8f jacobian;
-  float residual;  ///< px, of no error at all
+  float residual;  ///< px, for zero registration error
   float variance;  ///< px^2
 };
 

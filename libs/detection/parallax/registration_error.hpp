@@ -1,5 +1,5 @@
-// What the ground's homography leaves of the motion of everything that stands still: a smooth error of
-// registration, which would otherwise add up to evidence of motion.
+// The residual error of the ground homography: a smooth registration error, which would otherwise accumulate
+// as evidence of motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +9,8 @@
 
 namespace redbee {
 
-/// The flow [px] of a homography that hardly moves anything, to first order in its eight entries. Pixels are
-/// taken in units of half the image's width about its middle, so that all entries are in pixels.
+/// The flow [px] of a homography close to the identity, to first order in its eight entries. Coordinates are
+/// in units of half the image's width about its centre, so that all entries are in pixels.
 struct HomographyFlow {
   explicit HomographyFlow(cv::Size image)
       : middle(0.5F * static_cast<float>(image.width), 0.5F * static_cast<float>(image.height)),
@@ -29,12 +29,11 @@ struct HomographyFlow {
   cv::Vec2f perspective{0, 0};
 };
 
-/// What a homography explains of the flow across the direction of parallax (where there is no parallax, of
-/// all of it), robustly over the image: static surfaces agree on it at any depth, moving objects do not.
-/// `flow`: px, from the current image to the earlier one that the ground's homography has aligned
-/// to it; `variance`: px^2, of the flow; `unknown`: not 0 where the flow is undefined;
-/// `expected_px`: how large an error is expected, a weak prior. The result points like the flow of `segment`,
-/// from the earlier image to the current one.
+/// Robust fit of a homography's flow to the flow component perpendicular to the parallax (to both components
+/// without parallax): static surfaces at any depth agree on it, moving objects do not. `flow`: px, from the
+/// current image to the aligned earlier one; `variance`: px^2, of the flow; `unknown`: not 0 where the flow
+/// is undefined; `expected_px`: sigma of a weak prior on the error. The result is from the earlier image to
+/// the current one, like the flow of `segment`.
 HomographyFlow registrationError(const cv::Mat2f& flow, const cv::Mat1f& variance, const cv::Mat1b& unknown,
                                  const ParallaxSegment& segment, float expected_px);
 

@@ -20,9 +20,9 @@ void ForegroundProbability::reset() {
   entropy_.release();
 }
 
-void ForegroundProbability::carry(const Eigen::Matrix3d& ground) {
+void ForegroundProbability::propagate(const Eigen::Matrix3d& ground) {
   for (cv::Mat1f* map : {&temporal_, &spatial_, &entropy_}) {
-    if (!map->empty()) *map = carryMap(*map, ground, cv::INTER_LINEAR);
+    if (!map->empty()) *map = warpToCurrent(*map, ground, cv::INTER_LINEAR);
   }
 }
 

@@ -21,11 +21,11 @@ RecursiveDensity::RecursiveDensity(cv::Size size, const Parameters& parameters)
       moments_(cv::Mat3f::zeros(size)),
       count_(cv::Mat1f::zeros(size)) {}
 
-void RecursiveDensity::carry(const cv::Matx33d& H) {
-  mean_ = carryMap(mean_, H, cv::INTER_LINEAR);
-  moments_ = carryMap(moments_, H, cv::INTER_LINEAR);
-  count_ = carryMap(count_, H, cv::INTER_NEAREST);
-  // There the values are mixed with the nothing outside.
+void RecursiveDensity::propagate(const cv::Matx33d& H) {
+  mean_ = warpToCurrent(mean_, H, cv::INTER_LINEAR);
+  moments_ = warpToCurrent(moments_, H, cv::INTER_LINEAR);
+  count_ = warpToCurrent(count_, H, cv::INTER_NEAREST);
+  // At the border values are interpolated with zeros outside.
   count_.setTo(0, outsidePrevious(H, count_.size()));
 }
 
@@ -75,7 +75,7 @@ RivalScore Aurora::scoreFrame(const FrameInput& input) {
     scored.status = DetectorStatus::kNoHomography;
     return scored;
   } else {
-    density_->carry(*registration);
+    density_->propagate(*registration);
     scored.background = *registration;
     scored.status = DetectorStatus::kGood;
   }

@@ -1,16 +1,16 @@
 // AURORA: autonomous real-time on-board video analytics (Sadeghi-Tehran, Clarke, Angelov): one homography,
 // and recursive density estimation per pixel.
 //
-// The model is carried into each frame by the homography, as the authors do. Density of the newest value x_k
+// The model is warped into each frame by the homography, as in the paper. Density of the newest value x_k
 // among the k values that the pixel has had,
 //   mu_k = (k-1)/k mu_(k-1) + x_k / k,   S_k = (k-1)/k S_(k-1) + |x_k|^2 / k,
 //   D_k = 1 / (1 + |x_k - mu_k|^2 + S_k - |mu_k|^2),
-// and foreground where D_k < mean(D) - deviation(D), both over the pixel's own past. Score: kDecisionScore
-// at a tenth of a deviation, since a deviation is held up from below (tuned), graded by (mean - D_k) /
-// deviation. Their grouping of the foreground pixels is an average over a box here (tuned, EXPERIMENTS.md).
-// Mean and deviation of D start when a pixel is first classified: the first densities are all 1. Images are
-// smoothed first, or what the carrying blurs would be foreground wherever there is fine texture.
-// `aurora-davis` has the best setting on DAVIS' clips alone: a shorter memory.
+// and foreground where D_k < mean(D) - deviation(D), both over the pixel's own past. Score: kDecisionScore at
+// a tenth of a deviation, since the deviation has a lower bound (tuned), graded by (mean - D_k) / deviation.
+// Their grouping of the foreground pixels is an average over a box here (tuned, EXPERIMENTS.md). Mean and
+// deviation of D start when a pixel is first classified: the first densities are all 1. Images are smoothed
+// first; otherwise the blur by warping would make fine texture foreground. `aurora-davis` has the best
+// setting on DAVIS' clips alone: a shorter memory.
 #pragma once
 
 #include "redbee/detection/rivals/registration.hpp"
@@ -29,7 +29,7 @@ class RecursiveDensity {
   };
   RecursiveDensity(cv::Size size, const Parameters& parameters);
 
-  void carry(const cv::Matx33d& H);
+  void propagate(const cv::Matx33d& H);
   /// Learns an image. Returns deviations of the density below its mean, 0 where it is above or the pixel is
   /// not classified yet.
   cv::Mat1f update(const cv::Mat3b& colour);

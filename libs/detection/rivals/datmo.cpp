@@ -26,8 +26,8 @@ cv::Point2f transferred(const cv::Matx33d& H, const cv::Point2f& point) {
   return {static_cast<float>(p[0] / p[2]), static_cast<float>(p[1] / p[2])};
 }
 
-std::vector<StrayPoint> strayPoints(const GridTracks& tracks, const cv::Matx33d& H) {
-  std::vector<StrayPoint> points;
+std::vector<MovingPoint> strayPoints(const GridTracks& tracks, const cv::Matx33d& H) {
+  std::vector<MovingPoint> points;
   for (size_t i = 0; i < tracks.current.size(); ++i) {
     const cv::Point2f difference = tracks.current[i] - transferred(H, tracks.previous[i]);
     points.push_back(
@@ -52,9 +52,9 @@ GroupFilter::Track GroupFilter::begin(const cv::Point2f& centre) {
 
 void GroupFilter::predict(Track& track, const cv::Matx33d& background) {
   cv::Mat& state = track.filter.statePost;
-  const cv::Point2f carried = transferred(background, {state.at<float>(0), state.at<float>(1)});
-  state.at<float>(0) = carried.x;
-  state.at<float>(1) = carried.y;
+  const cv::Point2f warped = transferred(background, {state.at<float>(0), state.at<float>(1)});
+  state.at<float>(0) = warped.x;
+  state.at<float>(1) = warped.y;
   track.filter.predict();
   ++track.missed;
 }
@@ -73,8 +73,8 @@ GroupFilter::Track* GroupFilter::nearest(const cv::Point2f& centre) {
   return best;
 }
 
-std::vector<FlowCluster> GroupFilter::lasting(std::vector<FlowCluster> groups,
-                                              const cv::Matx33d& background) {
+std::vector<FlowCluster> GroupFilter::confirmedGroups(std::vector<FlowCluster> groups,
+                                                      const cv::Matx33d& background) {
   for (Track& track : tracks_) predict(track, background);
   std::vector<FlowCluster> confirmed;
   std::vector<Track> begun;
@@ -121,7 +121,7 @@ RivalScore Datmo::scoreFrame(const FrameInput& input) {
   scored.background = *H;
   scored.score = paintClusters(input.grey.size(), strayPoints(tracks, *H), {},
                                [&](size_t level, std::vector<FlowCluster> groups) {
-                                 return filters_[level].lasting(std::move(groups), *H);
+                                 return filters_[level].confirmedGroups(std::move(groups), *H);
                                });
   return scored;
 }

@@ -4,12 +4,12 @@
 //
 // The flow that the camera's motion would give a static ground ("artificial flow") is compared with the flow
 // measured; differences above a threshold are grouped, and groups are tracked by a filter, which also
-// separates the lasting ones from noise. Score: kDecisionScore where groups appear at the threshold below,
-// see paintClusters().
+// separates persistent ones from noise. Score: kDecisionScore where groups appear at the threshold below, see
+// paintClusters().
 //
 // The camera's motion is the IMU's here (theirs is parallel tracking and mapping's); without an IMU it is the
-// homography of the points. The filter is a constant-velocity Kalman filter of each group's centre. Nothing
-// is published of the thresholds; confirmation, neighbours and least number of points were swept
+// homography of the points. The filter is a constant-velocity Kalman filter of each group's centre. The
+// thresholds are not published; confirmation, neighbourhood and minimum number of points were tuned
 // (EXPERIMENTS.md).
 #pragma once
 
@@ -22,18 +22,18 @@
 
 namespace redbee {
 
-/// Follows the groups of one decision level.
+/// Tracks the groups of one decision level.
 class GroupFilter {
  public:
   static constexpr int kConfirmFrames = 2;
 
-  /// The groups of this frame that have been there for kConfirmFrames frames. `background`: previous to
+  /// The groups of this frame that have been tracked for kConfirmFrames frames. `background`: previous to
   /// current.
-  std::vector<FlowCluster> lasting(std::vector<FlowCluster> groups, const cv::Matx33d& background);
+  std::vector<FlowCluster> confirmedGroups(std::vector<FlowCluster> groups, const cv::Matx33d& background);
 
  private:
   struct Track {
-    cv::KalmanFilter filter;  ///< x, y [px], and their velocity against the background [px a frame]
+    cv::KalmanFilter filter;  ///< x, y [px], and velocity relative to the background [px per frame]
     int hits = 1;
     int missed = 0;
   };

@@ -31,8 +31,9 @@ RivalScore Difference::scoreFrame(const FrameInput& input) {
     scored.status = DetectorStatus::kGood;
     scored.background = *registration;
     cv::Mat difference;
-    history_.carry(*registration);
-    cv::absdiff(smooth, carryMap(history_.oldest(), history_.oldestToNewest(), cv::INTER_LINEAR), difference);
+    history_.propagate(*registration);
+    cv::absdiff(smooth, warpToCurrent(history_.oldest(), history_.oldestToNewest(), cv::INTER_LINEAR),
+                difference);
     difference.setTo(0, outsidePrevious(history_.oldestToNewest(), smooth.size()));
     difference.convertTo(difference, CV_32F);
     cv::blur(difference, difference, {parameters_.average_px, parameters_.average_px});

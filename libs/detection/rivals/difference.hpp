@@ -1,11 +1,9 @@
 // The absolute difference to the image before the previous one, aligned to this one by homographies: the
-// simplest detector.
+// simplest detector. Not from a publication. The difference is averaged over a box, which fills holes and
+// removes speckles. Box, smoothing, frame distance and threshold are tuned (EXPERIMENTS.md). Score:
+// kDecisionScore at 20 grey levels.
 //
-// Not from a publication. The difference is averaged over a box, which fills holes and removes speckles. Box,
-// smoothing, how far back and the threshold are tuned (EXPERIMENTS.md). Score: kDecisionScore at 20 grey
-// levels.
-//
-// `difference-davis` has what was best on DAVIS' clips alone, whose movers are large and fast.
+// `difference-davis` has the best setting on DAVIS' clips alone, whose objects are large and fast.
 #pragma once
 
 #include "redbee/detection/rivals/image_history.hpp"

@@ -58,7 +58,7 @@ std::optional<EgoMotion::Segment> EgoMotion::segmentOf(const cv::Point2f& previo
   return Segment{farthest.hnormalized(), nearest.hnormalized()};
 }
 
-Eigen::Vector2d offSegment(const EgoMotion::Segment& segment, const cv::Point2f& current) {
+Eigen::Vector2d segmentResidual(const EgoMotion::Segment& segment, const cv::Point2f& current) {
   const Eigen::Vector2d along = segment.nearest - segment.farthest;
   const Eigen::Vector2d from = Eigen::Vector2d(current.x, current.y) - segment.farthest;
   const double length2 = along.squaredNorm();

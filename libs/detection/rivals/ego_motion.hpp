@@ -1,4 +1,4 @@
-// The camera's motion between two frames, for the rivals that reason about it.
+// The camera's motion between two frames, for the rivals that use it.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace redbee {
 class EgoMotion {
  public:
   /// From an IMU. The scene is no nearer than `nearest_fraction` of the height, and no deeper than the ground
-  /// plane, whose depth is trusted to within `ground_slack`.
+  /// plane, whose depth is accurate to `ground_slack`.
   EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_fraction,
             double ground_slack);
   /// From the tracks alone: essential matrix (Nister's five points, RANSAC). Depth is only known to be
@@ -23,11 +23,11 @@ class EgoMotion {
   static std::optional<EgoMotion> fromTracks(const GridTracks& tracks, const Eigen::Matrix3d& K,
                                              double nearest_baselines);
 
-  /// Where a static scene point seen at `previous` may lie in the current image: a straight segment [px].
+  /// Possible positions in the current image of a static scene point seen at `previous`: a segment [px].
   struct Segment {
     Eigen::Vector2d farthest, nearest;
   };
-  /// Nothing for a ray that the motion takes behind the camera.
+  /// std::nullopt for a ray that the motion moves behind the camera.
   std::optional<Segment> segmentOf(const cv::Point2f& previous) const;
 
  private:
@@ -36,11 +36,11 @@ class EgoMotion {
   Eigen::Matrix3d rotation_;  ///< K R K^-1
   Eigen::Vector3d epipole_;   ///< K t
   Eigen::Vector3d ground_ =
-      Eigen::Vector3d::Zero();  ///< inverse depth of the ground at a pixel: its scalar product
+      Eigen::Vector3d::Zero();  ///< inverse depth of the ground at a pixel x is ground_' x
   double nearest_inverse_depth_ = 0;
 };
 
-/// From the segment's nearest point to where the point is [px].
-Eigen::Vector2d offSegment(const EgoMotion::Segment& segment, const cv::Point2f& current);
+/// From the closest point of the segment to `current` [px].
+Eigen::Vector2d segmentResidual(const EgoMotion::Segment& segment, const cv::Point2f& current);
 
 }  // namespace redbee

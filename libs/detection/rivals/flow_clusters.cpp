@@ -13,9 +13,9 @@ float ratioOfLevel(size_t level) { return 0.25F * std::pow(2.0F, 0.5F * static_c
 
 }  // namespace
 
-std::vector<FlowCluster> clusterFlow(const std::vector<StrayPoint>& points,
+std::vector<FlowCluster> clusterFlow(const std::vector<MovingPoint>& points,
                                      const ClusterParameters& parameters) {
-  const auto alike = [&](const StrayPoint& a, const StrayPoint& b) {
+  const auto alike = [&](const MovingPoint& a, const MovingPoint& b) {
     const float reach = static_cast<float>(cv::norm(a.at - b.at));
     if (reach > parameters.reach_px) return false;
     const double longer = std::max(cv::norm(a.motion), cv::norm(b.motion));
@@ -55,13 +55,13 @@ void paintHull(cv::Mat1b& map, const std::vector<cv::Point2f>& points, float mar
   cv::fillConvexPoly(map, outline, cv::Scalar(value));
 }
 
-cv::Mat1b paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
+cv::Mat1b paintClusters(cv::Size image, const std::vector<MovingPoint>& points,
                         const ClusterParameters& parameters, const ClusterChoice& choose) {
   cv::Mat1b map = cv::Mat1b::zeros(image);
-  std::vector<StrayPoint> stray = points;
+  std::vector<MovingPoint> stray = points;
   for (size_t level = 0; level < kDecisionLevels; ++level) {
     const float ratio = ratioOfLevel(level);
-    const auto within = [&](const StrayPoint& point) { return point.ratio < ratio; };
+    const auto within = [&](const MovingPoint& point) { return point.ratio < ratio; };
     stray.erase(std::remove_if(stray.begin(), stray.end(), within), stray.end());
     std::vector<FlowCluster> clusters = clusterFlow(stray, parameters);
     if (choose) clusters = choose(level, std::move(clusters));

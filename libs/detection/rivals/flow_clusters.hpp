@@ -1,4 +1,4 @@
-// Points that move on their own, gathered into objects, and objects painted as a map.
+// Clusters points that move independently of the camera into objects, and draws objects as a map.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace redbee {
 
-/// A point of the current image and the motion that the camera's does not explain.
-struct StrayPoint {
+/// A point of the current image and its motion after compensation of the camera's.
+struct MovingPoint {
   cv::Point2f at;      ///< px
   cv::Point2f motion;  ///< px
   float ratio;         ///< evidence over its decision threshold
@@ -16,7 +16,7 @@ struct StrayPoint {
 
 struct ClusterParameters {
   float reach_px = 16;  ///< px: neighbours
-  float motion_px = 1;  ///< px: like motion, plus motion_fraction of the longer of the two
+  float motion_px = 1;  ///< px: largest difference of motion, plus motion_fraction of the longer motion
   float motion_fraction = 0.3F;
   size_t min_points = 3;
 };
@@ -27,20 +27,20 @@ struct FlowCluster {
   cv::Point2f motion;               ///< px, mean
 };
 
-/// Points are of one cluster where a chain of neighbours with like motion joins them.
-std::vector<FlowCluster> clusterFlow(const std::vector<StrayPoint>& points,
+/// Points belong to one cluster if a chain of neighbours with similar motion connects them.
+std::vector<FlowCluster> clusterFlow(const std::vector<MovingPoint>& points,
                                      const ClusterParameters& parameters);
 
-/// Convex hull of the points, each with a margin around it, set to `value`.
+/// Sets the convex hull of the points, extended by a margin, to `value`.
 void paintHull(cv::Mat1b& map, const std::vector<cv::Point2f>& points, float margin_px, uint8_t value);
 
-/// Which clusters of one decision level count as objects; level 0, 1, ... from the most lenient.
+/// Selects the clusters of one decision level that are objects; level 0 has the lowest threshold.
 using ClusterChoice = std::function<std::vector<FlowCluster>(size_t level, std::vector<FlowCluster>)>;
 
-/// A graded score from a method that decides: the decision is made at thresholds from 1/4 to 16 times the
-/// method's own, and a pixel's score is that of the strictest at which a cluster's hull holds it. At
-/// kDecisionScore the map is the method's own decision.
-cv::Mat1b paintClusters(cv::Size image, const std::vector<StrayPoint>& points,
+/// A graded score from a binary method: the decision is repeated at thresholds from 1/4 to 16 times the
+/// method's own, and a pixel's score is that of the highest threshold at which a cluster's hull contains it.
+/// Thresholding at kDecisionScore gives the method's own decision.
+cv::Mat1b paintClusters(cv::Size image, const std::vector<MovingPoint>& points,
                         const ClusterParameters& parameters, const ClusterChoice& choose = {});
 inline constexpr size_t kDecisionLevels = 13;
 

@@ -43,7 +43,7 @@ RivalScore FlowResidual::scoreFrame(const FrameInput& input) {
   if (registration) {
     scored.status = DetectorStatus::kGood;
     scored.background = *registration;
-    history_.carry(*registration);
+    history_.propagate(*registration);
     cv::Mat2f flow;
     flow_->calc(input.grey, history_.oldest(), flow);
     cv::Mat1f remains = flowAgainst(flow, history_.oldestToNewest());

@@ -1,10 +1,8 @@
-// Dense flow minus the flow of one homography: whatever moves against the dominant plane.
-//
-// Not from a publication. Dense inverse search flow (OpenCV's, preset medium) forward from the previous
-// image's grid is not used: it is computed from the current image back to the previous one, so that the score
-// lies on the current image. What remains is averaged over a box. Score: kDecisionScore at 3.25 px. Box,
-// threshold and how many frames back the flow reaches (two) are tuned (EXPERIMENTS.md). `flow-residual-davis`
-// has what was best on DAVIS' clips alone.
+// Dense flow minus the flow of one homography: motion relative to the dominant plane. Not from a publication.
+// Dense inverse search flow (OpenCV's, preset medium) from the current image back to the previous one, so
+// that the score is on the current image's grid. The residual is averaged over a box. Score: kDecisionScore
+// at 3.25 px. Box, threshold and frame distance (two) are tuned (EXPERIMENTS.md). `flow-residual-davis` has
+// the best setting on DAVIS' clips alone.
 #pragma once
 
 #include <opencv2/video/tracking.hpp>
@@ -18,7 +16,7 @@ namespace redbee {
 struct FlowResidualParameters {
   size_t back_frames = 2;
   int average_px = 15;         ///< side of the box
-  float threshold_px = 3.25F;  ///< where kDecisionScore lies
+  float threshold_px = 3.25F;  ///< residual at kDecisionScore
 };
 
 class FlowResidual : public Rival {
@@ -35,8 +33,8 @@ class FlowResidual : public Rival {
   ImageHistory history_;
 };
 
-/// Length [px] of what remains of `flow` (current image to previous) once each pixel's own motion
-/// by `H` (previous to current) is taken out. 0 where H takes it from outside of the previous image.
+/// Length [px] of `flow` (current image to previous) minus the flow of `H` (previous to current). 0 where H
+/// maps from outside of the previous image.
 cv::Mat1f flowAgainst(const cv::Mat2f& flow, const cv::Matx33d& H);
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// One scale for all rivals' scores.
+// The common scale of all rivals' scores.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace redbee {
 
-/// Score that a decision threshold maps to.
+/// Score at a method's decision threshold.
 inline constexpr int kDecisionScore = 128;
 
 /// `ratio`: a statistic over its decision threshold, >= 0. 0 gives 0, 1 gives kDecisionScore, infinity gives
@@ -27,8 +27,8 @@ inline cv::Mat1b gradedScore(const cv::Mat1f& statistic, float threshold) {
   return score;
 }
 
-/// A score as a fraction of its range, averaged over a box, and graded again with the decision where that
-/// mean is `decision_fraction`: holes are filled, speckles removed.
+/// A score averaged over a box and graded again, with the decision at a mean of `decision_fraction` of the
+/// range; fills holes and removes speckles.
 inline cv::Mat1b averagedScore(const cv::Mat1b& score, int box_px, float decision_fraction) {
   cv::Mat1f mean;
   score.convertTo(mean, CV_32F, 1.0 / 255);

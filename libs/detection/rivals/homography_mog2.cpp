@@ -8,11 +8,11 @@
 namespace redbee {
 namespace {
 
-constexpr int kHistory = 100;         // frames; OpenCV's default of 500 is longer than a view lasts
+constexpr int kHistory = 100;         // frames; OpenCV's default of 500 is longer than a scene stays in view
 constexpr double kVarThreshold = 16;  // OpenCV's default
 constexpr double kMinOverlap = 0.6;
 constexpr int kLearningFrames = 5;
-constexpr float kDifferenceUnit = 30;  // grey levels: what is halfway up within either side of the decision
+constexpr float kDifferenceUnit = 30;  // grey levels: difference at the middle of each half of the scale
 constexpr int kAveragePx = 15;
 constexpr float kDecisionFraction = 0.38F;
 constexpr uint8_t kMog2Foreground = 255;
@@ -48,7 +48,7 @@ void HomographyMog2::reset() {
   learned_ = 0;
 }
 
-void HomographyMog2::anchorHere(const cv::Mat3b& background) {
+void HomographyMog2::setAnchor(const cv::Mat3b& background) {
   model_ = cv::createBackgroundSubtractorMOG2(kHistory, kVarThreshold, true);
   anchor_ = cv::Matx33d::eye();
   cv::Mat1b mask;
@@ -59,12 +59,12 @@ cv::Mat1b HomographyMog2::learn(const cv::Mat3b& image) {
   cv::Mat3b background;
   model_->getBackgroundImage(background);
   const cv::Mat1b outside = outsidePrevious(anchor_.inv(), image.size());
-  cv::Mat3b laid = carryMap(image, anchor_.inv(), cv::INTER_LINEAR);
+  cv::Mat3b laid = warpToCurrent(image, anchor_.inv(), cv::INTER_LINEAR);
   background.copyTo(laid, outside);
   cv::Mat1b mask;
   model_->apply(laid, mask);
   mask.setTo(0, outside);
-  return carryMap(grade(mask, greatestDifference(laid, background)), anchor_, cv::INTER_NEAREST);
+  return warpToCurrent(grade(mask, greatestDifference(laid, background)), anchor_, cv::INTER_NEAREST);
 }
 
 RivalScore HomographyMog2::scoreFrame(const FrameInput& input) {
@@ -72,7 +72,7 @@ RivalScore HomographyMog2::scoreFrame(const FrameInput& input) {
   const bool first = !registrar_.hasPrevious();
   const auto registration = registrar_.advance(input.grey);
   if (first) {
-    anchorHere(input.colour);
+    setAnchor(input.colour);
     return scored;
   }
   if (!registration) {
@@ -83,9 +83,9 @@ RivalScore HomographyMog2::scoreFrame(const FrameInput& input) {
   if (overlap(anchor_, input.grey.size()) < kMinOverlap) {
     cv::Mat3b background;
     model_->getBackgroundImage(background);
-    cv::Mat3b here = carryMap(background, anchor_, cv::INTER_LINEAR);
+    cv::Mat3b here = warpToCurrent(background, anchor_, cv::INTER_LINEAR);
     input.colour.copyTo(here, outsidePrevious(anchor_, here.size()));
-    anchorHere(here);
+    setAnchor(here);
   }
   scored.score = averagedScore(learn(input.colour), kAveragePx, kDecisionFraction);
   scored.background = *registration;

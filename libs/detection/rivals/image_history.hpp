@@ -1,4 +1,4 @@
-// The images of the last few frames, each with the homography from it to the newest.
+// The images of the latest frames, each with the homography from it to the newest.
 #pragma once
 
 #include <deque>
@@ -8,16 +8,16 @@ namespace redbee {
 
 class ImageHistory {
  public:
-  /// `frames`: how many are kept, at least 1.
+  /// `frames`: capacity, at least 1.
   explicit ImageHistory(size_t frames) : frames_(frames) {}
 
   void clear() { entries_.clear(); }
   bool empty() const { return entries_.empty(); }
-  /// Before a new frame; `H`: from the previous one to it. The kept images' homographies are updated.
-  void carry(const cv::Matx33d& H) {
+  /// To be called before a new frame is pushed. `H`: from the previous frame to the new one.
+  void propagate(const cv::Matx33d& H) {
     for (Entry& entry : entries_) entry.to_newest = H * entry.to_newest;
   }
-  /// The newest frame's image, which shares its memory.
+  /// Adds the newest image (not copied).
   void push(const cv::Mat1b& image) {
     entries_.push_back({image, cv::Matx33d::eye()});
     if (entries_.size() > frames_) entries_.pop_front();

@@ -113,7 +113,7 @@ RivalScore Mcd::scoreFrame(const FrameInput& input) {
     scored.status = DetectorStatus::kNoHomography;
     return scored;
   } else {
-    carry(*registration);
+    propagate(*registration);
     scored.status = DetectorStatus::kGood;
     scored.background = *registration;
   }
@@ -139,12 +139,12 @@ GreyGaussian Mcd::modelAt(size_t which, double column, double row) const {
   return blendGaussians(around, weights);
 }
 
-void Mcd::carry(const cv::Matx33d& H) {
+void Mcd::propagate(const cv::Matx33d& H) {
   constexpr double kCentre = 0.5 * (kBlockPx - 1);
   const cv::Matx33d back = H.inv();
   // The authors reset the outermost blocks, where neighbours are missing.
   const cv::Rect2d inner(0.5, 0.5, blocks_.width - 2, blocks_.height - 2);
-  std::vector<DualModel> carried(models_.size());
+  std::vector<DualModel> warped(models_.size());
   size_t block = 0;
   for (int row = 0; row < blocks_.height; ++row) {
     for (int column = 0; column < blocks_.width; ++column, ++block) {
@@ -152,10 +152,10 @@ void Mcd::carry(const cv::Matx33d& H) {
       const double x = (at[0] / at[2] - kCentre) / kBlockPx;
       const double y = (at[1] / at[2] - kCentre) / kBlockPx;
       if (!(at[2] > 0 && inner.contains(cv::Point2d(x, y)))) continue;
-      for (size_t which = 0; which < 2; ++which) carried[block][which] = modelAt(which, x, y);
+      for (size_t which = 0; which < 2; ++which) warped[block][which] = modelAt(which, x, y);
     }
   }
-  models_ = std::move(carried);
+  models_ = std::move(warped);
 }
 
 cv::Mat1b Mcd::updateAndScore(const cv::Mat1b& grey) {

@@ -2,11 +2,11 @@
 // Objects with Non-Stationary Cameras in 5.8ms", CVPR Workshops 2013.
 //
 // Every block of 4x4 px has two Gaussians of grey (mean, variance, age); the older explains the background,
-// the other waits to replace it. Models are carried into each frame by one homography, the order of
-// classification and learning is that of the authors' public code (99.6 to 99.9 % of the decisions are the
-// same). Constants are theirs but for the oldest age (30) and the least variance (25), and the average over a
-// box is not theirs either: tuned (EXPERIMENTS.md). Score: |grey - mean| / (2 sigma), the published decision,
-// graded, averaged over the box, with kDecisionScore where the mean F1 of the development clips is best.
+// the other is the candidate to replace it. Models are warped into each frame by one homography; the order of
+// classification and learning is that of the authors' code (99.6 to 99.9 % of the decisions are the same).
+// Constants are theirs except for the maximum age (30), the minimum variance (25) and the average over a box,
+// which are tuned (EXPERIMENTS.md). Score: |grey - mean| / (2 sigma), the published decision, graded,
+// averaged over the box, with kDecisionScore where the mean F1 of the development clips is best.
 #pragma once
 
 #include <array>
@@ -26,19 +26,19 @@ struct GreyGaussian {
 /// Model 0 is the background's, model 1 the candidate's.
 using DualModel = std::array<GreyGaussian, 2>;
 
-/// The Gaussian at a place between four blocks: means weighted, the spread of the means counted into the
-/// variance, the age less where the variance is large (equations 8 to 11). `weights` sum to at most 1; what
-/// is missing lies outside of the image. Age 0 where all is missing.
+/// The Gaussian interpolated between four blocks: weighted mean, variance including the spread of the means,
+/// age reduced if the variance is large (equations 8 to 11). `weights` sum to at most 1; the rest lies
+/// outside of the image. Age 0 if all of it does.
 GreyGaussian blendGaussians(const std::array<GreyGaussian, 4>& models, const std::array<float, 4>& weights);
 
 /// The Gaussian that the pixels of a block are compared with.
 struct BlockBackground {
-  float mean;       ///< grey levels, of model 0 once it has learned from the block, if it has
-  float variance;   ///< grey levels^2, of model 0 before
+  float mean;       ///< grey levels, of model 0 after its update
+  float variance;   ///< grey levels^2, of model 0 before its update
   bool classifies;  ///< false: model 0 is too young
 };
 
-/// Takes in a block's pixels: the candidate becomes the background where it is as old. `mean`: of the block;
+/// Updates a block's models; the candidate becomes the background when it is as old. `mean`: of the block;
 /// `least`, `greatest`: its extreme pixels.
 BlockBackground updateDualModel(DualModel& model, float mean, float least, float greatest);
 
@@ -52,7 +52,7 @@ class Mcd : public Rival {
   void reset() override;
   RivalScore scoreFrame(const FrameInput& input) override;
 
-  void carry(const cv::Matx33d& H);
+  void propagate(const cv::Matx33d& H);
   GreyGaussian modelAt(size_t which, double column, double row) const;
   cv::Mat1b updateAndScore(const cv::Mat1b& grey);
 
@@ -62,7 +62,7 @@ class Mcd : public Rival {
     return models_[static_cast<size_t>(row * blocks_.width + column)];
   }
 
-  cv::Size blocks_;                ///< whole blocks of the image; the rest at its edge is not classified
+  cv::Size blocks_;                ///< complete blocks of the image; the remaining border is not classified
   std::vector<DualModel> models_;  ///< row by row
 };
 

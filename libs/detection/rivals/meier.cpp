@@ -10,7 +10,7 @@
 namespace redbee {
 namespace {
 
-constexpr double kThresholdPx = 1.0;  // chosen by reason: the score sweeps it
+constexpr double kThresholdPx = 1.0;  // not tuned, as the score sweeps it
 constexpr float kReachPx = 24;
 constexpr int kAveragePx = 15;
 constexpr float kDecisionFraction = 0.58F;
@@ -28,12 +28,12 @@ GridFlowParameters gridParameters() {
   return parameters;
 }
 
-std::vector<StrayPoint> strayPoints(const GridTracks& tracks, const EgoMotion& motion) {
-  std::vector<StrayPoint> points;
+std::vector<MovingPoint> strayPoints(const GridTracks& tracks, const EgoMotion& motion) {
+  std::vector<MovingPoint> points;
   for (size_t i = 0; i < tracks.current.size(); ++i) {
     const auto segment = motion.segmentOf(tracks.previous[i]);
     if (!segment) continue;
-    const Eigen::Vector2d off = offSegment(*segment, tracks.current[i]);
+    const Eigen::Vector2d off = segmentResidual(*segment, tracks.current[i]);
     const Eigen::Vector2d moved(tracks.current[i].x - segment->farthest.x(),
                                 tracks.current[i].y - segment->farthest.y());
     const double ratio = off.norm() / (kThresholdPx + kDirectionError * moved.norm());

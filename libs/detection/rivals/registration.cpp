@@ -5,11 +5,11 @@
 namespace redbee {
 namespace {
 
-// What chance gives does not come near; water and foliage leave little more that follows one plane.
+// Random matches give far fewer inliers; water and foliage leave only a few more on one plane.
 constexpr double kMinInlierRatio = 0.03;
 constexpr size_t kMinInliers = 8;
 
-/// Homographies that turn the image over, or shrink it to nothing, are no camera motion.
+/// Homographies that mirror or collapse the image are not camera motions.
 bool isCameraMotion(const cv::Matx33d& H) {
   constexpr double kMostMagnification = 4.0;
   const double area = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0);

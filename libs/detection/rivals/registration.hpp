@@ -10,8 +10,8 @@
 namespace redbee {
 
 /// Homography of `tracks`, previous to current, by RANSAC with this inlier distance [px]. std::nullopt if
-/// fewer than 3 % of the points sampled (and 8 more) follow it, or it turns or scales the image as no camera
-/// does (the authors do not check).
+/// fewer than 3 % of the sampled points (plus 8) are inliers, or H is not plausible for a camera motion (the
+/// authors do not check).
 std::optional<cv::Matx33d> registerTracks(const GridTracks& tracks, double inlier_px = 1.0);
 
 class Registrar {
@@ -20,8 +20,8 @@ class Registrar {
 
   void reset() { flow_.reset(); }
   bool hasPrevious() const { return flow_.hasPrevious(); }
-  /// Registers the image before to this one, which is then the one before. Nothing for the first
-  /// image and where registerTracks() fails.
+  /// Registers the previous image to this one, which becomes the previous. std::nullopt for the first image
+  /// and if registerTracks() fails.
   std::optional<cv::Matx33d> advance(const cv::Mat1b& grey) { return registerTracks(flow_.advance(grey)); }
 
  private:

@@ -65,7 +65,7 @@ DetectorOutput Rival::step(const FrameInput& input) {
   if (good) {
     Eigen::Matrix3d background;
     cv::cv2eigen(scored.background, background);
-    tracker_.carry(background);
+    tracker_.propagate(background);
     ForegroundComponents found = findComponents(output.probability, output.unknown, objects_);
     output.mask = found.mask;
     components = std::move(found.components);

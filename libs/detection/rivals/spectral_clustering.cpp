@@ -14,7 +14,7 @@ constexpr int kIterations = 200;
 constexpr double kMoved = 1e-6;
 constexpr uint64_t kSeed = 1;
 
-/// k-means++ with restarts. OpenCV draws from the thread's generator, which is set and put back.
+/// k-means++ with restarts. OpenCV uses the thread's random generator, which is seeded and restored.
 std::vector<int> kMeans(const Eigen::MatrixXd& rows, int count) {
   cv::Mat samples;
   cv::eigen2cv(Eigen::MatrixXf(rows.cast<float>()), samples);

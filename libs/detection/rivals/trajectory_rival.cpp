@@ -22,10 +22,11 @@ constexpr int kMotions = 5;
 constexpr TrajectoryRivalParameters kRvParameters{16, 0.15};
 constexpr TrajectoryRivalParameters kLrrParameters{24, 0.2};
 constexpr TrajectoryRivalParameters kSscParameters{24, 0.1};
-constexpr double kReachPx = 16;  // tracks are lost, and where they were must not go without a score
+constexpr double kReachPx = 16;  // bridges the places of lost tracks
 constexpr int kAveragePx = 25;
 constexpr float kDecisionFraction = 0.38F;
-constexpr double kRegisteredPx = 1;  // tracks this close to the background's motions register the image
+constexpr double kRegisteredPx =
+    1;  // the image counts as registered if tracks are this close to the background's motions
 constexpr Eigen::Index kAffineRank = 3;
 
 cv::Mat1b fillFromNearest(cv::Size image, const Eigen::MatrixXd& X, const std::vector<uint8_t>& scores) {
@@ -51,7 +52,7 @@ cv::Mat1b fillFromNearest(cv::Size image, const Eigen::MatrixXd& X, const std::v
   return map;
 }
 
-/// About the points' centre, the largest coordinate 1: what the subspace methods are fed with.
+/// Centred and scaled to a largest coordinate of 1, as input of the subspace methods.
 Eigen::MatrixXd scaled(const Eigen::MatrixXd& X) {
   Eigen::MatrixXd Y = X;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {

@@ -11,7 +11,7 @@
 namespace redbee {
 
 struct TrajectoryWindowParameters {
-  int grid_px = 8;       ///< px: one track to a cell of this side, re-seeded where there is none
+  int grid_px = 8;       ///< px: one track per cell of this side; empty cells are seeded again
   int frames = 6;        ///< of the window
   int least_frames = 3;  ///< of the window while it fills
 };
@@ -21,8 +21,8 @@ class TrajectoryWindow {
   explicit TrajectoryWindow(const TrajectoryWindowParameters& parameters);
 
   void reset();
-  /// Follows all tracks into the image (of one size between resets) and seeds empty cells. False if fewer
-  /// than a tenth of the tracks could be followed: it then restarts from this image.
+  /// Follows all tracks into the image (of one size between resets) and seeds empty cells. Returns false, and
+  /// restarts from this image, if fewer than a tenth of the tracks survive.
   bool advance(const cv::Mat1b& grey);
 
   /// 2F x N, px: x and y of frame f in rows 2f and 2f + 1, a column for every track that spans the whole

@@ -11,7 +11,7 @@
 namespace redbee {
 namespace {
 
-// The canvas must neither lose nor invent detail: beyond this change of area it is replaced.
+// Beyond this change of area the canvas is replaced, so that its resolution stays close to the image's.
 constexpr double kMaxAreaRatio = 1.2;
 
 int marginPixels(const cv::Size& image, double fraction) {
@@ -47,7 +47,7 @@ BackgroundModel::BackgroundModel(cv::Size image, const TwoPlaneParameters& param
       view_(to_canvas_.inverse()),
       mixture_(canvas_, parameters.mixture_history, parameters.mixture_threshold) {}
 
-void BackgroundModel::carry(const Eigen::Matrix3d& H) {
+void BackgroundModel::propagate(const Eigen::Matrix3d& H) {
   view_ = normaliseHomography(H * view_);
   if (viewFitsCanvas()) return;
   mixture_.move(to_canvas_ * view_);

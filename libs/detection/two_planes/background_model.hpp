@@ -1,8 +1,7 @@
-// The background of one plane: a Gaussian mixture that follows the plane's homography.
-//
-// The model lies on a canvas, the image with a border, and the current frame is warped onto it. When the
-// view leaves the canvas or changes its scale, the model moves into the current view, one nearest-neighbour
-// warp. With no border it moves every frame: the model is "carried along".
+// The background model of one plane: a Gaussian mixture that is compensated by the plane's homography. The
+// model is stored on a canvas, the image with a margin, onto which the current frame is warped. When the view
+// leaves the canvas or changes its scale, the model is warped into the current view (nearest neighbour).
+// Without a margin it is warped in every frame.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +15,12 @@ namespace redbee {
 
 class BackgroundModel {
  public:
-  /// `learning_frames`: a pixel that was learned from fewer images is unknown.
+  /// `learning_frames`: pixels learned from fewer images are unknown.
   BackgroundModel(cv::Size image, const TwoPlaneParameters& parameters, int learning_frames);
 
-  /// The camera moves by H (previous to current, pixels) and nothing is learned.
-  void carry(const Eigen::Matrix3d& H);
-  /// Classifies the image against the model, then learns it. carry() comes first.
+  /// Compensates the camera's motion H (previous to current, pixels).
+  void propagate(const Eigen::Matrix3d& H);
+  /// Classifies the image against the model, then learns it. To be called after propagate().
   ForegroundMaps learn(const cv::Mat1b& grey);
 
  private:
@@ -30,7 +29,7 @@ class BackgroundModel {
   cv::Size image_;
   cv::Size canvas_;
   int learning_frames_;
-  Eigen::Matrix3d to_canvas_;  ///< of a view that the canvas was laid around: the border's offset
+  Eigen::Matrix3d to_canvas_;  ///< the margin's offset
   Eigen::Matrix3d view_;       ///< canvas pixels to current pixels
   GaussianMixture mixture_;
 };

@@ -42,8 +42,8 @@ cv::Mat1b GaussianMixture::update(const cv::Mat1b& grey, const cv::Mat1b& valid)
 
 bool GaussianMixture::learn(Pixel& pixel, float value) const {
   pixel.age = static_cast<uint16_t>(std::min(pixel.age + 1, history_));
-  // The weights change with the history alone: a fast start would take a mover for background in three
-  // frames. Mean and variance start as plain averages, so that a pixel seen for the first time is soon known.
+  // The weights always adapt at the rate of the history: a faster start would absorb a moving object within
+  // three frames. Mean and variance start as plain averages, so that new pixels converge quickly.
   const float rate = 1.0F / static_cast<float>(history_);
   const float least_gain = 1.0F / static_cast<float>(pixel.age);
   const float prune = rate * kComplexityPrior;
@@ -101,7 +101,7 @@ void GaussianMixture::move(const Eigen::Matrix3d& H) {
   // OpenCV remaps no 32-bit integers; floats represent every index of an image below 2^24 pixels exactly.
   cv::Mat1f index(size_);
   for (int i = 0; i < size_.area(); ++i) index(i / size_.width, i % size_.width) = static_cast<float>(i + 1);
-  const cv::Mat1f source = carryMap(index, H, cv::INTER_NEAREST);
+  const cv::Mat1f source = warpToCurrent(index, H, cv::INTER_NEAREST);
   std::vector<Pixel> moved(pixels_.size());
   for (int y = 0; y < size_.height; ++y) {
     const float* from = source[y];

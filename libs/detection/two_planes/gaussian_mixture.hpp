@@ -1,9 +1,8 @@
 // A mixture of Gaussians of the grey value per pixel, the number of Gaussians adapted to the data (Zivkovic,
-// "Improved adaptive Gaussian mixture model for background subtraction", ICPR 2004; the paper's [3]).
-//
-// Two departures. Each pixel has its own age, for pixels come into a flying camera's view at different times:
-// until the history is full, means and variances are plain averages of what was seen. And the whole model can
-// be moved by a homography.
+// "Improved adaptive Gaussian mixture model for background subtraction", ICPR 2004; the paper's [3]). Two
+// departures: each pixel has its own age, as pixels enter a moving camera's view at different times, and
+// until the history is full means and variances are plain averages; and the model can be warped by a
+// homography.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,15 +18,15 @@ class GaussianMixture {
   /// `threshold`: squared Mahalanobis distance within which a value belongs to a Gaussian of the background.
   GaussianMixture(cv::Size size, int history_frames, double threshold);
 
-  /// Learns the values of `grey` where `valid` is not 0. Returns 255 where a valid
-  /// pixel does not belong to the background it had before, else 0.
+  /// Learns the values of `grey` where `valid` is not 0. Returns 255 where a valid pixel does not match the
+  /// background before the update, else 0.
   cv::Mat1b update(const cv::Mat1b& grey, const cv::Mat1b& valid);
 
   /// 255 where fewer than `frames` values have been learned.
   cv::Mat1b unknown(int frames) const;
 
-  /// The same scene points at new pixels: model(x) = model(H^-1 x), the nearest pixel's, for blurred
-  /// Gaussians are no background of anything. New pixels have age 0.
+  /// Warps the model: model(x) = model(H^-1 x), by nearest neighbour, as interpolated Gaussians are
+  /// meaningless. New pixels have age 0.
   void move(const Eigen::Matrix3d& H);
 
  private:
@@ -38,7 +37,7 @@ class GaussianMixture {
   };
   static constexpr int kGaussians = 3;
   struct Pixel {
-    std::array<Gaussian, kGaussians> gaussians;  ///< by falling weight
+    std::array<Gaussian, kGaussians> gaussians;  ///< in order of decreasing weight
     uint16_t age = 0;
   };
 

@@ -7,15 +7,16 @@ void TwoPlaneBackground::reset() {
   front_.reset();
 }
 
-void TwoPlaneBackground::carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front) {
+void TwoPlaneBackground::propagate(const Eigen::Matrix3d& ground,
+                                   const std::optional<Eigen::Matrix3d>& front) {
   if (!ground_) return;
   if (!front || !parameters_.use_front_plane) {
     front_.reset();
   } else {
     if (!front_) front_ = ground_;
-    front_->carry(*front);
+    front_->propagate(*front);
   }
-  ground_->carry(ground);
+  ground_->propagate(ground);
 }
 
 ForegroundMaps TwoPlaneBackground::learn(const cv::Mat1b& grey) {

@@ -1,4 +1,4 @@
-// Foreground is what neither the ground nor the front plane explains (paper III.A).
+// Background models of ground and front plane; foreground matches neither (paper III.A).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,10 @@ class TwoPlaneBackground {
       : parameters_(parameters), learning_frames_(learning_frames) {}
 
   void reset();
-  /// The camera moves (homographies previous to current). A new front plane starts with the ground's model,
-  /// so that it has data; one that is lost is deleted.
-  void carry(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front);
-  /// The first image after a reset is learned without carry().
+  /// Compensates the camera's motion (homographies: previous to current). The model of a new front plane is
+  /// initialised with the ground's; that of a lost one is deleted.
+  void propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front);
+  /// The first image after a reset is learned without propagate().
   ForegroundMaps learn(const cv::Mat1b& grey);
 
  private:

@@ -1,4 +1,4 @@
-// The paper's detector: a mixture of Gaussians for each plane; foreground is what neither explains (III.A).
+// The paper's detector: a mixture of Gaussians for each plane; foreground matches neither (III.A).
 #pragma once
 
 #include "redbee/detection/ground_detector.hpp"
@@ -18,7 +18,7 @@ class TwoPlaneDetector : public GroundDetector {
 
  private:
   void resetBackground() override { planes_.reset(); }
-  void carryBackground(const FrameInput& input) override { planes_.carry(*input.ground, input.front); }
+  void warpBackground(const FrameInput& input) override { planes_.propagate(*input.ground, input.front); }
   ForegroundMaps learn(const FrameInput& input) override { return planes_.learn(input.grey); }
 
   TwoPlaneBackground planes_;

@@ -15,7 +15,7 @@ struct CalibrateOptions {
   std::filesystem::path log;  ///< LCM log with images and IMU; or the next two
   std::filesystem::path
       target_corners;         ///< CSV of a target's corners, plain or .gz (calibration_target_csv.hpp)
-  std::filesystem::path imu;  ///< CSV of the IMU beside it
+  std::filesystem::path imu;  ///< CSV of the IMU, with target_corners
   std::filesystem::path configuration;  ///< the vehicle's YAML; its extrinsics are the nominal ones
   std::filesystem::path out;            ///< folder
   std::optional<double> height_m;       ///< camera above the ground at the first frame, measured by hand
@@ -25,8 +25,8 @@ struct CalibrateOptions {
 };
 
 /// Writes camchain-imucam.yaml, imu.yaml, calibration.yaml, verdict.json and report.html, all or none of
-/// them, and prints the verdicts. 0. Throws InputError or ConfigurationError, one line each, on bad input and
-/// where nothing can be calibrated.
+/// them, and prints the verdicts. Returns 0. Throws InputError or ConfigurationError on bad input and if
+/// nothing can be calibrated.
 int runCalibrate(const CalibrateOptions& options);
 
 }  // namespace redbee

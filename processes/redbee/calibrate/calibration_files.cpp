@@ -18,7 +18,7 @@ using calibration::CalibrationResult;
 using calibration::ParameterReport;
 using calibration::Verdict;
 
-/// Reads back to the last bit.
+/// Reads back exactly.
 std::string exact(double value) { return significant(value, 17); }
 
 std::string rounded(double value) { return significant(value, 4); }

@@ -1,4 +1,4 @@
-// What `redbee calibrate` writes besides its report.
+// The files that `redbee calibrate` writes, except for its report.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace redbee {
 
-/// What was calibrated, and from which recording.
+/// The calibrated vehicle and the recording.
 struct CalibrationSubject {
   std::string vehicle;
   std::string source;  ///< the recording
@@ -24,7 +24,7 @@ std::string kalibrImu(const calibration::CalibrationInput& input,
 std::string onlineCalibration(const calibration::CalibrationInput& input,
                               const calibration::CalibrationResult& result,
                               const CalibrationSubject& subject);
-/// Values, standard deviations and verdicts for machines.
+/// Values, standard deviations and verdicts as JSON.
 std::string verdictJson(const calibration::CalibrationResult& result, const CalibrationSubject& subject);
 
 }  // namespace redbee

@@ -26,13 +26,13 @@ bool decodes(const LogEvent& event, Message& message) {
   return decodeMessage(event.data.data(), static_cast<int>(event.data.size()), message);
 }
 
-/// Follows points over several frames at once, where the image moves slowly: a facade's parallax then
-/// outgrows the tracking noise, and the rotation too. Frames in between only carry the starting guess along.
+/// Tracks points over several frames at once if the image moves slowly, so that a facade's parallax and the
+/// rotation exceed the tracking noise. Frames in between only propagate the initial guess.
 class LongBaseline {
  public:
-  /// `delay`: frames to let pass before the first match begins.
-  LongBaseline(const TrackerParameters& tracker, const cv::Mat& unseen, int delay)
-      : tracker_(tracker, unseen), delay_(delay) {}
+  /// `delay`: frames to skip before the first match.
+  LongBaseline(const TrackerParameters& tracker, const cv::Mat& unknown, int delay)
+      : tracker_(tracker, unknown), delay_(delay) {}
 
   /// `step`: from the previous frame to this one. The match that ends at this frame, where one does.
   std::optional<calibration::GroundMatch> advance(CameraTime time, const cv::Mat& ideal,
@@ -93,14 +93,14 @@ class LogIntake {
         configuration_(configuration),
         input_(input),
         rectifier_(Camera(configuration.camera)),
-        tracker_(configuration.visual.tracker, rectifier_.unseen()) {
+        tracker_(configuration.visual.tracker, rectifier_.unknown()) {
     for (const int delay : {0, 3, 6, 9})
-      long_baselines_.emplace_back(configuration.visual.tracker, rectifier_.unseen(), delay);
+      long_baselines_.emplace_back(configuration.visual.tracker, rectifier_.unknown(), delay);
   }
 
   void take(const LogEvent& event) {
     const Channels& channels = configuration_.channels;
-    if (event.channel == channels.imu) return takeImu(event);
+    if (event.channel == channels.imu) return onImu(event);
     if (event.channel == channels.altimeter && configuration_.has_altimeter) return takeAltitude(event);
     if (event.channel == channels.camera) return takeImage(event);
   }
@@ -113,7 +113,7 @@ class LogIntake {
   }
 
  private:
-  void takeImu(const LogEvent& event) {
+  void onImu(const LogEvent& event) {
     ins_t message;
     if (!decodes(event, message)) return noteDamaged();
     input_.imu.push_back({ImuTime(fromUtime(message.utime)),
@@ -140,7 +140,7 @@ class LogIntake {
     }
     const CameraTime time(fromUtime(message.utime));
     const CameraTime previous = input_.frames.empty() ? time : input_.frames.back();
-    // An image that arrives twice or late would be tracked backwards.
+    // A duplicate or late image would be tracked backwards.
     if (!input_.frames.empty() && time <= previous) return;
     const cv::Mat ideal = rectifier_.toIdeal(*grey);
     PointTracks points = tracker_.advance(ideal, std::nullopt);

@@ -1,4 +1,4 @@
-// From a recorded flight to the calibration's input.
+// Reads the calibration's input from a recorded flight.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace redbee {
 
-/// Reads IMU, altimeter and images, and follows points from each image to the next; fills imu, altimeter,
+/// Reads IMU, altimeter and images, and tracks points from each image to the next; fills imu, altimeter,
 /// frames and ground of `input`. Damaged messages and events are skipped with a warning. Throws InputError if
 /// the log holds no images or no IMU, or images of another size than configured.
 void readCalibrationLog(const std::filesystem::path& log, const Configuration& configuration, bool quiet,

@@ -1,5 +1,5 @@
-// A subcommand of `redbee`. Each lives in a file of its own in this folder, as one object with static storage
-// that registers itself; nothing else has to name it.
+// A subcommand of `redbee`. Each has its own file in this folder with one static object, which registers
+// itself.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,7 @@ enum class CommandGroup { kFlights, kEvaluation, kVehicle };
 
 class Command {
  public:
-  /// Adds options and a callback to the subcommand. The callback throws where it fails; see
-  /// exitCodeOf().
+  /// Adds options and a callback to the subcommand. The callback throws on failure; see exitCodeOf().
   using Setup = std::function<void(CLI::App& command)>;
 
   Command(CommandGroup group, std::string name, std::string description, Setup setup);

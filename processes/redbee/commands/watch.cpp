@@ -9,15 +9,14 @@
 namespace redbee {
 namespace {
 
-const Command kWatchCommand(
-    CommandGroup::kVehicle, "watch",
-    "report at once when a process dies, and kill one that hangs, until SIGINT or SIGTERM",
-    [](CLI::App& command) {
-      auto options = std::make_shared<WatchOptions>();
-      addConfigurationOption(command, options->configuration);
-      addLcmUrlOption(command, options->url);
-      command.callback([options] { runWatch(*options); });
-    });
+const Command kWatchCommand(CommandGroup::kVehicle, "watch",
+                            "report processes that exit, and kill those that hang, until SIGINT or SIGTERM",
+                            [](CLI::App& command) {
+                              auto options = std::make_shared<WatchOptions>();
+                              addConfigurationOption(command, options->configuration);
+                              addLcmUrlOption(command, options->url);
+                              command.callback([options] { runWatch(*options); });
+                            });
 
 }  // namespace
 }  // namespace redbee

@@ -13,7 +13,7 @@ struct CollectOptions {
   std::string url;
 };
 
-/// Until SIGINT or SIGTERM. Number of frames received.
+/// Runs until SIGINT or SIGTERM. Returns the number of frames received.
 int64_t runCollect(const CollectOptions& options);
 
 }  // namespace redbee

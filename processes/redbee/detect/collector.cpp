@@ -33,7 +33,7 @@ nlohmann::json stageJson(const process_health_t& health) {
           {"state", health.state},           {"message", health.message}};
 }
 
-/// Per frame of the run [ms], the stages' own figures added to `stages`.
+/// Per frame of the run [ms]; the figures of each stage are added to `stages`.
 nlohmann::json cpuJson(const ProcessUsage& usage, int64_t frames, nlohmann::json& stages) {
   const auto per_frame = [&](double milliseconds) { return milliseconds / static_cast<double>(frames); };
   CpuTime sum;
@@ -55,16 +55,16 @@ ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesy
   run_.prepare();
   const auto damaged = [this] { ++damaged_; };
   subscriptions_.push_back(bus.subscribe<foreground_t>(
-      channels.foreground, kQueue, [this](const foreground_t& m) { takeForeground(m); }, damaged));
+      channels.foreground, kQueue, [this](const foreground_t& m) { onForeground(m); }, damaged));
   subscriptions_.push_back(bus.subscribe<detections_t>(
       channels.detections, kQueue, [this](const detections_t& m) { detections_[m.utime] = m; }, damaged));
   subscriptions_.push_back(bus.subscribe<fused_homography_t>(
-      channels.fused_homography, kQueue, [this](const fused_homography_t& m) { takeFused(m); }, damaged));
+      channels.fused_homography, kQueue, [this](const fused_homography_t& m) { onFused(m); }, damaged));
   subscriptions_.push_back(bus.subscribe<process_health_t>(
       channels.health, kQueue, [this](const process_health_t& m) { health_[m.process] = m; }, damaged));
 }
 
-void ResultCollector::takeForeground(const foreground_t& message) {
+void ResultCollector::onForeground(const foreground_t& message) {
   foreground_sequence_.note(message.sequence);
   status_[message.utime] = message.status;
   try {
@@ -75,7 +75,7 @@ void ResultCollector::takeForeground(const foreground_t& message) {
   }
 }
 
-void ResultCollector::takeFused(const fused_homography_t& message) {
+void ResultCollector::onFused(const fused_homography_t& message) {
   fused_sequence_.note(message.sequence);
   fused_homography_t& kept = homographies_[message.utime] = message;
   kept.tracks = {};

@@ -1,5 +1,5 @@
-// Collects the results of a run from its messages and writes them to a RunFolder, whether the stack runs in
-// this process or in others, over LCM.
+// Collects the results of a run from its messages and writes them to a RunFolder, for stacks in this process
+// or in others over LCM.
 #pragma once
 
 #include <cstdint>
@@ -31,13 +31,13 @@ class ResultCollector {
   /// The latest health message of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }
 
-  /// `wall_s`: how long the run took. `usage`: of the process that ran all of it; std::nullopt if several
-  /// did: resident memory is then the sum over the processes whose health was received.
+  /// `wall_s`: duration of the run. `usage`: of the process that ran the whole stack; std::nullopt for
+  /// several processes, and then resident memory is the sum over their health messages.
   void writeTables(double wall_s, const std::optional<ProcessUsage>& usage) const;
 
  private:
-  void takeForeground(const foreground_t& message);
-  void takeFused(const fused_homography_t& message);
+  void onForeground(const foreground_t& message);
+  void onFused(const fused_homography_t& message);
   void writeDetections() const;
   void writeHomographies() const;
 
@@ -49,7 +49,7 @@ class ResultCollector {
   SequenceCounter foreground_sequence_;
   SequenceCounter fused_sequence_;
   int64_t damaged_ = 0;
-  std::string first_failure_;  ///< of writing a map: thrown by writeTables(), since a handler must not throw
+  std::string first_failure_;  ///< of writing a map; thrown by writeTables(), as handlers must not throw
   std::vector<Subscription> subscriptions_;
 };
 

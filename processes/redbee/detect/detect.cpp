@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Holds events back to the log's own pace, `rate` times as fast.
+/// Delays events to the speed of the recording times `rate`.
 class Pace {
  public:
   explicit Pace(double rate) : rate_(rate) {}

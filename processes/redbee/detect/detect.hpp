@@ -17,19 +17,19 @@ struct DetectOptions {
   std::string method = "redbee";      ///< one of methodNames()
   std::vector<std::string> settings;  ///< key=value, on top of all
   int64_t frames = 0;                 ///< only the first frames of the log; 0: all
-  double rate = 0;                    ///< times the log's own speed; 0: as fast as it goes
+  double rate = 0;                    ///< replay speed relative to real time; 0: as fast as possible
   bool quiet = false;
 };
 
 /// "redbee": as configured; presets and detectors on top of the configuration.
 std::vector<std::string> methodNames();
-/// The same in one line, separated by commas.
+/// The same, comma-separated.
 std::string methodList();
 
-/// The stack that flies; for a detector that does not need the camera's motion, that detector alone.
+/// The whole stack; for a detector that does not need the camera's motion, only the segmentation.
 InProcessStack makeStack(Bus& bus, const Configuration& configuration);
 
-/// Frames that got a mask. Throws InputError or ConfigurationError on bad input, one line each.
+/// Returns the number of frames with a mask. Throws InputError or ConfigurationError on bad input.
 int64_t runDetect(const DetectOptions& options);
 
 }  // namespace redbee

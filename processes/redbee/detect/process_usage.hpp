@@ -12,10 +12,10 @@
 
 namespace redbee {
 
-/// What this process has used so far.
+/// Usage since the start of the process.
 struct ProcessUsage {
   int64_t peak_resident_bytes = 0;
-  double cpu_s = 0;                       ///< all threads, in and out of the kernel
+  double cpu_s = 0;                       ///< all threads, user and system
   std::map<std::string, CpuTime> stages;  ///< by the name of the stage: of its thread, all frames
 };
 

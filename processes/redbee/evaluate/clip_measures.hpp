@@ -1,4 +1,4 @@
-// What an evaluation finds out about one clip.
+// The measures of one clip.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace redbee {
 
-/// One labelled frame, by the mask that the method decided on.
+/// One labelled frame, by the method's mask.
 struct FrameOutcome {
   int64_t utime = 0;         ///< us
   int64_t hits = 0;          ///< px, moving and in the mask
@@ -23,7 +23,7 @@ struct ClipMeasures {
   std::string name;
   bool has_movers = false;  ///< false: recall, error and F1 are undefined
   PixelMeasures pixels;     ///< of P_FG, at every threshold
-  PixelMeasures decided;    ///< of the mask, which is the method's own operating point
+  PixelMeasures decided;    ///< of the mask: the method's own operating point
   ObjectMeasures objects;   ///< of the mask
   std::vector<FrameOutcome> frames;
   int64_t frames_limit = 0;          ///< only the first frames of the recording were evaluated; 0: all were

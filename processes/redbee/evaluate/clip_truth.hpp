@@ -1,4 +1,4 @@
-// What moves in a clip, from a folder of ground truth.
+// Ground truth of a clip.
 //
 //   mask/        255 moves, 0 does not, any other value is unknown. Or labels/mask/, or the folder itself
 //   id/          the object id of each visible pixel, with objects.csv beside it: timestamp [ns], frame,
@@ -37,15 +37,15 @@ class ClipTruth {
 
   /// Throws InputError if the folder holds no ground truth or a table cannot be read.
   explicit ClipTruth(const std::filesystem::path& folder);
-  /// Nothing moves in any frame.
+  /// The truth that nothing moves in any frame.
   static ClipTruth nothingMoves() { return ClipTruth(); }
   /// True if the folder holds masks.
   static bool isIn(const std::filesystem::path& folder);
 
   /// The labelled ones among the recording's frames, in order. `utimes`: of all frames of the recording [us],
-  /// rising; labels by time are matched to the microsecond, those by number by position. Labels whose time
-  /// none of the frames has are kept: a frame that the run has lost counts. A number beyond the last frame is
-  /// an InputError.
+  /// rising; labels by time are matched exactly, those by number by position. Labels without a frame of the
+  /// same time are kept, so that frames lost by the run count. Throws InputError for a number beyond the last
+  /// frame.
   std::vector<Frame> frames(const std::vector<int64_t>& utimes) const;
   /// Throws InputError if an image cannot be read or has another size.
   Labels read(const Frame& frame, cv::Size size) const;

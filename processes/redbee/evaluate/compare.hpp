@@ -1,4 +1,4 @@
-// redbee compare: the tables and the page of scripts/evaluate.
+// redbee compare: tables and report page of scripts/evaluate.
 #pragma once
 
 #include <filesystem>
@@ -19,12 +19,12 @@ struct CompareOptions {
 };
 
 std::vector<Table> comparisonTables(const Comparison& comparison);
-/// One line per clip, row of extrinsics, method and measure that was taken.
+/// One line per clip, variant of the extrinsics, method and measure.
 std::string comparisonCsv(const Comparison& comparison);
-/// The tables, the curves of each clip, and images of hits and misses, on one page that stands alone.
+/// A self-contained page with the tables, the curves of each clip, and images of hits and misses.
 std::string comparisonPage(const Comparison& comparison, const std::vector<Table>& tables);
 
-/// Prints the tables; leaves tables.txt, tables.md, cells.csv and report.html in the out folder.
+/// Prints the tables; writes tables.txt, tables.md, cells.csv and report.html to the out folder.
 void runCompare(const CompareOptions& options);
 
 }  // namespace redbee

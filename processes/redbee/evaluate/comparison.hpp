@@ -9,8 +9,8 @@
 
 namespace redbee {
 
-/// One line of a list of clips: set, name, and what only scripts/evaluate reads. Clips without an IMU
-/// calibration of their own have one variant of the extrinsics, `given`.
+/// One line of a list of clips: set and name; the remaining fields are for scripts/evaluate. Clips without an
+/// IMU calibration of their own have one variant of the extrinsics, `given`.
 struct ListedClip {
   std::string set;
   std::string name;
@@ -22,7 +22,7 @@ std::vector<ListedClip> readClipList(const std::filesystem::path& file);
 /// The first field of each line.
 std::vector<std::string> readMethodList(const std::filesystem::path& file);
 
-/// Measures of one run; empty: undefined with this truth, or not measured.
+/// Measures of one run; missing: undefined with this truth, or not measured.
 struct CellMeasures {
   std::map<std::string, double> values;  ///< by the names in measureNames()
   std::optional<double> value(const std::string& name) const;
@@ -40,14 +40,14 @@ inline constexpr const char* kGivenExtrinsics = "given";
 
 class Comparison {
  public:
-  /// Cells are folders cells/SET/CLIP/EXTRINSICS/METHOD. One without measures.json has not been run yet.
+  /// Cells are folders cells/SET/CLIP/EXTRINSICS/METHOD. A cell without measures.json has not been run yet.
   Comparison(std::filesystem::path cells, std::vector<ListedClip> clips, std::vector<std::string> methods,
              std::vector<std::string> extrinsics);
 
   const std::vector<std::string>& methods() const { return methods_; }
   const std::vector<std::string>& sets() const { return sets_; }
   std::vector<ListedClip> clipsOf(const std::string& set) const;
-  /// The rows of extrinsics that the set's clips have.
+  /// The variants of the extrinsics that the set's clips have.
   std::vector<std::string> rowsOf(const std::string& set) const;
   std::filesystem::path folder(const ListedClip& clip, const std::string& row,
                                const std::string& method) const;

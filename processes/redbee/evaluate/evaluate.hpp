@@ -1,4 +1,4 @@
-// redbee evaluate: the maps of a run against ground-truth masks.
+// redbee evaluate: compares the maps of a run with ground-truth masks.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct EvaluateOptions {
 /// One clip. Throws InputError if a folder or an image cannot be read, or where no labelled frame has a map.
 ClipMeasures measureClip(const EvaluateOptions& options);
 
-/// Prints the measures; leaves measures.json, pr.csv, pr.svg, frames.csv and, with a log, images of the best
-/// and the worst frames (images/*.jpg) in the results folder. If the subfolders of the truth folder are
+/// Prints the measures; writes measures.json, pr.csv, pr.svg, frames.csv and, with a log, images of the best
+/// and the worst frames (images/*.jpg) to the results folder. If the subfolders of the truth folder are
 /// clips, each is measured against the results' subfolder of the same name, and the means are printed too.
 void runEvaluate(const EvaluateOptions& options);
 

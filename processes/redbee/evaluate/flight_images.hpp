@@ -1,4 +1,4 @@
-// The camera's messages of a flight, for commands that use single frames.
+// Access to the image messages of a flight.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The measures of a run on disk, beside its maps.
+// Files with the measures of a run, beside its maps.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ struct RecallPrecision {
   std::vector<double> recall;
   std::vector<double> precision;
 };
-/// Of a pr.csv.
+/// Reads a pr.csv.
 RecallPrecision readCurve(const std::filesystem::path& file);
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// Images of where a method was right and where it was wrong.
+// Images of hits, false alarms and misses of a method.
 #pragma once
 
 #include <filesystem>
@@ -21,10 +21,10 @@ struct RepresentativeFrames {
 };
 RepresentativeFrames chooseRepresentativeFrames(const std::vector<FrameOutcome>& frames, size_t of_each);
 
-/// The frame in grey, and on it in colour hits, false alarms and misses; hatched where the truth is unknown.
-/// Where only boxes are labelled (`truth.mask` is empty), the mask has one colour and the boxes are white.
+/// The frame in grey with hits, false alarms and misses in colour; hatched where the truth is unknown. If
+/// only boxes are labelled (`truth.mask` is empty), the mask has one colour and the boxes are white.
 cv::Mat3b drawOutcome(const cv::Mat1b& grey, const cv::Mat1b& detected, const ClipTruth::Labels& truth);
-/// Explains the colours: a paragraph of HTML.
+/// Legend of the colours, as a paragraph of HTML.
 std::string outcomeLegend();
 
 /// A flight and the results of a run over it.

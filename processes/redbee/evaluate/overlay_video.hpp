@@ -17,12 +17,12 @@ struct OverlayOptions {
   static constexpr int kStillPeriod = 24;
 };
 
-/// Calls `draw` with the overlay of every frame of the flight of which the run has a mask, in order of time.
+/// Calls `draw` with the overlay of each frame that has a mask, in order of time.
 void forEachOverlay(const std::filesystem::path& log, const std::filesystem::path& configuration,
                     const std::filesystem::path& results,
                     const std::function<void(int64_t utime, const cv::Mat& drawn)>& draw);
 
-/// Throws InputError on what cannot be read or written.
+/// Throws InputError if a file cannot be read or written.
 void renderOverlay(const OverlayOptions& options);
 
 }  // namespace redbee

@@ -1,5 +1,5 @@
-// redbee reference-extrinsics: a configuration with a rendered clip's true extrinsics plus the error that a
-// good calibration leaves.
+// redbee reference-extrinsics: writes a configuration with a rendered clip's true extrinsics plus the error
+// of a good calibration.
 #pragma once
 
 #include <filesystem>

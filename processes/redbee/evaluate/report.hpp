@@ -13,7 +13,7 @@ struct ReportOptions {
   std::filesystem::path page;     ///< the HTML file to write; it needs no other file
 };
 
-/// Prints the figures too. Throws InputError on what cannot be read or written.
+/// Also prints the figures. Throws InputError if a file cannot be read or written.
 void writeReport(const ReportOptions& options);
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// Whole files as strings.
+// Reads files into strings.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace redbee {
 
-/// A whole file; empty if it cannot be read.
+/// Content of a file; empty if it cannot be read.
 inline std::string contentOf(const std::filesystem::path& file) {
   std::ostringstream content;
   content << std::ifstream(file, std::ios::binary).rdbuf();

@@ -1,4 +1,4 @@
-// Text for HTML.
+// Escaping and encoding for HTML.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace redbee {
 
-/// Replaces the characters that HTML gives a meaning.
+/// Escapes the special characters of HTML.
 std::string escapeHtml(std::string_view text);
 std::string base64(std::string_view data);
 

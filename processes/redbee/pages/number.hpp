@@ -7,10 +7,10 @@
 
 namespace redbee {
 
-/// With so many digits behind the point.
+/// With this many decimals.
 inline std::string fixed(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
 
-/// With so many digits in all, and an exponent where that is shorter. 17 digits read back to the last bit.
+/// With this many significant digits, and an exponent if that is shorter. 17 digits read back exactly.
 inline std::string significant(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
 
 }  // namespace redbee

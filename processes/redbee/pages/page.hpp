@@ -1,4 +1,4 @@
-// Our HTML pages: one style, and nothing outside the file; images and plots are embedded.
+// Self-contained HTML pages in one style, with embedded images and plots.
 #pragma once
 
 #include <string>
@@ -34,7 +34,7 @@ class Page {
 
 /// A JPEG with its caption as a <figure> element.
 std::string jpegFigure(std::string_view jpeg, const std::string& caption);
-/// Text in a colour of its own, as the legends of our images have them: a <b> element.
+/// Coloured text for legends: a <b> element.
 std::string legendEntry(const std::string& colour, const std::string& text);
 
 }  // namespace redbee

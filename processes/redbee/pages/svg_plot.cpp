@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder for gnuplot's input and output, gone with the object.
+/// A temporary folder for gnuplot's input and output.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -88,7 +88,7 @@ std::string SvgPlot::settings() const {
       << " font 'sans-serif,12' background '#ffffff'\n"
       << "set title " << quoted(title_) << "\nset xlabel " << quoted(x_label_) << "\nset ylabel "
       << quoted(y_label_) << "\nset key below horizontal height 1\nset grid lc rgb '#dddddd'\n";
-  std::string range = "[0:1]";  // of a plot without anything on it
+  std::string range = "[0:1]";  // of an empty plot
   if (square) {
     range = "[" + number(low_) + ":" + number(high_) + "]";
   } else if (std::any_of(series_.begin(), series_.end(), isDrawable)) {

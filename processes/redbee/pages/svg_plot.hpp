@@ -1,4 +1,4 @@
-// Line and scatter plots as SVG text, for pages that stand alone; gnuplot draws them.
+// Line and scatter plots as SVG text, drawn by gnuplot.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ class SvgPlot {
  public:
   SvgPlot(std::string title, std::string x_label, std::string y_label);
 
-  /// Values that are not finite interrupt the line. Colour: #rrggbb or a name that gnuplot knows.
+  /// Values that are not finite interrupt the line. Colour: #rrggbb or a name known to gnuplot.
   void addLine(const std::string& name, const std::vector<double>& x, const std::vector<double>& y,
                const std::string& colour);
   void addPoints(const std::string& name, const std::vector<Eigen::Vector2d>& points,

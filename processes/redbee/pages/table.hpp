@@ -1,4 +1,4 @@
-// Tables for people: aligned text, Markdown and HTML of the same cells.
+// Tables as aligned text, Markdown and HTML.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace redbee {
 
-/// Colours of what is shown, where there are colours.
+/// Styles of text, shown as colours where available.
 enum class TextStyle { kPlain, kNote, kGood, kWeak, kBad };
 /// Class of an HTML element; empty: none.
 const char* classOf(TextStyle style);
@@ -28,7 +28,7 @@ struct Table {
   std::vector<std::string> columns;  ///< headings; empty: no headings
   std::vector<std::vector<Cell>> rows;
   std::vector<std::string> notes;          ///< lines below
-  std::vector<size_t> text_columns = {0};  ///< set to the left, the others, which hold numbers, to the right
+  std::vector<size_t> text_columns = {0};  ///< left-aligned; the others, with numbers, are right-aligned
 };
 
 std::string asText(const Table& table);

@@ -45,7 +45,7 @@ Finding sensorFinding(const std::string& channel, int count, double seconds) {
 
 Finding findReceiveBuffer(const std::string& url) {
   const UdpBufferCheck check = checkReceiveBuffer(url);
-  if (check.enough) return {true, "receive buffer: the kernel grants what the URL asks for", ""};
+  if (check.enough) return {true, "receive buffer: the kernel grants the requested size", ""};
   return {false, "receive buffer: too small for images", check.advice};
 }
 

@@ -1,4 +1,4 @@
-// redbee doctor: checks whether the stack can run on this machine, with a fix for each failed check.
+// redbee doctor: checks whether the stack can run on this machine, and prints a fix for each failed check.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ Finding findMulticast(const std::string& url);
 Finding findSpy();
 std::vector<Finding> findSensors(const DoctorOptions& options);
 
-/// Prints every finding; number of those that are not good.
+/// Prints all findings. Returns the number of failed checks.
 int runDoctor(const DoctorOptions& options);
 
 }  // namespace redbee

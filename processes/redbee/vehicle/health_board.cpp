@@ -50,7 +50,7 @@ Tone toneOf(HealthState state) {
   return Tone::kBad;
 }
 
-/// The stages in the order of the work, with or without messages, then other publishers by name.
+/// The stages in processing order, with or without messages, then other publishers by name.
 template <typename Entries>
 std::vector<std::string> inOrderOfWork(const Entries& entries) {
   std::vector<std::string> names;
@@ -100,7 +100,7 @@ BoardLine HealthBoard::row(const Entry& entry, Time now) {
   const auto state = static_cast<HealthState>(h.state);
   const bool silent = isSilent(entry, now);
   const std::string shown = silent ? "silent" : toString(state);
-  // A space separates a column from the next even where it is full.
+  // A space separates columns even if a cell is full.
   return {fmt::format(kRow, shortName(h.process), shown, h.pid, brief(h.rate_in), brief(h.rate_out),
                       brief(h.latency_median), brief(h.latency_p99), brief(h.skipped), brief(h.lost),
                       brief(h.damaged), brief(h.resident >> 20)),
@@ -134,7 +134,7 @@ void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
   }
 }
 
-/// Processes of different builds or configurations must not fly together unnoticed.
+/// Warns of processes with different builds or configurations.
 void HealthBoard::appendBuilds(std::vector<BoardLine>& lines) const {
   std::map<std::string, std::set<std::string>> processes_of;
   for (const auto& [name, entry] : entries_) {

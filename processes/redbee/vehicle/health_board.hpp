@@ -1,4 +1,4 @@
-// The newest PROCESS_HEALTH of every process, as a table for people.
+// The latest PROCESS_HEALTH of every process as a table.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ struct BoardLine {
   Tone tone = Tone::kPlain;
 };
 
-/// Times are those of receipt, so that a process that has stopped publishing shows.
+/// Times are times of receipt, so that processes that stop publishing are noticed.
 class HealthBoard {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -31,8 +31,8 @@ class HealthBoard {
   /// Processes that are neither silent nor dead nor degraded.
   int good(Time now) const;
 
-  /// Heading, one line a process (a stage of the process table also before its first message), then remarks:
-  /// at most `columns` (80 or more) wide.
+  /// Heading, one line per process (stages of the process table also before their first message), then
+  /// remarks; at most `columns` (80 or more) wide.
   std::vector<BoardLine> table(Time now, int columns = 80) const;
 
  private:

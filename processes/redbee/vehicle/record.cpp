@@ -26,8 +26,8 @@ constexpr double kMegabyte = 1 << 20;
 constexpr int64_t kQueueBytes = int64_t{100} << 20;
 constexpr std::chrono::milliseconds kSyncPeriod{100};
 constexpr std::chrono::milliseconds kHealthPeriod{1000};
-constexpr std::chrono::seconds kStopPatience{5};
-constexpr int kPatience_ms = 50;
+constexpr std::chrono::seconds kStopTimeout{5};
+constexpr int kPollTimeout_ms = 50;
 constexpr int kBatch = 1000;  ///< messages handled before the time is checked again
 
 std::filesystem::path prefixNow(const std::filesystem::path& folder) {
@@ -58,14 +58,15 @@ class Recorder {
         queue_([this](const ReceivedMessage& message) { write(message); }, kQueueBytes),
         lcm_(options.url) {
     if (!lcm_.good()) throw std::runtime_error("LCM cannot open " + options.url);
-    // No limit here: received messages are queued at once, and that queue counts what it cannot hold.
-    // A function, not a member function: for that GCC 12's -fsanitize=vptr reads an uninitialized register.
+    // No limit here: received messages are queued immediately, and the recording queue counts those that do
+    // not fit. A function, not a member function: for that GCC 12's -fsanitize=vptr reads an uninitialized
+    // register.
     lcm_.subscribeFunction(".*", &Recorder::onReceived, this)->setQueueCapacity(0);
     health_.setState(HealthState::kGood, "recording to " + log_.file().string());
     std::fprintf(stderr, "record: recording to %s\n", log_.file().c_str());
   }
 
-  /// Until `stop`, or until the disk ends it: the reason; empty after `stop`.
+  /// Runs until `stop` or a disk problem. Returns the reason; empty after `stop`.
   std::string run(const std::atomic<bool>& stop) {
     auto next_health = Clock::now();
     while (!stop) {
@@ -80,14 +81,14 @@ class Recorder {
     return "";
   }
 
-  /// Everything sent before this call is written when it returns: in the socket it comes before our own final
-  /// message, which we receive as well.
+  /// When this returns, everything sent before the call is written: our own final message follows it in the
+  /// socket, and its receipt is waited for.
   void finish(HealthState state, const std::string& message) {
     std::fprintf(stderr, "record: %s\n", message.c_str());
     health_.setState(state, message);
     final_message_ = publishHealth();
-    const auto patience_ends = Clock::now() + kStopPatience;
-    while (!final_message_received_ && Clock::now() < patience_ends) handle();
+    const auto deadline = Clock::now() + kStopTimeout;
+    while (!final_message_received_ && Clock::now() < deadline) handle();
     queue_.close();
     if (queue_.failure().empty()) log_.sync();
     if (lost() > 0) std::fprintf(stderr, "record: %lld messages lost\n", static_cast<long long>(lost()));
@@ -116,7 +117,7 @@ class Recorder {
   }
 
   void handle() {
-    for (int i = 0; i < kBatch && lcm_.handleTimeout(i == 0 ? kPatience_ms : 0) > 0; ++i) {
+    for (int i = 0; i < kBatch && lcm_.handleTimeout(i == 0 ? kPollTimeout_ms : 0) > 0; ++i) {
     }
   }
 

@@ -1,5 +1,4 @@
-// The queue between the network and the disk: a disk that stalls for a while costs no message, and one that
-// stalls for good costs only limited memory.
+// The queue between network and disk: a temporary stall of the disk loses no message, and memory is bounded.
 #pragma once
 
 #include <condition_variable>
@@ -14,23 +13,23 @@
 
 namespace redbee {
 
-/// Writes in a thread of its own, in the order of arrival. push(), failure() and close() are one other
-/// thread's.
+/// Writes in its own thread, in order of arrival. push(), failure() and close() must be called by one other
+/// thread.
 class RecordingQueue {
  public:
   using Write = std::function<void(const ReceivedMessage&)>;
 
-  /// `limit_bytes`: of waiting messages. An exception from `write` ends the writing.
+  /// `limit_bytes`: of queued messages. An exception from `write` stops the writing.
   RecordingQueue(Write write, int64_t limit_bytes);
   ~RecordingQueue();
   RecordingQueue(const RecordingQueue&) = delete;
   RecordingQueue& operator=(const RecordingQueue&) = delete;
 
-  /// False if there is no room, or the writing has ended: the message is lost.
+  /// Returns false if the queue is full or writing has stopped; the message is then lost.
   bool push(ReceivedMessage message);
-  /// The reason why the writing ended; empty while all is well.
+  /// The error that stopped the writing; empty if there is none.
   std::string failure() const;
-  /// Returns when all that was pushed is written.
+  /// Returns when all queued messages are written.
   void close();
 
  private:

@@ -1,11 +1,11 @@
-// The process table as supervisor reads it.
+// Generates supervisor's configuration from the process table.
 #pragma once
 
 #include <string>
 
 namespace redbee {
 
-/// A supervisord.conf: every process of the table, restarted whenever it ends. scripts/fly sets the
+/// A supervisord.conf with all processes of the table, restarted when they exit. scripts/fly sets the
 /// environment variables that it refers to.
 std::string supervisorConfiguration();
 

@@ -1,4 +1,4 @@
-// redbee top: the health of the processes, as `top` shows it.
+// redbee top: shows the health of the processes continuously.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@ namespace redbee {
 struct TopOptions {
   std::string url;
   std::string channel = "PROCESS_HEALTH";
-  bool once = false;      ///< one plain table instead of a screen
+  bool once = false;      ///< print one table instead of a full-screen display
   double listen_s = 2.2;  ///< how long to listen for it: two messages of each process
 };
 
-/// Until q, SIGINT or SIGTERM; with `once` for `listen_s`. Number of processes that published their health.
+/// Runs until q, SIGINT or SIGTERM; with `once` for `listen_s`. Returns the number of processes that
+/// published their health.
 int runTop(const TopOptions& options);
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-// The vehicle file that an import writes beside the log.
+// Writes the vehicle file of an imported recording beside its log.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace redbee {
 
-/// The keys of a vehicle's configuration that the recording states (vehicle, camera, plane, imu): what it
-/// leaves out has the reference's values.
+/// The keys of a vehicle's configuration that the recording states (vehicle, camera, plane, imu); all others
+/// have the reference configuration's values.
 std::string vehicleYaml(const VehicleDescription& vehicle);
 
-/// Writes vehicleYaml() beside the log: F.lcm gets F.yaml. The path written.
+/// Writes vehicleYaml() beside the log (F.yaml for F.lcm). Returns the path.
 std::filesystem::path writeVehicleFile(const VehicleDescription& vehicle, const std::filesystem::path& log);
 
 }  // namespace redbee

@@ -50,12 +50,13 @@ void ProcessWatch::onHealth(const process_health_t& health, Clock::time_point no
 }
 
 std::vector<std::string> ProcessWatch::killHanging(Clock::time_point now) {
-  // Without messages from anyone the network is gone, and killing every process would not restore it.
+  // Without messages from any process the network is down, and killing processes would not restore it.
   constexpr std::chrono::seconds kNetworkIsUp{2};
   std::vector<std::string> killed;
   if (newest_message_ == Clock::time_point::min() || now - newest_message_ > kNetworkIsUp) return killed;
   for (auto& [process, watched] : watched_) {
-    if (watched.fd < 0 || watched.last.configuration.empty() || now - watched.received < kHangs) continue;
+    if (watched.fd < 0 || watched.last.configuration.empty() || now - watched.received < kHangTimeout)
+      continue;
     if (pidfd_send_signal(watched.fd, SIGKILL, nullptr, 0) == 0) killed.push_back(process);
     watched.received = now;
   }
@@ -91,7 +92,7 @@ void runWatch(const WatchOptions& options) {
     bus->handle(kPeriod);
     for (const std::string& process : watch.killHanging(ProcessWatch::Clock::now())) {
       std::printf("%s has published nothing for %lld s: killed\n", process.c_str(),
-                  static_cast<long long>(ProcessWatch::kHangs.count()));
+                  static_cast<long long>(ProcessWatch::kHangTimeout.count()));
     }
     for (const process_health_t& death : watch.drainDeaths()) {
       std::printf("%s %s\n", death.process.c_str(), death.message.c_str());

@@ -1,4 +1,4 @@
-// redbee watch: detects a death at once, kills a process that hangs, reports both, and wakes supervisor.
+// redbee watch: detects processes that exit or hang, kills hanging ones, reports both, and wakes supervisor.
 #pragma once
 
 #include <sys/types.h>
@@ -14,8 +14,8 @@
 
 namespace redbee {
 
-/// Knows processes by their PROCESS_HEALTH and watches each by a file descriptor of it (pidfd_open(2)), so
-/// that a death is detected when it happens and not when the next message is due.
+/// Learns of processes from PROCESS_HEALTH and watches each by a pidfd (pidfd_open(2)), so that an exit is
+/// detected immediately.
 class ProcessWatch {
  public:
   using Clock = std::chrono::steady_clock;
@@ -25,18 +25,18 @@ class ProcessWatch {
   ProcessWatch(const ProcessWatch&) = delete;
   ProcessWatch& operator=(const ProcessWatch&) = delete;
 
-  /// A process without a message for this long, while others publish, hangs.
-  static constexpr std::chrono::seconds kHangs{20};
+  /// A process without a message for this long, while others publish, is considered to hang.
+  static constexpr std::chrono::seconds kHangTimeout{20};
 
-  /// A process that does not run on this host is not watched. One that publishes only now and then (scripts:
-  /// they have no configuration) is never considered to hang.
+  /// Processes on other hosts are not watched. Publishers without a configuration (scripts) publish
+  /// irregularly and are never considered to hang.
   void onHealth(const process_health_t& health, Clock::time_point now);
 
-  /// Kills the processes that hang (SIGKILL: they react to nothing else). Their names.
+  /// Kills hanging processes (SIGKILL, as they do not react to SIGTERM). Returns their names.
   std::vector<std::string> killHanging(Clock::time_point now);
 
-  /// Processes that died since the last call: the last message of each, with the state kDead and a message
-  /// that reports the death.
+  /// The processes that exited since the last call: the last message of each, with the state kDead and a text
+  /// that reports the exit.
   std::vector<process_health_t> drainDeaths();
 
  private:
@@ -56,7 +56,7 @@ struct WatchOptions {
   std::string url;
 };
 
-/// Until SIGINT or SIGTERM. For half a second after a death a line is printed every 20 ms: supervisor 4.2
+/// Runs until SIGINT or SIGTERM. For half a second after an exit it prints a line every 20 ms: supervisor 4.2
 /// polls its children when one of them prints, otherwise once a second (supervisord.py, runforever), and
 /// needs two polls to restart a process.
 void runWatch(const WatchOptions& options);

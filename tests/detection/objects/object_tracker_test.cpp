@@ -28,24 +28,24 @@ TEST(ObjectTracker, MoverThatStopsKeepsItsIdentity) {
   int x = 100;
   int id = 0;
   for (int k = 0; k < 20; ++k, x += 3) {
-    tracker.carry(kStill);
+    tracker.propagate(kStill);
     id = tracker.update({component(x, 200)}, kImage).at(0).id;
   }
   for (int k = 0; k < parameters.max_missed_frames; ++k) {
-    tracker.carry(kStill);
-    const auto told = tracker.update({}, kImage);
-    ASSERT_EQ(told.size(), 1U) << "lost after " << k << " frames";
-    EXPECT_FALSE(told[0].seen);
-    EXPECT_EQ(told[0].id, id);
+    tracker.propagate(kStill);
+    const auto tracks = tracker.update({}, kImage);
+    ASSERT_EQ(tracks.size(), 1U) << "lost after " << k << " frames";
+    EXPECT_FALSE(tracks[0].seen);
+    EXPECT_EQ(tracks[0].id, id);
   }
-  tracker.carry(kStill);
-  const auto told = tracker.update({component(x, 200)}, kImage);
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].id, id);
-  EXPECT_TRUE(told[0].seen);
+  tracker.propagate(kStill);
+  const auto tracks = tracker.update({component(x, 200)}, kImage);
+  ASSERT_EQ(tracks.size(), 1U);
+  EXPECT_EQ(tracks[0].id, id);
+  EXPECT_TRUE(tracks[0].seen);
 }
 
-TEST(ObjectTracker, IdentityEndsAfterTheStatedPatience) {
+TEST(ObjectTracker, IdentityEndsAfterMaxMissedFrames) {
   const ObjectParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   tracker.update({component(100, 200)}, kImage);
@@ -53,22 +53,22 @@ TEST(ObjectTracker, IdentityEndsAfterTheStatedPatience) {
   EXPECT_TRUE(tracker.update({}, kImage).empty());
 }
 
-TEST(ObjectTracker, WhileNothingCouldBeClassifiedNothingWasMissed) {
+TEST(ObjectTracker, SkippedFramesDoNotCountAsMissed) {
   const ObjectParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   const int id = tracker.update({component(100, 200)}, kImage).at(0).id;
   for (int k = 0; k < parameters.max_missed_frames; ++k) {
-    const auto told = tracker.skip(kImage);
-    ASSERT_EQ(told.size(), 1U);
-    EXPECT_FALSE(told[0].seen);
+    const auto tracks = tracker.skip(kImage);
+    ASSERT_EQ(tracks.size(), 1U);
+    EXPECT_FALSE(tracks[0].seen);
   }
   for (int k = 0; k < parameters.max_missed_frames; ++k) tracker.update({}, kImage);
-  const auto told = tracker.update({component(104, 200)}, kImage);
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].id, id);
+  const auto tracks = tracker.update({component(104, 200)}, kImage);
+  ASSERT_EQ(tracks.size(), 1U);
+  EXPECT_EQ(tracks[0].id, id);
 }
 
-TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItDeletesItsTracks) {
+TEST(ObjectTracker, TracksAreDeletedAfterTooManySkippedFrames) {
   const ObjectParameters parameters = atOnce();
   ObjectTracker tracker(parameters);
   tracker.update({component(100, 200)}, kImage);
@@ -76,7 +76,7 @@ TEST(ObjectTracker, BlindForLongerThanTwiceItsPatienceItDeletesItsTracks) {
   EXPECT_TRUE(tracker.skip(kImage).empty());
 }
 
-TEST(ObjectTracker, AFlickerIsNotWaitedForWhileNothingCanBeClassified) {
+TEST(ObjectTracker, AnUnconfirmedTrackDoesNotSurviveSkippedFrames) {
   ObjectParameters parameters;
   parameters.confirm_frames = 2;
   ObjectTracker tracker(parameters);
@@ -91,29 +91,29 @@ TEST(ObjectTracker, FollowsTheGroundWhileTheCameraMoves) {
   Eigen::Matrix3d pan = kStill;
   pan(0, 2) = 50;
   for (int k = 0; k < 5; ++k) {
-    tracker.carry(pan);
+    tracker.propagate(pan);
     tracker.update({}, kImage);
   }
-  const auto told = tracker.update({component(350, 200)}, kImage);
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].id, id);
+  const auto tracks = tracker.update({component(350, 200)}, kImage);
+  ASSERT_EQ(tracks.size(), 1U);
+  EXPECT_EQ(tracks[0].id, id);
 }
 
 TEST(ObjectTracker, TwoObjectsThatPassKeepTheirIdentities) {
   ObjectTracker tracker(atOnce());
-  std::vector<Detection> told;
+  std::vector<Detection> tracks;
   int left = 0;
   int right = 0;
   for (int k = 0; k < 30; ++k) {
-    tracker.carry(kStill);
-    told = tracker.update({component(100 + 6 * k, 200), component(300 - 6 * k, 225)}, kImage);
-    ASSERT_EQ(told.size(), 2U);
+    tracker.propagate(kStill);
+    tracks = tracker.update({component(100 + 6 * k, 200), component(300 - 6 * k, 225)}, kImage);
+    ASSERT_EQ(tracks.size(), 2U);
     if (k == 0) {
-      left = told[0].id;
-      right = told[1].id;
+      left = tracks[0].id;
+      right = tracks[1].id;
     }
   }
-  for (const Detection& detection : told) EXPECT_EQ(detection.id, detection.box.y == 200 ? left : right);
+  for (const Detection& detection : tracks) EXPECT_EQ(detection.id, detection.box.y == 200 ? left : right);
 }
 
 TEST(ObjectTracker, FlickerIsNotConfirmed) {

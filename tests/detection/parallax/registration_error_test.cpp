@@ -8,7 +8,7 @@ namespace redbee {
 namespace {
 
 const cv::Size kSize(320, 240);
-const cv::Mat kSeen = cv::Mat::zeros(kSize, CV_8U);
+const cv::Mat kAllKnown = cv::Mat::zeros(kSize, CV_8U);
 const cv::Mat kVariance(kSize, CV_32F, cv::Scalar(0.06));
 constexpr float kExpected_px = 0.25F;
 
@@ -64,38 +64,38 @@ TEST(HomographyFlow, IsAHomographysToFirstOrder) {
 TEST(RegistrationError, WithoutParallaxAllOfItIsFound) {
   const ParallaxSegment none(std::nullopt, kCamera, ParallaxParameters{});
   const cv::Mat flow = flowOf(drift(), [](int, int) { return cv::Vec2f(0, 0); });
-  const HomographyFlow found = registrationError(flow, kVariance, kSeen, none, kExpected_px);
+  const HomographyFlow found = registrationError(flow, kVariance, kAllKnown, none, kExpected_px);
   EXPECT_LT(worst(found, drift(), 0), 0.02F);
   EXPECT_LT(worst(found, drift(), 1), 0.02F);
 }
 
-TEST(RegistrationError, WhatMovesOnAFifthOfTheImageDoesNotBendIt) {
+TEST(RegistrationError, AMoverOnAFifthOfTheImageDoesNotBiasIt) {
   const ParallaxSegment none(std::nullopt, kCamera, ParallaxParameters{});
   const cv::Mat flow =
       flowOf(drift(), [](int x, int y) { return x < 140 && y > 120 ? cv::Vec2f(3, -2) : cv::Vec2f(0, 0); });
-  const HomographyFlow found = registrationError(flow, kVariance, kSeen, none, kExpected_px);
+  const HomographyFlow found = registrationError(flow, kVariance, kAllKnown, none, kExpected_px);
   EXPECT_LT(worst(found, drift(), 0), 0.05F);
   EXPECT_LT(worst(found, drift(), 1), 0.05F);
 }
 
-TEST(RegistrationError, FlightToTheSideShowsWhatIsAcrossWhateverTheDepths) {
+TEST(RegistrationError, SidewaysFlightShowsTheErrorAcrossAtAnyDepth) {
   // Level flight to the right: parallax is horizontal, and of any size here.
   const PlaneMotion sideways{Eigen::Matrix3d::Identity(), {-0.1, 0, 0}, {0, 1, 0}, 8.0};
   const ParallaxSegment segment(sideways, kCamera, ParallaxParameters{});
   const cv::Mat flow = flowOf(
       drift(), [](int x, int y) { return cv::Vec2f(-0.02F * static_cast<float>((7 * x + y) % 100), 0); });
-  const HomographyFlow found = registrationError(flow, kVariance, kSeen, segment, kExpected_px);
+  const HomographyFlow found = registrationError(flow, kVariance, kAllKnown, segment, kExpected_px);
   EXPECT_LT(worst(found, drift(), 1), 0.05F);
   HomographyFlow across = drift();
   across.affine.row(0).setZero();
-  EXPECT_LT(worst(found, across, 0), 0.05F) << "along the parallax only the perspective can be told";
+  EXPECT_LT(worst(found, across, 0), 0.05F) << "along the parallax only the perspective is observable";
 }
 
-TEST(RegistrationError, AImageOfWhichNothingWasSeenHasNone) {
+TEST(RegistrationError, AnUnknownImageHasNone) {
   const ParallaxSegment none(std::nullopt, kCamera, ParallaxParameters{});
   const cv::Mat flow(kSize, CV_32FC2, cv::Scalar(4, 4));
-  const cv::Mat unseen(kSize, CV_8U, cv::Scalar(255));
-  const HomographyFlow found = registrationError(flow, kVariance, unseen, none, kExpected_px);
+  const cv::Mat unknown(kSize, CV_8U, cv::Scalar(255));
+  const HomographyFlow found = registrationError(flow, kVariance, unknown, none, kExpected_px);
   EXPECT_TRUE(found.affine.isZero());
   EXPECT_EQ(found.perspective, cv::Vec2f(0, 0));
 }

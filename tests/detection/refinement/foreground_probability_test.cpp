@@ -28,7 +28,7 @@ TEST(ForegroundProbability, MapsTravelWithTheGround) {
   probability.update(foreground, {});
   Eigen::Matrix3d pan = kStill;
   pan(0, 2) = 7;
-  probability.carry(pan);
+  probability.propagate(pan);
   cv::Mat moved = cv::Mat::zeros(40, 40, CV_32F);
   const cv::Mat after = probability.update(moved, {});
   EXPECT_GT(after.at<float>(15, 22), 0);

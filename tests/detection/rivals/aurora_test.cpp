@@ -53,7 +53,7 @@ TEST(RecursiveDensity, WhatComesIntoViewIsNotScored) {
   RecursiveDensity density({40, 30}, {});
   cv::Mat image(30, 40, CV_8UC3, cv::Scalar(100, 100, 100));
   for (int k = 0; k < 10; ++k) density.update(image);
-  density.carry(cv::Matx33d(1, 0, -10, 0, 1, 0, 0, 0, 1));
+  density.propagate(cv::Matx33d(1, 0, -10, 0, 1, 0, 0, 0, 1));
   image.setTo(cv::Scalar(200, 200, 200));
   const cv::Mat below = density.update(image);
   EXPECT_GT(below.at<float>(15, 10), 1);

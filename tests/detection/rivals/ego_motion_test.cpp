@@ -37,7 +37,7 @@ TEST_F(Ego, StaticPointsLieOnTheirSegments) {
     const auto segment = ego.segmentOf(p);
     ASSERT_TRUE(segment);
     for (const double fraction : {1.0, 0.7, 0.4, 0.2})
-      EXPECT_LT(offSegment(*segment, seen(p, fraction * groundDepth(p))).norm(), 1e-3);
+      EXPECT_LT(segmentResidual(*segment, seen(p, fraction * groundDepth(p))).norm(), 1e-3);
   }
 }
 
@@ -51,8 +51,9 @@ TEST_F(Ego, WhatMovesOffTheSegmentIsMeasured) {
   const auto moved = [&](const Eigen::Vector2d& by) {
     return on_ground + cv::Point2f(static_cast<float>(by.x()), static_cast<float>(by.y()));
   };
-  EXPECT_NEAR(offSegment(*segment, moved(2 * Eigen::Vector2d(-along.y(), along.x()))).norm(), 2, 1e-3);
-  EXPECT_NEAR(offSegment(*segment, moved(-1.5 * along)).norm(), 1.5, 1e-3) << "below the ground: wrong size";
+  EXPECT_NEAR(segmentResidual(*segment, moved(2 * Eigen::Vector2d(-along.y(), along.x()))).norm(), 2, 1e-3);
+  EXPECT_NEAR(segmentResidual(*segment, moved(-1.5 * along)).norm(), 1.5, 1e-3)
+      << "below the ground: wrong size";
 }
 
 TEST_F(Ego, ComesFromTracksWhereThereIsNoImu) {
@@ -69,7 +70,7 @@ TEST_F(Ego, ComesFromTracksWhereThereIsNoImu) {
   for (size_t i = 0; i < tracks.previous.size(); ++i) {
     const auto segment = ego->segmentOf(tracks.previous[i]);
     ASSERT_TRUE(segment);
-    EXPECT_LT(offSegment(*segment, tracks.current[i]).norm(), 0.1);
+    EXPECT_LT(segmentResidual(*segment, tracks.current[i]).norm(), 0.1);
   }
   EXPECT_FALSE(EgoMotion::fromTracks({}, K_, 4));
 }

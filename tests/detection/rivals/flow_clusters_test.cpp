@@ -7,8 +7,8 @@
 namespace redbee::test {
 namespace {
 
-std::vector<StrayPoint> twoGroups() {
-  std::vector<StrayPoint> points;
+std::vector<MovingPoint> twoGroups() {
+  std::vector<MovingPoint> points;
   for (int i = 0; i < 5; ++i) {
     const auto x = static_cast<float>(10 * i);
     points.push_back({{100 + x, 100}, {3, 0}, 2});

@@ -11,15 +11,15 @@ TEST(ImageHistory, TheOldestAnswersToTheNewest) {
   ImageHistory history(2);
   EXPECT_TRUE(history.empty());
   history.push(image(1));
-  history.carry(shift(3));
+  history.propagate(shift(3));
   EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 1);
   EXPECT_EQ(history.oldestToNewest()(0, 2), 3);
   history.push(image(2));
-  history.carry(shift(4));
+  history.propagate(shift(4));
   EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 1);
   EXPECT_EQ(history.oldestToNewest()(0, 2), 7);
   history.push(image(3));
-  history.carry(shift(5));
+  history.propagate(shift(5));
   EXPECT_EQ(history.oldest().at<uint8_t>(0, 0), 2) << "two are kept";
   EXPECT_EQ(history.oldestToNewest()(0, 2), 9);
 }

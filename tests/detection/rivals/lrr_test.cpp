@@ -21,7 +21,7 @@ TEST(Lrr, SolutionMeetsItsConstraintAndIsOfLowRank) {
   EXPECT_LE((Eigen::JacobiSVD<Eigen::MatrixXd>(answer.Z).singularValues().array() > 1e-4).count(), 8);
 }
 
-TEST(Lrr, AWildColumnGoesIntoTheErrors) {
+TEST(Lrr, AnOutlierColumnGoesIntoTheErrors) {
   Eigen::MatrixXd X = unit(twoMotions(false));
   std::mt19937 random(5);
   std::uniform_real_distribution<double> wild(-1, 1);

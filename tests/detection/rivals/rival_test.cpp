@@ -1,5 +1,5 @@
-// All rivals behind their one interface: a patch that moves stands out, what stands still does not, and
-// whatever interrupts the images is reported and survived.
+// All rivals: a moving patch has higher scores than static surfaces, and interruptions are reported and
+// handled.
 #include "redbee/detection/rivals/rival.hpp"
 
 #include <gtest/gtest.h>
@@ -36,9 +36,8 @@ struct Expected {
   double auc, patch, rest;
 };
 
-/// At least, at least and at most. What each cannot do: a difference is hollow where the patch has no
-/// texture, densities are wide, votes for epipolar lines mean little on a plane, where they are not fixed.
-/// Two of those tuned on DAVIS want to see faster movers before they decide.
+/// Limits for each rival. Weaknesses: differences are hollow without texture, densities are blurred, and
+/// epipolar lines are not determined on a plane. Two of those tuned on DAVIS need faster objects.
 Expected expectedOf(const std::string& rival) {
   if (rival == "aurora") return {0.9, 0.4, 0.05};
   if (rival == "aurora-davis") return {0.9, 0.3, 0.05};
@@ -75,7 +74,7 @@ class Rivals : public testing::TestWithParam<std::string> {
   std::unique_ptr<Rival> rival_ = makeRival(GetParam());
 
   const FrameInput& input(size_t k) const { return slidingPatch()[k].input; }
-  /// Nothing is claimed of a frame that is not called good.
+  /// No detection in frames without status kGood.
   static void expectNothingClaimed(const RivalScore& output) {
     EXPECT_EQ(cv::countNonZero(output.score), 0);
     EXPECT_EQ(cv::norm(cv::Mat(output.background - cv::Matx33d::eye())), 0);

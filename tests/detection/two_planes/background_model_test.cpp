@@ -8,9 +8,9 @@ namespace redbee::test {
 namespace {
 
 class CanvasMargin : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(CarriedAndAnchored, CanvasMargin, testing::Values(0.0, 0.125));
+INSTANTIATE_TEST_SUITE_P(WarpedAndOnACanvas, CanvasMargin, testing::Values(0.0, 0.125));
 
-TEST_P(CanvasMargin, FollowsAPanAndKnowsWhatItHasNotSeen) {
+TEST_P(CanvasMargin, FollowsAPanAndMarksUnknownPixels) {
   const cv::Mat world = noiseImage({400, 60}, 1, 120, 20);
   constexpr int kLearningFrames = 5;
   TwoPlaneParameters parameters;
@@ -22,7 +22,7 @@ TEST_P(CanvasMargin, FollowsAPanAndKnowsWhatItHasNotSeen) {
   pan(0, 2) = -kStep;
   ForegroundMaps maps;
   for (int k = 0; k < 40; ++k) {
-    if (k > 0) model.carry(pan);
+    if (k > 0) model.propagate(pan);
     cv::Mat image = world(cv::Rect(kStep * k, 0, view.width, view.height)).clone();
     if (k == 39) image(cv::Rect(40, 20, 10, 10)).setTo(255);
     maps = model.learn(image);

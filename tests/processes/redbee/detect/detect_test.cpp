@@ -101,7 +101,7 @@ TEST_F(Commands, SettingsFromTheCommandLineReachTheStack) {
   EXPECT_THROW(runDetect(options), InputError);
 }
 
-TEST_F(Commands, ARivalTakesThePlaceOfTheDetector) {
+TEST_F(Commands, ARivalReplacesTheDetector) {
   for (const auto& [method, stages] : {std::pair<std::string, size_t>{"mcd", 1}, {"datmo", 4}}) {
     DetectOptions options = options_;
     options.method = method;

@@ -132,7 +132,7 @@ TEST_F(ClipTruthTest, ARunIsMeasuredAgainstNumberedMasks) {
   EXPECT_EQ(clip.frames[1].misses, 16);
 }
 
-TEST_F(ClipTruthTest, FramesThatTheRunLostAreAnsweredForByEmptyMaps) {
+TEST_F(ClipTruthTest, FramesLostByTheRunCountAsEmptyMaps) {
   writeRun(maskWith({0, 0, 4, 4}));
   for (const char* name : {"40000000.png", "50000000.png"})
     write(truth() / "mask" / name, maskWith({0, 0, 4, 4}));

@@ -114,7 +114,7 @@ TEST_F(ComparisonTest, ThePageHoldsTablesCurvesAndImages) {
   EXPECT_EQ(page.find("src=\"/"), std::string::npos);
 }
 
-TEST_F(ComparisonTest, ComplaintsAboutBadListsNameTheLine) {
+TEST_F(ComparisonTest, ErrorsInListsNameTheLine) {
   writeText(folder_ / "short.txt", "# comment\nflown a asl\n");
   EXPECT_NE(errorMessageOf([&] { readClipList(folder_ / "short.txt"); }).find("short.txt:2: has 3 fields"),
             std::string::npos);

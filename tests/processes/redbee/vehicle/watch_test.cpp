@@ -101,9 +101,10 @@ TEST(ProcessWatch, AHangingProcessIsKilledWhileOthersPublish) {
   ProcessWatch watch;
   const auto start = Clock::now();
   watch.onHealth(healthOf("redbee-hanging", hanging.pid()), start);
-  watch.onHealth(healthOf("redbee-publishing", publishing.pid()), start + ProcessWatch::kHangs - seconds(1));
-  EXPECT_TRUE(watch.killHanging(start + ProcessWatch::kHangs - seconds(1)).empty());
-  EXPECT_THAT(watch.killHanging(start + ProcessWatch::kHangs), testing::ElementsAre("redbee-hanging"));
+  watch.onHealth(healthOf("redbee-publishing", publishing.pid()),
+                 start + ProcessWatch::kHangTimeout - seconds(1));
+  EXPECT_TRUE(watch.killHanging(start + ProcessWatch::kHangTimeout - seconds(1)).empty());
+  EXPECT_THAT(watch.killHanging(start + ProcessWatch::kHangTimeout), testing::ElementsAre("redbee-hanging"));
   hanging.awaitDeath();
   EXPECT_FALSE(publishing.isZombie());
 }

@@ -1,4 +1,4 @@
-#include "redbee/detection/parallax/travelling_evidence.hpp"
+#include "redbee/detection/parallax/propagated_evidence.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace redbee {
 namespace {
 
 constexpr float kSmall = 1e-3F;
-constexpr int kNeighbourhood_px = 3;  // over which a residual is averaged before it is compared with the past
-// Evidence is kept whole while the residual is at least half of the propagated one: squared.
+constexpr int kNeighbourhood_px = 3;  // residuals are averaged over it before they are compared with the past
+// Evidence is not reduced while the residual is at least half of the propagated one (squared).
 constexpr float kKeptBelow = 4;
 
 /// Positions of the pixels in the previous image.
@@ -40,9 +40,9 @@ cv::Mat4f fetch(const cv::Mat4f& map, const cv::Mat2f& places) {
 
 }  // namespace
 
-void TravellingEvidence::reset() { moving_.release(); }
+void PropagatedEvidence::reset() { moving_.release(); }
 
-void TravellingEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d& ground,
+void PropagatedEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d& ground,
                                 const cv::Mat1b& unknown) {
   const cv::Mat2f places = previousPlaces(now.back_step, ground);
   cv::Mat4f moving = fetch(moving_, places);
@@ -68,8 +68,8 @@ void TravellingEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d&
   moving_ = moving;
 }
 
-cv::Mat1f TravellingEvidence::motion() const {
-  // Averaging leaves about half of the variance that a single vector has.
+cv::Mat1f PropagatedEvidence::motion() const {
+  // Averaging reduces the variance of a single vector to about half.
   constexpr double kAveragedVariance = 0.5;
   const auto half2 =
       static_cast<float>(kAveragedVariance * parameters_.evidence_sigmas * parameters_.evidence_sigmas);

@@ -1,4 +1,4 @@
-#include "redbee/detection/appearance/carried_background.hpp"
+#include "redbee/detection/appearance/appearance_model.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -6,24 +6,24 @@
 #include <cmath>
 #include <optional>
 
-#include "redbee/detection/appearance/background_carrier.hpp"
+#include "redbee/detection/appearance/background_warp.hpp"
 #include "redbee/detection/appearance/shadow_test.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr int kColours = 3;
-constexpr float kFirstVariance = 400;  // after one image: the pixel may lie on an edge
+constexpr float kFirstVariance = 400;  // after the first image: the pixel may lie on an edge
 constexpr float kMostVariance = 1000;  // a passing object must not raise the background's variance
 constexpr int kTrusted = 3;            // images after which moving pixels are learned slowly
 constexpr double kVarianceSpan_s = 0.4;
-constexpr float kMovingFraction = 0.05F;  // of the learning rate, where it moves for sure
-constexpr float kSurelyMovedAway = 0.5F;  // above it the pixel is learned again from the start
+constexpr float kMovingFraction = 0.05F;  // of the learning rate, where the pixel certainly moves
+constexpr float kSurelyMovedAway = 0.5F;  // above this the pixel's model is reset
 
 using Pixel = Eigen::Map<Eigen::Array4f>;
 using ConstPixel = Eigen::Map<const Eigen::Array4f>;
 
-/// Mean square over the three channels; the fourth does not count.
+/// Mean square over the three colour channels.
 float meanSquare(const Eigen::Array4f& difference) {
   const Eigen::Array4f counted = difference * Eigen::Array4f(1, 1, 1, 0);
   return counted.square().sum() * (1.0F / kColours);
@@ -64,22 +64,22 @@ std::array<float, 256> ratesByAge(double slowest) {
 
 }  // namespace
 
-void CarriedBackground::reset() {
+void AppearanceModel::reset() {
   model_.release();
   speed_.release();
   age_.release();
 }
 
-void CarriedBackground::carry(const SceneMotion& scene) {
+void AppearanceModel::propagate(const SceneMotion& scene) {
   if (model_.empty()) return;
-  const BackgroundMaps carried = carryBackground({model_, speed_, age_}, scene);
-  model_ = carried.model;
-  speed_ = carried.speed;
-  age_ = carried.age;
+  const BackgroundMaps warped = warpBackground({model_, speed_, age_}, scene);
+  model_ = warped.model;
+  speed_ = warped.speed;
+  age_ = warped.age;
 }
 
-/// 0..1: that the modelled surface has moved away and a slower one is in its place.
-float CarriedBackground::movedAway(float learned_speed, const cv::Vec2f& speed) const {
+/// 0..1: confidence that the modelled surface has moved away and uncovered a slower one.
+float AppearanceModel::movedAway(float learned_speed, const cv::Vec2f& speed) const {
   if (!parameters_.use_surface_reset) return 0;
   const auto sigmas = static_cast<float>(evidence_sigmas_);
   const float slower = std::max(0.0F, learned_speed - speed[0]);
@@ -87,7 +87,7 @@ float CarriedBackground::movedAway(float learned_speed, const cv::Vec2f& speed) 
   return gone / (gone + sigmas * sigmas * speed[1]);
 }
 
-cv::Mat1f CarriedBackground::appearanceDifference(const cv::Mat4f& image, const SurfaceSpeed& speed) const {
+cv::Mat1f AppearanceModel::appearanceDifference(const cv::Mat4f& image, const SurfaceSpeed& speed) const {
   cv::Mat1f evidence = cv::Mat1f::zeros(image.size());
   if (model_.empty()) return evidence;
   const auto noise2 = static_cast<float>(parameters_.noise * parameters_.noise);
@@ -116,8 +116,8 @@ cv::Mat1f CarriedBackground::appearanceDifference(const cv::Mat4f& image, const 
   return evidence;
 }
 
-void CarriedBackground::learn(const cv::Mat4f& image, const cv::Mat1f& moving, const SurfaceSpeed& speed,
-                              double elapsed_s) {
+void AppearanceModel::learn(const cv::Mat4f& image, const cv::Mat1f& moving, const SurfaceSpeed& speed,
+                            double elapsed_s) {
   if (model_.empty()) {
     model_ = cv::Mat4f::zeros(image.size());
     speed_ = cv::Mat1f::zeros(image.size());

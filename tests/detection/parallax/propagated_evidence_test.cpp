@@ -1,4 +1,4 @@
-#include "redbee/detection/parallax/travelling_evidence.hpp"
+#include "redbee/detection/parallax/propagated_evidence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@ namespace {
 
 const Eigen::Matrix3d kStill = Eigen::Matrix3d::Identity();
 
-class Travelling : public testing::Test {
+class PropagatedEvidenceTest : public testing::Test {
  protected:
   static constexpr int kSize = 48;
 
@@ -21,16 +21,16 @@ class Travelling : public testing::Test {
   }
   float motionAt(int x) const { return evidence_.motion().at<float>(24, x); }
 
-  TravellingEvidence evidence_{ParallaxParameters{}};
+  PropagatedEvidence evidence_{ParallaxParameters{}};
 };
 
-TEST_F(Travelling, WhatMovesSteadilyAddsUpAndLeavesNoTrail) {
+TEST_F(PropagatedEvidenceTest, SteadyMotionAccumulatesWithoutATrail) {
   for (int k = 0; k <= 20; ++k) see(4 + k, 8, 1);
   EXPECT_GT(motionAt(28), 0.7);
   EXPECT_LT(motionAt(15), 0.1) << "where it was ten frames ago";
 }
 
-TEST_F(Travelling, WhatMovesToAndFroDoesNot) {
+TEST_F(PropagatedEvidenceTest, OscillationCancels) {
   for (int k = 0; k <= 20; ++k) see(20 + k % 2, k % 2 == 0 ? -8.0F : 8.0F, k % 2 == 0 ? -1.0F : 1.0F);
   EXPECT_LT(motionAt(24), 0.3);
 }

@@ -1,4 +1,4 @@
-#include "redbee/detection/appearance/background_carrier.hpp"
+#include "redbee/detection/appearance/background_warp.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -10,14 +10,14 @@ namespace {
 using Pixel = Eigen::Map<Eigen::Array4f>;
 using ConstPixel = Eigen::Map<const Eigen::Array4f>;
 
-/// Maps resampled along a row. Between knots the source moves linearly: over so few pixels perspective bends
-/// a path by less than a thousandth of one.
-class RowCarrier {
+/// Resamples the maps along a row. Source coordinates are interpolated linearly between knots: over so few
+/// pixels the perspective error is below 0.001 px.
+class RowWarp {
  public:
-  RowCarrier(const BackgroundMaps& from, BackgroundMaps& to) : from_(from), to_(to) {}
+  RowWarp(const BackgroundMaps& from, BackgroundMaps& to) : from_(from), to_(to) {}
 
-  /// Pixels begin to end of row y, which `back` takes into the earlier image.
-  void carry(const Eigen::Matrix3f& back, int y, int begin, int end) {
+  /// Pixels begin to end of row y, which `back` maps into the earlier image.
+  void warp(const Eigen::Matrix3f& back, int y, int begin, int end) {
     constexpr int kKnot = 16;
     for (int x = begin; x < end; x += kKnot) {
       const int next = std::min(x + kKnot, end);
@@ -62,18 +62,18 @@ class RowCarrier {
 
 }  // namespace
 
-BackgroundMaps carryBackground(const BackgroundMaps& maps, const SceneMotion& scene) {
+BackgroundMaps warpBackground(const BackgroundMaps& maps, const SceneMotion& scene) {
   const Eigen::Matrix3f ground = scene.ground.inverse().cast<float>();
   const Eigen::Matrix3f far = scene.far.inverse().cast<float>();
-  BackgroundMaps carried{cv::Mat4f::zeros(maps.model.size()), cv::Mat1f::zeros(maps.speed.size()),
-                         cv::Mat1b(maps.age.size())};
-  RowCarrier carrier(maps, carried);
+  BackgroundMaps warped{cv::Mat4f::zeros(maps.model.size()), cv::Mat1f::zeros(maps.speed.size()),
+                        cv::Mat1b(maps.age.size())};
+  RowWarp row_warp(maps, warped);
   for (int y = 0; y < maps.model.rows; ++y) {
     const SceneMotion::HorizonCut cut = scene.cutAtHorizon(y, maps.model.cols);
-    carrier.carry(cut.ground_first ? ground : far, y, 0, cut.at);
-    carrier.carry(cut.ground_first ? far : ground, y, cut.at, maps.model.cols);
+    row_warp.warp(cut.ground_first ? ground : far, y, 0, cut.at);
+    row_warp.warp(cut.ground_first ? far : ground, y, cut.at, maps.model.cols);
   }
-  return carried;
+  return warped;
 }
 
 }  // namespace redbee

@@ -1,4 +1,4 @@
-#include "redbee/detection/appearance/carried_background.hpp"
+#include "redbee/detection/appearance/appearance_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,21 +55,21 @@ double mean(const cv::Mat& map, const cv::Rect& where) { return cv::mean(map(whe
 
 class Background : public testing::Test {
  protected:
-  CarriedBackground background_{AppearanceParameters{}, ShadowParameters{},
-                                ParallaxParameters{}.evidence_sigmas};
+  AppearanceModel background_{AppearanceParameters{}, ShadowParameters{},
+                              ParallaxParameters{}.evidence_sigmas};
 };
 
-TEST_F(Background, KnowsNothingAtFirst) {
+TEST_F(Background, IsUnknownAtFirst) {
   EXPECT_EQ(cv::countNonZero(background_.appearanceDifference(scene(0), allAt(0))), 0);
 }
 
-TEST_F(Background, FollowsAPanAndKnowsWhatItHasNotSeen) {
+TEST_F(Background, FollowsAPanAndMarksUnknownPixels) {
   constexpr double kPan = 3.4;
   for (int k = 0; k < kImages; ++k) {
-    background_.carry(pan(kPan));
+    background_.propagate(pan(kPan));
     background_.learn(scene(k * kPan), nothingMoves(), allAt(0), kFrame_s);
   }
-  background_.carry(pan(kPan));
+  background_.propagate(pan(kPan));
   const cv::Mat evidence = background_.appearanceDifference(scene(kImages * kPan), allAt(0));
   EXPECT_LT(mean(evidence, {20, 5, 135, 110}), 0.02);
   EXPECT_EQ(cv::countNonZero(evidence.colRange(0, 3)), 0) << "what enters is unknown, not foreground";
@@ -86,10 +86,10 @@ TEST_F(Background, DistinguishesColoursOfOneGreyValue) {
   EXPECT_LT(mean(evidence, {5, 5, 40, 40}), 0.01);
 }
 
-/// How foreign the uncovered place looks after something stood on it for six images.
+/// Appearance difference of an uncovered place after an object stood there for six images.
 double ghost(bool told_to_move) {
-  CarriedBackground background{AppearanceParameters{}, ShadowParameters{},
-                               ParallaxParameters{}.evidence_sigmas};
+  AppearanceModel background{AppearanceParameters{}, ShadowParameters{},
+                             ParallaxParameters{}.evidence_sigmas};
   for (int k = 0; k < kImages; ++k) background.learn(scene(0), nothingMoves(), allAt(0), kFrame_s);
   cv::Mat covered = scene(0);
   covered(kPatch).setTo(opaque(10, 10, 10));
@@ -99,7 +99,7 @@ double ghost(bool told_to_move) {
   return mean(background.appearanceDifference(scene(0), allAt(0)), {64, 54, 12, 12});
 }
 
-TEST_F(Background, WhatMovesIsNotLearned) {
+TEST_F(Background, MovingPixelsAreNotLearned) {
   EXPECT_LT(ghost(true), 0.5 * ghost(false));
   EXPECT_LT(ghost(true), 0.2);
 }
@@ -113,7 +113,7 @@ TEST_F(Background, AChangeThatStaysBecomesBackground) {
   EXPECT_LT(mean(background_.appearanceDifference(parked, allAt(0)), {64, 54, 12, 12}), 0.05);
 }
 
-TEST_F(Background, UncertainPixelsAccuseLess) {
+TEST_F(Background, UncertainPixelsDifferLess) {
   // The left half flickers by 30 grey levels; then both halves show the same step.
   for (int k = 0; k < 40; ++k) {
     cv::Mat now = plain(cv::Scalar::all(100));
@@ -124,11 +124,11 @@ TEST_F(Background, UncertainPixelsAccuseLess) {
   EXPECT_LT(mean(evidence, {10, 10, 60, 100}), 0.8 * mean(evidence, {90, 10, 60, 100}));
 }
 
-/// How foreign the ground looks that a post of this speed has stood before and now leaves, `known_px` being
-/// how well the ground's own speed is known.
+/// Appearance difference of the ground after a post of this speed has left it. `known_px`: sigma of the
+/// ground's own speed.
 double foreignAfterPost(double post_speed, double known_px, int images_later) {
-  CarriedBackground background{AppearanceParameters{}, ShadowParameters{},
-                               ParallaxParameters{}.evidence_sigmas};
+  AppearanceModel background{AppearanceParameters{}, ShadowParameters{},
+                             ParallaxParameters{}.evidence_sigmas};
   cv::Mat with_post = scene(0);
   with_post(kPatch).setTo(opaque(10, 10, 10));
   SurfaceSpeed speed = allAt(0);
@@ -140,7 +140,7 @@ double foreignAfterPost(double post_speed, double known_px, int images_later) {
   return mean(background.appearanceDifference(scene(0), ground), {64, 54, 12, 12});
 }
 
-TEST_F(Background, GroundThatAPostUncoversIsNewNotForeign) {
+TEST_F(Background, UncoveredGroundIsNotForeground) {
   EXPECT_GT(foreignAfterPost(0, 0.1, 0), 0.8) << "what stood still is the background";
   EXPECT_LT(foreignAfterPost(2, 0.1, 0), 0.1);
   EXPECT_LT(foreignAfterPost(2, 0.1, 1), 0.01) << "one image teaches it";
@@ -160,7 +160,7 @@ TEST_F(Background, AShadowIsBackground) {
   EXPECT_GT(mean(background_.appearanceDifference(painted, allAt(0)), {64, 54, 12, 12}), 0.5);
 }
 
-TEST_F(Background, AnEdgeThatIsOffByHalfAPixelAccusesLessThanASurface) {
+TEST_F(Background, AMisalignedEdgeDiffersLessThanASurface) {
   // Half of the step's 150 grey levels, in the column beside it and over a surface.
   cv::Mat step = plain(cv::Scalar::all(50));
   step.colRange(80, kSize.width).setTo(cv::Scalar::all(200));
@@ -174,13 +174,13 @@ TEST_F(Background, AnEdgeThatIsOffByHalfAPixelAccusesLessThanASurface) {
 }
 
 TEST_F(Background, AboveTheHorizonOnlyTheRotationCounts) {
-  // Level flight to the right, low: the ground slides by, the sky stays.
+  // Low level flight to the right: the ground moves, the sky does not.
   Eigen::Matrix3d K;
   K << 100, 0, 79.5, 0, 100, 59.5, 0, 0, 1;
   const PlaneMotion motion{Eigen::Matrix3d::Identity(), {-0.2, 0, 0}, {0, 1, 0}, 1.0};
   const SceneMotion step(planeHomography(K, motion), motion, K);
   for (int k = 0; k < kImages; ++k) background_.learn(scene(0), nothingMoves(), allAt(0), kFrame_s);
-  background_.carry(step);
+  background_.propagate(step);
   const cv::Mat evidence = background_.appearanceDifference(scene(0), allAt(0));
   EXPECT_LT(mean(evidence, {5, 5, 150, 50}), 0.01);
   EXPECT_GT(mean(evidence, {5, 100, 120, 15}), 0.2);
