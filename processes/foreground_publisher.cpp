@@ -3,6 +3,7 @@
 #include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
+#include "redbee/node/frame_time.hpp"
 #include "redbee/results/overlay.hpp"
 
 namespace redbee {
@@ -55,7 +56,7 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
 
 }  // namespace
 
-void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, DetectorOutput output) {
+void ForegroundPublisher::publish(const image_t& image, CameraTime time_previous, DetectorOutput output) {
   output.probability = camera_.rectifier().toRaw(output.probability);
   output.mask = camera_.rectifier().toRaw(output.mask);
   output.unknown = camera_.rectifier().toRaw(output.unknown, kUnknown);
@@ -63,7 +64,7 @@ void ForegroundPublisher::publish(const image_t& image, int64_t utime_previous, 
     for (Detection& detection : output.detections) detection.box = rawBox(camera_.camera(), detection.box);
   }
   foreground_t foreground{};
-  foreground.utime_previous = utime_previous;
+  foreground.utime_previous = toUtime(time_previous);
   foreground.status = static_cast<int8_t>(output.status);
   foreground.width = output.mask.cols;
   foreground.height = output.mask.rows;
@@ -85,7 +86,7 @@ void ForegroundPublisher::publishOverlay(const image_t& image, const DetectorOut
   frames_since_overlay_ = 0;
   if (const auto colour = decodeColour(image); colour && colour->size() == output.mask.size()) {
     OverlayStatus status;
-    status.utime = image.utime;
+    status.time = timeOf(image);
     status.message = output.status == DetectorStatus::kGood ? "" : toString(output.status);
     const cv::Mat drawn = drawOverlay(*colour, output.mask, output.detections, status);
     publisher_.publish(configuration_.channels.overlay, jpegMessage(image.utime, drawn, kOverlayQuality));

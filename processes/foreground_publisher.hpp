@@ -18,7 +18,7 @@ class ForegroundPublisher {
 
   /// `image`: as received. `output`: on the ideal grid. Publishes one message of each kind, and periodically
   /// an overlay.
-  void publish(const image_t& image, int64_t utime_previous, DetectorOutput output);
+  void publish(const image_t& image, CameraTime time_previous, DetectorOutput output);
 
  private:
   void publishOverlay(const image_t& image, const DetectorOutput& output);

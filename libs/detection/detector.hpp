@@ -14,6 +14,7 @@
 #include "redbee/detection/objects/object_tracker.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
@@ -28,11 +29,11 @@ struct DetectorNeeds {
 
 /// One frame. Images and points are undistorted (ideal pixels).
 struct FrameInput {
-  int64_t utime_previous = 0;  ///< us, frame that ground, front, motion and tracks start from
-  int64_t utime = 0;           ///< us
-  cv::Size size;               ///< image size of homographies, points and output; empty: grey's
-  cv::Mat1b grey;              ///< empty if the image is damaged
-  cv::Mat3b colour;            ///< BGR, of grey's size; may be empty unless the detector needs it
+  CameraTime time_previous{};  ///< frame that ground, front, motion and tracks start from
+  CameraTime time{};
+  cv::Size size;     ///< image size of homographies, points and output; empty: grey's
+  cv::Mat1b grey;    ///< empty if the image is damaged
+  cv::Mat3b colour;  ///< BGR, of grey's size; may be empty unless the detector needs it
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix of an image of `size` [px]
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current [px]
   std::optional<Eigen::Matrix3d> front;  ///< the same of the front plane; std::nullopt if there is none
@@ -53,7 +54,7 @@ const char* toString(DetectorStatus status);
 
 /// Images of FrameInput's full size.
 struct DetectorOutput {
-  int64_t utime = 0;
+  CameraTime time{};
   DetectorStatus status = DetectorStatus::kLearning;
   cv::Mat1b probability;  ///< P_FG * 255
   cv::Mat1b mask;         ///< 0 or 255

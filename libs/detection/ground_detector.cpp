@@ -24,13 +24,13 @@ GroundDetector::GroundDetector(const DetectionParameters& parameters)
 
 DetectorOutput GroundDetector::step(const FrameInput& input) {
   const bool continues = isConsecutive(input);
-  const bool is_first = last_utime_ == kNever;
+  const bool is_first = !last_time_;
   if (!input.fullSize().empty() && input.fullSize() != size_) {
     tracker_.reset();
     image_check_.reset();
     size_ = input.fullSize();
   }
-  last_utime_ = input.utime;
+  last_time_ = input.time;
   if (continues) {
     propagate(input);
   } else {
@@ -60,7 +60,7 @@ DetectorOutput GroundDetector::step(const FrameInput& input) {
 }
 
 bool GroundDetector::isConsecutive(const FrameInput& input) const {
-  return last_utime_ != kNever && input.utime > last_utime_ && input.utime_previous == last_utime_ &&
+  return last_time_ && input.time > *last_time_ && input.time_previous == *last_time_ &&
          input.fullSize() == size_ && input.ground && isUsableHomography(*input.ground);
 }
 
@@ -78,7 +78,7 @@ void GroundDetector::propagate(const FrameInput& input) {
 
 DetectorOutput GroundDetector::emptyOutput(const FrameInput& input) const {
   DetectorOutput output;
-  output.utime = input.utime;
+  output.time = input.time;
   output.probability = cv::Mat1b::zeros(size_);
   output.mask = cv::Mat1b::zeros(size_);
   output.unknown = cv::Mat1b(size_, 255);

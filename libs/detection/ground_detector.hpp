@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "redbee/detection/detector.hpp"
 #include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/image_check.hpp"
 #include "redbee/detection/refinement/foreground_probability.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -19,8 +21,6 @@ class GroundDetector : public Detector {
   explicit GroundDetector(const DetectionParameters& parameters);
 
  private:
-  static constexpr int64_t kNever = INT64_MIN;
-
   virtual void resetBackground() = 0;
   /// Warps the background model by the camera's motion, input.ground.
   virtual void warpBackground(const FrameInput& input) = 0;
@@ -42,7 +42,7 @@ class GroundDetector : public Detector {
   ForegroundProbability probability_;
   ObjectTracker tracker_;
   cv::Size size_;
-  int64_t last_utime_ = kNever;
+  std::optional<CameraTime> last_time_;
   int learned_ = 0;
 };
 

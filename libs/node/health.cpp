@@ -61,16 +61,16 @@ void SequenceCounter::noteHoles(int32_t sequence) {
     missing_.insert(hole);
 }
 
-void MessageRate::note(int64_t utime) {
-  if (!utimes_.empty() && utime < utimes_.back()) utimes_.clear();
-  utimes_.push_back(utime);
-  if (utimes_.size() > kWindow) utimes_.pop_front();
+void MessageRate::note(Duration time) {
+  if (!times_.empty() && time < times_.back()) times_.clear();
+  times_.push_back(time);
+  if (times_.size() > kWindow) times_.pop_front();
 }
 
 double MessageRate::hertz() const {
-  if (utimes_.size() < 2 || utimes_.back() == utimes_.front()) return 0;
-  return static_cast<double>(utimes_.size() - 1) * 1e6 /
-         static_cast<double>(utimes_.back() - utimes_.front());
+  if (times_.size() < 2 || times_.back() == times_.front()) return 0;
+  return static_cast<double>(times_.size() - 1) * 1e6 /
+         static_cast<double>((times_.back() - times_.front()).count());
 }
 
 void LatencyWindow::note(double milliseconds) {
@@ -91,20 +91,20 @@ double LatencyWindow::percentile(double fraction) const {
 HealthMonitor::HealthMonitor(std::string process, std::string configuration_hash)
     : process_(std::move(process)), configuration_hash_(std::move(configuration_hash)) {}
 
-void HealthMonitor::noteInput(int64_t utime) {
-  noteReceived(utime);
+void HealthMonitor::noteInput(Duration time) {
+  noteReceived(time);
   ++inputs_;
-  rate_in_.note(utime);
+  rate_in_.note(time);
 }
 
-void HealthMonitor::noteReceived(int64_t utime) {
+void HealthMonitor::noteReceived(Duration time) {
   ++received_;
-  newest_utime_ = std::max(newest_utime_, utime);
+  newest_time_ = std::max(newest_time_, time);
 }
 
-void HealthMonitor::notePublished(int64_t utime) {
+void HealthMonitor::notePublished(Duration time) {
   ++published_;
-  rate_out_.note(utime);
+  rate_out_.note(time);
 }
 
 void HealthMonitor::noteWork(double milliseconds) {
@@ -162,7 +162,7 @@ void HealthMonitor::describeState(process_health_t& message) const {
 
 process_health_t HealthMonitor::nextMessage() {
   process_health_t message{};
-  message.utime = newest_utime_;
+  message.utime = newest_time_.count();
   message.process = process_;
   message.pid = static_cast<int32_t>(getpid());
   message.sequence = sequence_++;

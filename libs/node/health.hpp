@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "redbee/geometry/time.hpp"
 #include "redbee/process_health_t.hpp"
 
 namespace redbee {
@@ -39,12 +40,12 @@ class MessageRate {
   static constexpr size_t kWindow = 120;
 
   /// A time that runs backwards restarts the window.
-  void note(int64_t utime);
+  void note(Duration time);
   /// Hz; 0 before the second message.
   double hertz() const;
 
  private:
-  std::deque<int64_t> utimes_;
+  std::deque<Duration> times_;
 };
 
 /// Median and 99th percentile of the newest `kWindow` values.
@@ -80,17 +81,18 @@ struct CpuTime {
   double publishing = 0;
 };
 
-/// Collects the contents of process_health_t. One per node; not thread-safe.
+/// Collects the contents of process_health_t. One per node; not thread-safe. Times are those inside the
+/// messages, since the epoch of their clock.
 class HealthMonitor {
  public:
   /// `configuration_hash`: configurationHash() of the process's configuration.
   HealthMonitor(std::string process, std::string configuration_hash);
 
   /// A message of the input that drives the process (for most processes: a frame).
-  void noteInput(int64_t utime);
+  void noteInput(Duration time);
   /// Any other message.
-  void noteReceived(int64_t utime);
-  void notePublished(int64_t utime);
+  void noteReceived(Duration time);
+  void notePublished(Duration time);
   void noteSkipped(int64_t frames = 1) { skipped_ += frames; }
   void noteDamaged(int64_t messages = 1) { damaged_ += messages; }
   void noteLate(int64_t inputs = 1) { late_ += inputs; }
@@ -148,7 +150,7 @@ class HealthMonitor {
   HealthState state_ = HealthState::kStarting;
   std::string state_message_;
   bool changed_ = true;
-  int64_t newest_utime_ = 0;
+  Duration newest_time_{};
   int32_t sequence_ = 0;
   double input_silence_s_ = 0;
   int64_t inputs_ = 0;

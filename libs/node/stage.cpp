@@ -16,7 +16,7 @@ bool Stage::acceptFrame(CameraTime time) {
     health_.noteDamaged();
     return false;
   }
-  health_.noteInput(toUtime(time));
+  health_.noteInput(time.time_since_epoch());
   const FrameDecision decision = order_.classify(time);
   if (decision == FrameDecision::kDiscard) {
     health_.noteSkipped();

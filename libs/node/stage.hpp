@@ -109,7 +109,7 @@ void Stage::workOn(CameraTime time, const WorkTimer& arrival, const Work& work) 
   timers_ = {};
   publisher_.beginFrame(time);
   work();
-  noteDone(health_, toUtime(time), arrival, timers_);
+  noteDone(health_, time, arrival, timers_);
 }
 
 }  // namespace redbee

@@ -48,9 +48,9 @@ struct FrameTimers {
 };
 
 /// `arrival`: started when the frame was received.
-inline void noteDone(HealthMonitor& health, int64_t utime, const WorkTimer& arrival,
+inline void noteDone(HealthMonitor& health, CameraTime time, const WorkTimer& arrival,
                      const FrameTimers& timers) {
-  health.notePublished(utime);
+  health.notePublished(time.time_since_epoch());
   health.noteLatency(arrival.milliseconds());
   health.noteWork(timers.wall.milliseconds());
   health.noteCpu(timers.cpu.elapsed());

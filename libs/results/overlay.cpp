@@ -58,7 +58,7 @@ void drawDetection(cv::Mat& canvas, const Detection& detection) {
 }
 
 std::string statusLine(const OverlayStatus& status) {
-  std::string line = fmt::format("{:.3f} s", static_cast<double>(status.utime) / 1e6);
+  std::string line = fmt::format("{:.3f} s", static_cast<double>(toUtime(status.time)) / 1e6);
   if (status.fps > 0) line += fmt::format("  {:.1f} fps", status.fps);
   if (!status.source.empty()) line += fmt::format("  {}  epoch {}", status.source, status.epoch);
   return line + (status.message.empty() ? "" : "  " + status.message);

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "redbee/detection/detector.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
 struct OverlayStatus {
-  int64_t utime = 0;   ///< us
+  CameraTime time{};
   double fps = 0;      ///< frames per second; 0: not shown
   std::string source;  ///< of the homography: "fused", "inertial", ...
   int32_t epoch = 0;

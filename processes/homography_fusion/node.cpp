@@ -64,7 +64,7 @@ void HomographyFusionNode::expect(CameraTime time) {
       pending_.empty() ? frameOrder().last().value_or(time) : pending_.rbegin()->first;
   if (newest_frame - time > FrameOrder::kSetBack) restart();
   clock_.noteFrame(time);
-  health().noteInput(toUtime(time));
+  health().noteInput(time.time_since_epoch());
   pending_.emplace(time, WorkTimer());
   if (pending_.size() > kMaxPending) {
     pending_.erase(pending_.begin());

@@ -12,6 +12,8 @@
 namespace redbee {
 namespace {
 
+CameraTime anchorTimeOf(const fused_homography_t& fused) { return CameraTime(fromUtime(fused.utime_anchor)); }
+
 /// How much smaller an image may be decoded.
 int imageDownscale(const DetectorNeeds& needs, const CameraIntrinsics& camera) {
   const auto divides = [&](const CameraIntrinsics& of) {
@@ -56,8 +58,8 @@ void MotionSegmentationNode::reset() {
 
 FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_homography_t* fused) const {
   FrameInput input;
-  input.utime = message.utime;
-  input.utime_previous = last_ ? last_->utime : message.utime;
+  input.time = timeOf(message);
+  input.time_previous = last_ ? last_->time : input.time;
   input.K = camera_.camera().K();
   input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
   input.sample_grid_px = configuration_.visual.tracker.grid_px;
@@ -66,14 +68,14 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_
     addVisual(input);
     return input;
   }
-  if (fused->utime_previous == last_->utime) {
+  if (previousTimeOf(*fused) == last_->time) {
     input.ground = matrix3(fused->step.H);
     input.tracks = tracksOf(fused->tracks);
     if (fused->has_front != 0) input.front = matrix3(fused->H_front);
     if (fused->has_motion != 0) {
       input.motion = motionOf(fused->motion);
     }
-  } else if (fused->epoch == last_->epoch && fused->utime_anchor == last_->utime_anchor) {
+  } else if (fused->epoch == last_->epoch && anchorTimeOf(*fused) == last_->time_anchor) {
     // Frames in between were missed: the anchor homographies bridge them (libs/README.md, equation 25). A
     // restarted fusion counts epochs from 0 again, so the anchor's time is compared as well.
     input.ground = normaliseHomography(matrix3(fused->anchor.H) * last_->H_anchor.inverse());
@@ -84,9 +86,9 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_
 /// While the fusion is not running or has no estimate yet after a restart, vision's own homography preserves
 /// background and identities.
 void MotionSegmentationNode::addVisual(FrameInput& input) const {
-  const visual_homography_t* visual = visual_.find(timeOf(input));
+  const visual_homography_t* visual = visual_.find(input.time);
   if (visual == nullptr || visual->status != visual_homography_t::GOOD ||
-      visual->utime_previous != last_->utime)
+      previousTimeOf(*visual) != last_->time)
     return;
   input.ground = matrix3(visual->ground.H);
   input.tracks = tracksOf(visual->tracks);
@@ -101,9 +103,9 @@ void MotionSegmentationNode::work(const image_t& message) {
   publishOutput(message, input, output);
   updateState(output.status, fused != nullptr);
   if (fused != nullptr) {
-    last_ = Last{message.utime, fused->epoch, fused->utime_anchor, matrix3(fused->anchor.H)};
+    last_ = Last{input.time, fused->epoch, anchorTimeOf(*fused), matrix3(fused->anchor.H)};
   } else {
-    last_ = Last{message.utime, -1, 0, Eigen::Matrix3d::Identity()};
+    last_ = Last{input.time, -1, {}, Eigen::Matrix3d::Identity()};
   }
   companions().eraseThrough(timeOf(message));
   visual_.eraseThrough(timeOf(message));
@@ -122,7 +124,7 @@ void MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& messag
 void MotionSegmentationNode::publishOutput(const image_t& message, const FrameInput& input,
                                            DetectorOutput output) {
   for (Detection& detection : output.detections) detection.id = identities_.globalId(detection.id);
-  foreground_.publish(message, input.utime_previous, std::move(output));
+  foreground_.publish(message, input.time_previous, std::move(output));
 }
 
 void MotionSegmentationNode::updateState(DetectorStatus status, bool has_fused) {

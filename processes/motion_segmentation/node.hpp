@@ -28,9 +28,9 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
  private:
   /// The last processed frame and its anchor homography.
   struct Last {
-    int64_t utime;
+    CameraTime time;
     int32_t epoch;
-    int64_t utime_anchor;
+    CameraTime time_anchor;
     Eigen::Matrix3d H_anchor;
   };
 

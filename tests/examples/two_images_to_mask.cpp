@@ -20,10 +20,9 @@ int main(int argc, char** argv) try {
     frame.colour = cv::imread(argv[k]);
     if (frame.colour.empty()) throw std::invalid_argument(argv[k] + std::string(" is no image"));
     cv::cvtColor(frame.colour, frame.grey, cv::COLOR_BGR2GRAY);
-    frame.utime_previous = frame.utime;
-    frame.utime += 40'000;
-    const redbee::CameraTime time(redbee::fromUtime(frame.utime));
-    const redbee::VisualHomography visual = estimator.step(time, frame.grey, std::nullopt);
+    frame.time_previous = frame.time;
+    frame.time += std::chrono::milliseconds(40);
+    const redbee::VisualHomography visual = estimator.step(frame.time, frame.grey, std::nullopt);
     if (visual.ground) frame.ground = visual.ground->H;
     frame.tracks = visual.tracks;
     output = detector->step(frame);

@@ -43,16 +43,16 @@ TEST(SequenceCounter, ARepeatedMessageDoesNotCount) {
 TEST(MessageRate, CountsIntervalsInMessageTime) {
   MessageRate rate;
   EXPECT_EQ(rate.hertz(), 0);
-  for (int i = 0; i < 25; ++i) rate.note(1000000 + i * 40000);
+  for (int i = 0; i < 25; ++i) rate.note(Duration(1000000 + i * 40000));
   EXPECT_NEAR(rate.hertz(), 25.0, 1e-9);
 }
 
 TEST(MessageRate, RestartsWhenTimeRunsBackwards) {
   MessageRate rate;
-  rate.note(10000000);
-  rate.note(1000000);
+  rate.note(Duration(10000000));
+  rate.note(Duration(1000000));
   EXPECT_EQ(rate.hertz(), 0);
-  rate.note(1100000);
+  rate.note(Duration(1100000));
   EXPECT_NEAR(rate.hertz(), 10.0, 1e-9);
 }
 
@@ -68,10 +68,10 @@ TEST(LatencyWindow, GivesPercentilesOfTheNewestValues) {
 
 TEST(HealthMonitor, ReportsAllThatWasNoted) {
   HealthMonitor health("redbee-test", "cafe");
-  health.noteInput(1000000);
-  health.noteInput(1050000);
-  health.noteReceived(1060000);
-  health.notePublished(1000000);
+  health.noteInput(Duration(1000000));
+  health.noteInput(Duration(1050000));
+  health.noteReceived(Duration(1060000));
+  health.notePublished(Duration(1000000));
   health.noteSkipped(3);
   health.noteDamaged();
   health.noteLate(2);
@@ -124,7 +124,7 @@ TEST(HealthMonitor, AChangeIsReportedOnce) {
 TEST(HealthMonitor, AMissingInputIsReportedAndHasNoRate) {
   HealthMonitor health("redbee-test", "");
   health.setState(HealthState::kGood);
-  for (int i = 0; i < 10; ++i) health.noteInput(1000000 + i * 40000);
+  for (int i = 0; i < 10; ++i) health.noteInput(Duration(1000000 + i * 40000));
   health.consumeChange();
   health.setInputSilence(0.9);
   EXPECT_FALSE(health.consumeChange());

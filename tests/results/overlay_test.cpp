@@ -14,7 +14,8 @@ TEST(Overlay, ShowsMaskAndBoxesAndLeavesTheRest) {
   Detection detection;
   detection.id = 3;
   detection.box = {55, 55, 30, 30};
-  const cv::Mat overlay = drawOverlay(image, mask, {detection}, {1'500'000, 24, "fused", 2, ""});
+  const cv::Mat overlay = drawOverlay(image, mask, {detection},
+                                      {CameraTime(std::chrono::milliseconds(1500)), 24, "fused", 2, ""});
   ASSERT_EQ(overlay.type(), CV_8UC3);
   EXPECT_EQ(overlay.at<cv::Vec3b>(100, 150), cv::Vec3b(100, 100, 100));
   const auto& inside = overlay.at<cv::Vec3b>(70, 70);

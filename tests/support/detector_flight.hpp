@@ -26,11 +26,11 @@ struct DetectorFlight {
     PointTracker tracker{dense};
     for (int k = 0; k < frames; ++k) {
       FrameInput input;
-      input.utime = flight.utime(k);
+      input.time = flight.simulator().frameTime(k);
       input.grey = flight.image(k).grey;
       input.K = flight.simulator().camera().K();
       if (k > 0) {
-        input.utime_previous = flight.utime(k - 1);
+        input.time_previous = flight.simulator().frameTime(k - 1);
         input.ground = flight.homography(k);
         if (front_patch) input.front = flight.simulator().frontHomography(k, *front_patch);
         input.motion = flight.motion(k);

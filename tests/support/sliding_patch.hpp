@@ -64,7 +64,7 @@ inline std::vector<PatchFrame> slidingPatch(const SlidingPatch& options) {
   std::vector<PatchFrame> frames;
   for (int k = 0; k < options.frames; ++k) {
     PatchFrame frame;
-    frame.input.utime = 1'000'000 + 40'000 * k;
+    frame.input.time = CameraTime(std::chrono::seconds(1) + k * std::chrono::milliseconds(40));
     frame.input.K = K;
     if (k > 0) {
       since_first = planeHomography(K, step) * since_first;

@@ -50,21 +50,22 @@ void EarlierFrames::propagate(const Eigen::Matrix3d& ground, const std::optional
   }
 }
 
-void EarlierFrames::remember(int64_t utime, const cv::Mat1b& grey, double span_s) {
-  while (!frames_.empty() && static_cast<double>(utime - frames_.front().utime) > span_s * 1e6) {
+void EarlierFrames::store(CameraTime time, const cv::Mat1b& grey, double span_s) {
+  while (!frames_.empty() && static_cast<double>((time - frames_.front().time).count()) > span_s * 1e6) {
     frames_.pop_front();
   }
   EarlierFrame frame;
-  frame.utime = utime;
+  frame.time = time;
   frame.grey = grey;
   frames_.push_back(frame);
 }
 
-const EarlierFrame* EarlierFrames::aged(int64_t now, double age_s) const {
-  const int64_t wanted = now - std::llround(age_s * 1e6);
+const EarlierFrame* EarlierFrames::aged(CameraTime now, double age_s) const {
+  const CameraTime wanted = now - fromSeconds(age_s);
   const EarlierFrame* best = nullptr;
   for (const EarlierFrame& frame : frames_) {
-    if (best == nullptr || std::abs(frame.utime - wanted) < std::abs(best->utime - wanted)) best = &frame;
+    if (best == nullptr || std::chrono::abs(frame.time - wanted) < std::chrono::abs(best->time - wanted))
+      best = &frame;
   }
   return best;
 }

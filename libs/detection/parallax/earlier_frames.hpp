@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
 struct EarlierFrame {
-  int64_t utime = 0;
+  CameraTime time{};
   cv::Mat1b grey;
   Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  ///< this frame's pixels to the current frame's
   std::optional<PlaneMotion> motion;                     ///< from this frame to the current one
@@ -26,9 +27,9 @@ class EarlierFrames {
   void propagate(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
                  const std::optional<Eigen::Matrix3d>& front = std::nullopt);
   /// Stores an image (not copied) and erases those older than span_s.
-  void remember(int64_t utime, const cv::Mat1b& grey, double span_s);
+  void store(CameraTime time, const cv::Mat1b& grey, double span_s);
   /// The frame whose age is closest to age_s; nullptr if there is none.
-  const EarlierFrame* aged(int64_t now, double age_s) const;
+  const EarlierFrame* aged(CameraTime now, double age_s) const;
   const EarlierFrame* newest() const { return frames_.empty() ? nullptr : &frames_.back(); }
 
  private:

@@ -67,11 +67,11 @@ void ForegroundEvidence::fillRegions(const cv::Mat4f& image, cv::Mat1f& foregrou
   foreground = cv::min(cv::max(foreground, 0), 1);
 }
 
-ForegroundMaps ForegroundEvidence::learn(int64_t utime, const cv::Mat1b& grey, const cv::Mat3b& colour,
+ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey, const cv::Mat3b& colour,
                                          const Eigen::Matrix3d& K, cv::Size full) {
-  const double elapsed_s = static_cast<double>(utime - last_utime_) * 1e-6;
-  last_utime_ = utime;
-  const cv::Mat1f motion = motion_.learn(utime, grey, K, full);
+  const double elapsed_s = seconds(time - last_time_);
+  last_time_ = time;
+  const cv::Mat1f motion = motion_.learn(time, grey, K, full);
   cv::Mat1f foreground;
   if (!motion.empty()) foreground = motion / (motion + parallax_.motion_half);
   if (appearance_.enabled) {

@@ -11,6 +11,7 @@
 #include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parallax/parallax_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -26,7 +27,7 @@ class ForegroundEvidence {
 
   /// Classifies the image, then learns it. Returns maps of the size `full`, empty if there is no earlier
   /// frame. `grey` may be smaller; `colour`: of grey's size, or empty if the camera is grey.
-  ForegroundMaps learn(int64_t utime, const cv::Mat1b& grey, const cv::Mat3b& colour,
+  ForegroundMaps learn(CameraTime time, const cv::Mat1b& grey, const cv::Mat3b& colour,
                        const Eigen::Matrix3d& K, cv::Size full);
 
  private:
@@ -39,7 +40,7 @@ class ForegroundEvidence {
   Eigen::Matrix3d to_background_;  ///< full-size pixels to the background's
   ParallaxEvidence motion_;
   AppearanceModel background_;
-  int64_t last_utime_ = 0;
+  CameraTime last_time_{};
 };
 
 }  // namespace redbee

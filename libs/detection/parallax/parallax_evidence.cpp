@@ -58,19 +58,19 @@ void ParallaxEvidence::propagate(const Eigen::Matrix3d& ground, const std::optio
   frames_.propagate(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
 }
 
-cv::Mat1f ParallaxEvidence::learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
+cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
                                   cv::Size full) {
   cv::Mat1b small;
   cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::Mat1f found;
-  const EarlierFrame* frame = frames_.aged(utime, fast_ ? 0 : parameters_.baseline_s);
+  const EarlierFrame* frame = frames_.aged(time, fast_ ? 0 : parameters_.baseline_s);
   const EarlierFrame* newest = frames_.newest();
   if (frame != nullptr && newest != nullptr) {
-    const double frames =
-        static_cast<double>(utime - frame->utime) / static_cast<double>(utime - newest->utime);
+    const double frames = static_cast<double>((time - frame->time).count()) /
+                          static_cast<double>((time - newest->time).count());
     found = evidence(*frame, small, work_ * K, frames);
   }
-  frames_.remember(utime, small, parameters_.baseline_s);
+  frames_.store(time, small, parameters_.baseline_s);
   return found;
 }
 

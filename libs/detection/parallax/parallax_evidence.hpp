@@ -18,6 +18,7 @@
 #include "redbee/detection/parallax/propagated_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -35,7 +36,7 @@ class ParallaxEvidence {
                  const std::optional<PlaneMotion>& motion);
   /// Evidence of motion, 0..1, at work_downscale; empty if there is no earlier frame. Stores the image (of
   /// size `full` or smaller).
-  cv::Mat1f learn(int64_t utime, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full);
+  cv::Mat1f learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full);
 
   /// 255 where the reference frame of the last learn() does not show the scene; at work_downscale.
   const cv::Mat1b& unknown() const { return unknown_; }

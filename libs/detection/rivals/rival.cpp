@@ -36,13 +36,13 @@ RivalScore Rival::score(const FrameInput& input) {
     reset();
     scored.status = DetectorStatus::kBadImage;
   } else {
-    const bool first = !last_utime_;
-    const bool follows = !first && input.utime > *last_utime_ &&
-                         input.utime - *last_utime_ <= kMaxFrameGapUs && input.grey.size() == size_;
+    const bool first = !last_time_;
+    const bool follows = !first && input.time > *last_time_ && input.time - *last_time_ <= kMaxFrameGap &&
+                         input.grey.size() == size_;
     size_ = input.grey.size();
     if (first || follows) scored = scoreFrame(input);
     if ((!first && !follows) || scored.status == DetectorStatus::kNoHomography) scored = restart(input);
-    last_utime_ = input.utime;
+    last_time_ = input.time;
   }
   if (scored.status != DetectorStatus::kGood) {
     scored.score = cv::Mat1b::zeros(size_);
@@ -56,7 +56,7 @@ DetectorOutput Rival::step(const FrameInput& input) {
   const cv::Size size = input.fullSize().empty() ? size_ : input.fullSize();
   const bool good = scored.status == DetectorStatus::kGood;
   DetectorOutput output;
-  output.utime = input.utime;
+  output.time = input.time;
   output.status = scored.status;
   output.unknown = cv::Mat1b(size, good ? 0 : 255);
   output.probability = good ? scored.score : cv::Mat1b(cv::Mat1b::zeros(size));

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "redbee/detection/detector.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -25,8 +26,8 @@ struct RivalScore {
 /// thresholds are not used.
 class Rival : public Detector {
  public:
-  /// Frames further apart are not consecutive [us].
-  static constexpr int64_t kMaxFrameGapUs = 500'000;
+  /// Frames further apart are not consecutive.
+  static constexpr Duration kMaxFrameGap = std::chrono::milliseconds(500);
 
   DetectorNeeds needs() const override { return {}; }
   DetectorOutput step(const FrameInput& input) final;
@@ -49,7 +50,7 @@ class Rival : public Detector {
 
   ObjectParameters objects_;
   ObjectTracker tracker_;
-  std::optional<int64_t> last_utime_;
+  std::optional<CameraTime> last_time_;
   cv::Size size_;
 };
 

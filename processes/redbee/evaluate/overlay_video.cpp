@@ -43,7 +43,7 @@ void forEachOverlay(const std::filesystem::path& log_file, const std::filesystem
     if (!image || !run.has(RunMap::kMask, message.utime)) continue;
     const cv::Mat1b mask = run.readOrZeros(RunMap::kMask, message.utime, image->size());
     OverlayStatus status;
-    status.utime = message.utime;
+    status.time = CameraTime(fromUtime(message.utime));
     draw(message.utime, drawOverlay(*image, mask, at(detections, message.utime), status));
   }
 }

@@ -102,7 +102,7 @@ class Recorder {
   void onMessage(const lcm::ReceiveBuffer* received, const std::string& channel) {
     const auto* first = static_cast<const uint8_t*>(received->data);
     ReceivedMessage message{received->recv_utime, channel, {first, first + received->data_size}};
-    health_.noteInput(message.utime);
+    health_.noteInput(fromUtime(message.utime));
     if (!final_message_.empty() && channel == options_.channel && message.data == final_message_)
       final_message_received_ = true;
     if (!queue_.push(std::move(message))) ++refused_;

@@ -159,11 +159,11 @@ TEST_P(Rivals, BlackImagesAreNeverGood) {
 
 TEST_P(Rivals, AGapRestarts) {
   for (size_t k = 0; k < 10; ++k) rival_->score(input(k));
-  for (const int64_t jump : {int64_t{600'000}, int64_t{-600'000}, int64_t{0}}) {
+  for (const Duration jump : {Duration(600'000), Duration(-600'000), Duration(0)}) {
     FrameInput late = input(9);
-    late.utime += jump;
+    late.time += jump;
     const RivalScore output = rival_->score(late);
-    EXPECT_EQ(output.status, DetectorStatus::kNoHomography) << jump;
+    EXPECT_EQ(output.status, DetectorStatus::kNoHomography) << jump.count();
     expectNothingClaimed(output);
     FrameInput back = input(9);
     rival_->score(back);
@@ -182,7 +182,7 @@ TEST_P(Rivals, AChangeOfSizeRestartsAndIsSurvived) {
   DetectorStatus last = DetectorStatus::kNoHomography;
   for (size_t k = 0; k < slidingPatch().size(); ++k) {
     FrameInput later = input(k);
-    later.utime += small.utime;
+    later.time += small.time.time_since_epoch();
     last = rival_->score(later).status;
   }
   EXPECT_EQ(last, DetectorStatus::kGood);
