@@ -27,8 +27,12 @@ RectifiedCamera::RectifiedCamera(const CameraIntrinsics& intrinsics, int downsca
       image_rectifier_(Camera(shrunk(intrinsics, downscale), shrunk(camera_.ideal(), downscale))) {}
 
 IdealImage RectifiedCamera::ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const {
-  const cv::Mat image = (wants_colour ? decodeColour(message, downscale_) : decodeGrey(message, downscale_))
-                            .value_or(cv::Mat());
+  cv::Mat image;
+  if (wants_colour) {
+    image = decodeColour(message, downscale_).value_or(cv::Mat3b());
+  } else {
+    image = decodeGrey(message, downscale_).value_or(cv::Mat1b());
+  }
   if (image.empty()) health.noteDamaged();
   const cv::Size wanted(camera_.intrinsics().width / downscale_, camera_.intrinsics().height / downscale_);
   if (image.size() != wanted) return {};

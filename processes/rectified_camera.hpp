@@ -12,8 +12,8 @@ namespace redbee {
 
 /// On the grid of the ideal camera, downscaled; both empty if there is no image.
 struct IdealImage {
-  cv::Mat grey;    ///< CV_8U
-  cv::Mat colour;  ///< CV_8UC3, BGR; empty unless asked for
+  cv::Mat1b grey;
+  cv::Mat3b colour;  ///< BGR; empty unless requested
 };
 
 class RectifiedCamera {

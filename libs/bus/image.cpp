@@ -99,10 +99,10 @@ std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size) {
   return cv::Size(big16(data + *header + 7), big16(data + *header + 5));
 }
 
-std::optional<cv::Mat> decodeGrey(const image_t& message) { return decodeGrey(message, 1); }
-std::optional<cv::Mat> decodeColour(const image_t& message) { return decodeColour(message, 1); }
+std::optional<cv::Mat1b> decodeGrey(const image_t& message) { return decodeGrey(message, 1); }
+std::optional<cv::Mat3b> decodeColour(const image_t& message) { return decodeColour(message, 1); }
 
-std::optional<cv::Mat> decodeGrey(const image_t& message, int downscale) {
+std::optional<cv::Mat1b> decodeGrey(const image_t& message, int downscale) {
   if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
   switch (message.pixelformat) {
     case image_t::GRAY:
@@ -118,7 +118,7 @@ std::optional<cv::Mat> decodeGrey(const image_t& message, int downscale) {
   }
 }
 
-std::optional<cv::Mat> decodeColour(const image_t& message, int downscale) {
+std::optional<cv::Mat3b> decodeColour(const image_t& message, int downscale) {
   if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
   switch (message.pixelformat) {
     case image_t::GRAY:
@@ -134,14 +134,14 @@ std::optional<cv::Mat> decodeColour(const image_t& message, int downscale) {
   }
 }
 
-image_t rawGreyMessage(int64_t utime, const cv::Mat& grey) {
+image_t rawGreyMessage(int64_t utime, const cv::Mat1b& grey) {
   image_t message;
   message.utime = utime;
   message.width = grey.cols;
   message.height = grey.rows;
   message.row_stride = grey.cols;
   message.pixelformat = image_t::GRAY;
-  const cv::Mat whole = grey.isContinuous() ? grey : grey.clone();
+  const cv::Mat1b whole = grey.isContinuous() ? grey : grey.clone();
   message.data.assign(whole.data, whole.data + whole.total());
   message.size = static_cast<int32_t>(message.data.size());
   message.nmetadata = 0;
@@ -161,14 +161,14 @@ image_t jpegMessage(int64_t utime, const cv::Mat& image, int quality) {
   return message;
 }
 
-std::vector<uint8_t> encodePng(const cv::Mat& map) {
+std::vector<uint8_t> encodePng(const cv::Mat1b& map) {
   std::vector<uint8_t> bytes;
   // By default OpenCV compresses for speed; setting any level makes libpng try every filter on every row.
   cv::imencode(".png", map, bytes);
   return bytes;
 }
 
-std::vector<uint8_t> encodeBilevelPng(const cv::Mat& map) {
+std::vector<uint8_t> encodeBilevelPng(const cv::Mat1b& map) {
   std::vector<uint8_t> bytes;
   cv::imencode(".png", map, bytes, {cv::IMWRITE_PNG_BILEVEL, 1});
   return bytes;

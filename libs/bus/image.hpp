@@ -15,20 +15,20 @@ std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size);
 
 /// The image in grey, or in BGR. std::nullopt if the message's size or format is wrong or the data is
 /// truncated; sizes are compared with the header's before anything is decoded.
-std::optional<cv::Mat> decodeGrey(const image_t& message);
-std::optional<cv::Mat> decodeColour(const image_t& message);
+std::optional<cv::Mat1b> decodeGrey(const image_t& message);
+std::optional<cv::Mat3b> decodeColour(const image_t& message);
 /// The same, downscaled by 1, 2 or 4, which must divide the image's width and height. A JPEG is decoded at
 /// the smaller size directly, which at half size takes half the time.
-std::optional<cv::Mat> decodeGrey(const image_t& message, int downscale);
-std::optional<cv::Mat> decodeColour(const image_t& message, int downscale);
+std::optional<cv::Mat1b> decodeGrey(const image_t& message, int downscale);
+std::optional<cv::Mat3b> decodeColour(const image_t& message, int downscale);
 
-image_t rawGreyMessage(int64_t utime, const cv::Mat& grey);
+image_t rawGreyMessage(int64_t utime, const cv::Mat1b& grey);
 /// `image`: grey or BGR.
 image_t jpegMessage(int64_t utime, const cv::Mat& image, int quality);
 
 /// 8-bit single-channel PNG, compressed for speed; maps with few distinct values take a few hundred bytes.
-std::vector<uint8_t> encodePng(const cv::Mat& map);
+std::vector<uint8_t> encodePng(const cv::Mat1b& map);
 /// PNG with one bit per pixel, for a map of 0 and 255.
-std::vector<uint8_t> encodeBilevelPng(const cv::Mat& map);
+std::vector<uint8_t> encodeBilevelPng(const cv::Mat1b& map);
 
 }  // namespace redbee

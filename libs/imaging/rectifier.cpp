@@ -44,9 +44,9 @@ cv::Mat Rectifier::toIdeal(const cv::Mat& raw) const {
   return ideal;
 }
 
-cv::Mat Rectifier::toRaw(const cv::Mat& ideal, uchar outside) const {
+cv::Mat1b Rectifier::toRaw(const cv::Mat1b& ideal, uchar outside) const {
   if (to_raw_1_.empty()) return ideal;
-  cv::Mat raw;
+  cv::Mat1b raw;
   cv::remap(ideal, raw, to_raw_1_, to_raw_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, outside);
   return raw;
 }

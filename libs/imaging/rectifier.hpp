@@ -16,15 +16,15 @@ class Rectifier {
   cv::Mat toIdeal(const cv::Mat& raw) const;
   /// Map on the ideal grid (mask, probability) to the raw grid, nearest neighbour; `outside` where the raw
   /// pixel lies outside the ideal image.
-  cv::Mat toRaw(const cv::Mat& ideal, uchar outside = 0) const;
+  cv::Mat1b toRaw(const cv::Mat1b& ideal, uchar outside = 0) const;
   /// On the ideal grid: 255 where the raw image or the camera model has no pixel; empty if all pixels are
   /// known.
-  const cv::Mat& unknown() const { return unknown_; }
+  const cv::Mat1b& unknown() const { return unknown_; }
 
  private:
   cv::Mat to_ideal_1_, to_ideal_2_;
   cv::Mat to_raw_1_, to_raw_2_;
-  cv::Mat unknown_;
+  cv::Mat1b unknown_;
 };
 
 }  // namespace redbee

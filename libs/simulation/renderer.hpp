@@ -25,11 +25,11 @@ inline constexpr uchar kSurfaceGround = 0;
 inline constexpr uchar kSurfaceSky = 255;
 
 struct RenderedImage {
-  cv::Mat grey;     ///< CV_8UC1
-  cv::Mat bgr;      ///< CV_8UC3, empty unless asked for
-  cv::Mat mask;     ///< CV_8UC1: 0 background, kMaskMoving, kMaskStopped
-  cv::Mat id;       ///< CV_8UC1: 0 background, 1..N the mover, in the order of the scene's movers
-  cv::Mat surface;  ///< CV_8UC1: kSurfaceGround, kSurfaceSky, or 1 + index of the patch in the scene
+  cv::Mat1b grey;
+  cv::Mat3b bgr;      ///< empty unless requested
+  cv::Mat1b mask;     ///< 0 background, kMaskMoving, kMaskStopped
+  cv::Mat1b id;       ///< 0 background, 1..N the mover, in the order of the scene's movers
+  cv::Mat1b surface;  ///< kSurfaceGround, kSurfaceSky, or 1 + index of the patch in the scene
 };
 
 class Renderer {

@@ -34,7 +34,7 @@ bool isFinite(const Eigen::Vector2d& p) { return p.allFinite(); }
 
 class PointTracker::Implementation {
  public:
-  Implementation(const TrackerParameters& parameters, const cv::Mat& unknown)
+  Implementation(const TrackerParameters& parameters, const cv::Mat1b& unknown)
       : parameters_(parameters), shape_(parameters.window_px), forward_(shape_), backward_(shape_) {
     if (!unknown.empty()) {
       const int side = 2 * (shape_.half + 1) + 1;
@@ -45,10 +45,8 @@ class PointTracker::Implementation {
     }
   }
 
-  Pyramid pyramidOf(const cv::Mat& grey) const {
-    if (grey.empty() || grey.type() != CV_8UC1) {
-      throw std::invalid_argument("the tracker takes 8-bit images of one channel");
-    }
+  Pyramid pyramidOf(const cv::Mat1b& grey) const {
+    if (grey.empty()) throw std::invalid_argument("the tracker needs an image");
     return {grey, std::max(parameters_.levels, kShiftLevel + 1), shape_.margin(), kMinSide};
   }
 
@@ -200,11 +198,11 @@ class PointTracker::Implementation {
   cv::Mat1b blocked_;  ///< 255 at the centres of patches that touch unknown pixels; may be empty
 };
 
-PointTracker::PointTracker(const TrackerParameters& parameters, const cv::Mat& unknown)
+PointTracker::PointTracker(const TrackerParameters& parameters, const cv::Mat1b& unknown)
     : implementation_(std::make_unique<Implementation>(parameters, unknown)) {}
 PointTracker::~PointTracker() = default;
 
-Pyramid PointTracker::pyramidOf(const cv::Mat& grey) const { return implementation_->pyramidOf(grey); }
+Pyramid PointTracker::pyramidOf(const cv::Mat1b& grey) const { return implementation_->pyramidOf(grey); }
 
 PointTracks PointTracker::advance(Pyramid image, const std::optional<Eigen::Matrix3d>& guess) {
   return implementation_->advance(std::move(image), guess);

@@ -35,17 +35,17 @@ class PointTracker {
  public:
   /// `unknown`: 255 where rectified images have no pixel (Rectifier::unknown()), or empty; patches that touch
   /// it are not tracked.
-  explicit PointTracker(const TrackerParameters& parameters, const cv::Mat& unknown = {});
+  explicit PointTracker(const TrackerParameters& parameters, const cv::Mat1b& unknown = {});
   ~PointTracker();
 
   /// Pyramid of an image, for advance(). Throws std::invalid_argument for an image that is empty or not 8-bit
   /// grey.
-  Pyramid pyramidOf(const cv::Mat& grey) const;
+  Pyramid pyramidOf(const cv::Mat1b& grey) const;
   /// Tracks the grid of the previous image into this one, starting from `guess` (previous to current, ideal
   /// pixels). Empty for the first image and after a change of size. Without a guess tracking starts from the
   /// shift of the whole image, or from the neighbouring point's displacement.
   PointTracks advance(Pyramid image, const std::optional<Eigen::Matrix3d>& guess);
-  PointTracks advance(const cv::Mat& grey, const std::optional<Eigen::Matrix3d>& guess) {
+  PointTracks advance(const cv::Mat1b& grey, const std::optional<Eigen::Matrix3d>& guess) {
     return advance(pyramidOf(grey), guess);
   }
   /// True if at least `points` grid points of an image have enough texture to be tracked.

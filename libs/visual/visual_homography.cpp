@@ -69,7 +69,7 @@ HomographyPrediction compose(const HomographyPrediction& later, const Homography
 }
 
 VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& parameters,
-                                                     const cv::Mat& unknown)
+                                                     const cv::Mat1b& unknown)
     : parameters_(parameters), tracker_(parameters.tracker, unknown) {}
 
 void VisualHomographyEstimator::resetReference() {
@@ -106,11 +106,9 @@ std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
   return largest;
 }
 
-VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat& grey,
+VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat1b& grey,
                                                  const std::optional<HomographyPrediction>& prediction) {
-  if (grey.empty() || grey.type() != CV_8UC1) {
-    throw std::invalid_argument("the visual stage takes 8-bit images of one channel");
-  }
+  if (grey.empty()) throw std::invalid_argument("the visual stage needs an image");
   VisualHomography result;
   result.time = time;
   const bool connected = previous_time_ && time > *previous_time_ &&

@@ -50,16 +50,16 @@ struct VisualHomography {
 class VisualHomographyEstimator {
  public:
   /// `unknown`: see PointTracker.
-  explicit VisualHomographyEstimator(const VisualParameters& parameters, const cv::Mat& unknown = {});
+  explicit VisualHomographyEstimator(const VisualParameters& parameters, const cv::Mat1b& unknown = {});
 
   /// Time of the reference frame, from which the next one is tracked; std::nullopt before the first.
   std::optional<CameraTime> previousTime() const { return previous_time_; }
 
-  /// `grey`: 8-bit, undistorted; anything else throws std::invalid_argument. A blank or blurred frame
+  /// `grey`: undistorted; throws std::invalid_argument if it is empty. A blank or blurred frame
   /// (kNoTexture) does not become the reference: the next one is tracked from the last good frame, unless
   /// that is older than max_frame_gap_s, so `prediction` starts at previousTime(). A time that does not
   /// increase restarts from this frame.
-  VisualHomography step(CameraTime time, const cv::Mat& grey,
+  VisualHomography step(CameraTime time, const cv::Mat1b& grey,
                         const std::optional<HomographyPrediction>& prediction);
 
  private:

@@ -81,7 +81,6 @@ TEST(PointTracker, IsInvariantToExposure) {
 TEST(PointTracker, SurvivesRaggedImages) {
   PointTracker tracker({});
   EXPECT_THROW(tracker.advance(cv::Mat(), {}), std::invalid_argument);
-  EXPECT_THROW(tracker.advance(cv::Mat(40, 40, CV_8UC3, cv::Scalar::all(0)), {}), std::invalid_argument);
   for (const int side : {1, 2, 7, 20, 33}) {
     const cv::Mat tiny(side, side, CV_8U, cv::Scalar(90));
     EXPECT_TRUE(tracker.advance(tiny, {}).previous.empty());
