@@ -98,7 +98,7 @@ TEST_F(Commands, SettingsFromTheCommandLineReachTheStack) {
   options.settings = {"detection.no_such_key=1"};
   EXPECT_THROW(runDetect(options), ConfigurationError);
   options.settings = {"nonsense"};
-  EXPECT_THROW(runDetect(options), InputError);
+  EXPECT_THROW(runDetect(options), ConfigurationError);
 }
 
 TEST_F(Commands, ARivalReplacesTheDetector) {
