@@ -16,6 +16,7 @@ namespace redbee::test {
 
 inline std::vector<std::string> allPrograms() {
   std::vector<std::string> programs;
+  programs.reserve(kStages.size());
   for (const ProcessDescription* stage : kStages) programs.push_back(programName(*stage));
   return programs;
 }

@@ -21,6 +21,7 @@ struct ToolOutput {
 ToolOutput run(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "redbee");
   std::vector<char*> argv;
+  argv.reserve(arguments.size());
   for (std::string& argument : arguments) argv.push_back(argument.data());
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();

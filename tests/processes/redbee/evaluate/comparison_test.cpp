@@ -39,6 +39,7 @@ class ComparisonTest : public testing::Test {
       for (const std::vector<Cell>& cells : table.rows) {
         if (table.title != title || cells.front().text != method) continue;
         std::vector<std::string> texts;
+        texts.reserve(cells.size());
         for (const Cell& cell : cells) texts.push_back(cell.text);
         texts.erase(texts.begin());
         return texts;
