@@ -154,6 +154,14 @@ void Loader::checkWhole(const std::filesystem::path& file) const {
   checkThresholds();
 }
 
+/// Of two keys that contradict each other, the one to report: that of the command line, else the first that a
+/// file sets; the other may be a default.
+const std::string& Loader::changed(const std::string& first, const std::string& second) const {
+  const auto at = places_.find(second);
+  const bool second_overrides = at != places_.end() && at->second.line == 0;
+  return second_overrides || places_.count(first) == 0 ? second : first;
+}
+
 /// Otherwise the failure of one process would make both the process that waits for it and the next one in the
 /// chain time out.
 void Loader::checkWaits() const {
@@ -161,8 +169,7 @@ void Loader::checkWaits() const {
     const double longer = waitOf(configuration_, order.longer);
     const double shorter = waitOf(configuration_, order.shorter);
     if (shorter == 0 || longer > shorter) continue;
-    // One of the two may be a default that no file sets.
-    const std::string& key = places_.count(order.longer) > 0 ? order.longer : order.shorter;
+    const std::string& key = changed(order.longer, order.shorter);
     fail(places_.at(key), key,
          order.longer + " (" + valueText(longer) + " s) must be longer than " + order.shorter + " (" +
              valueText(shorter) + " s): " + order.reason);
@@ -183,8 +190,7 @@ void Loader::checkThresholds() const {
   if (objects.extent_threshold <= objects.threshold) return;
   const std::string lower = "detection.objects.extent_threshold";
   const std::string upper = "detection.objects.threshold";
-  // One of the two may be a default that no file sets.
-  const std::string& key = places_.count(lower) > 0 ? lower : upper;
+  const std::string& key = changed(lower, upper);
   fail(places_.at(key), key,
        lower + " (" + valueText(objects.extent_threshold) + ") must not exceed " + upper + " (" +
            valueText(objects.threshold) + ")");

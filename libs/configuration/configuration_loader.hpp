@@ -39,6 +39,7 @@ class Loader {
   void applySection(const YAML::Node& section, const std::string& prefix);
   void applyEntry(const YAML::Node& name, const YAML::Node& value, const std::string& key);
   void apply(const std::string& key, const YAML::Node& value, const Place& place);
+  const std::string& changed(const std::string& first, const std::string& second) const;
   void checkWaits() const;
   void checkThresholds() const;
 

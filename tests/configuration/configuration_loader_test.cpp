@@ -133,6 +133,8 @@ TEST_F(ConfigurationLoader, TheCommandLineIsCheckedWithTheWhole) {
   EXPECT_THAT(
       faultOf("", "detection.objects.extent_threshold=0.9"),
       AllOf(StartsWith("command line: detection.objects.extent_threshold: "), HasSubstr("must not exceed")));
+  EXPECT_THAT(faultOf("", "detection.objects.threshold=0.3"),
+              StartsWith("command line: detection.objects.threshold: "));
   EXPECT_THAT(faultOf("", "waits.visual_s=3"), HasSubstr("must be longer"));
   EXPECT_THAT(faultOf("", "visual.tracker.grid_px"), HasSubstr("expected key=value"));
   EXPECT_THAT(faultOf("", "segmentation.threshold=0.5"), HasSubstr("was renamed to"));
