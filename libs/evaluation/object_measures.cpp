@@ -103,6 +103,7 @@ ObjectTruth objectsOfMask(const cv::Mat1b& mask) {
   const int count = cv::connectedComponents(mask == kMoving, truth.ids, 8, CV_32S);
   for (int id = 1; id < count; ++id) truth.objects.push_back({id, {}, true});
   truth.ignored = (mask != kMoving) & (mask != kBackground);
+  truth.has_identities = false;
   return truth;
 }
 

@@ -26,6 +26,7 @@ struct ObjectTruth {
   cv::Mat1i ids;      ///< identity of each visible pixel, 0: none; empty where objects are labelled by boxes
   cv::Mat1b ignored;  ///< not 0 where the truth is unknown; empty: known everywhere
   std::vector<TruthObject> objects;
+  bool has_identities = true;  ///< false: `id` means nothing beyond the frame
 };
 
 struct ObjectCounts {

@@ -1,5 +1,6 @@
 // detections.csv: the columns of MOTChallenge, frame (from 1), id, bb_left, bb_top, bb_width, bb_height [px],
-// conf (0..1), x, y, z (no world position: -1), then utime [us]. One header line.
+// conf (0..1), x, y, z (no world position: -1), then utime [us] and seen (0: predicted by the tracker). One
+// header line.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,8 @@ class DetectionsCsv {
 
 using DetectionsByTime = std::multimap<int64_t, Detection>;  ///< by utime [us]
 
-/// Area and `seen` are not in the file and keep their defaults. Throws InputError with file and line.
+/// Area is not in the file and keeps its default; without the column `seen` all are seen. Throws InputError
+/// with file and line.
 DetectionsByTime readDetections(const std::filesystem::path& file);
 
 }  // namespace redbee

@@ -25,18 +25,31 @@ TEST(RunFolder, DetectionsHaveTheColumnsOfMotChallengeAndReadBack) {
   detection.id = 7;
   detection.box = {10, 20, 30, 40};
   detection.score = 0.5;
+  detection.seen = false;
   csv.write(0, 123456, detection);
   EXPECT_FALSE(fs::exists(folder / "detections.csv"));
   csv.close();
   EXPECT_EQ(readText(folder / "detections.csv"),
-            "frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z,utime\n"
-            "1,7,10,20,30,40,0.5,-1,-1,-1,123456\n");
+            "frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z,utime,seen\n"
+            "1,7,10,20,30,40,0.5,-1,-1,-1,123456,0\n");
   const DetectionsByTime read = run.detections();
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read.begin()->first, 123456);
   EXPECT_EQ(read.begin()->second.id, 7);
   EXPECT_EQ(read.begin()->second.box, detection.box);
   EXPECT_EQ(read.begin()->second.score, 0.5);
+  EXPECT_FALSE(read.begin()->second.seen);
+}
+
+/// Runs of 0.1 have no column `seen`.
+TEST(RunFolder, DetectionsOfEarlierReleasesAreRead) {
+  const ScratchFolder folder;
+  writeText(
+      folder / "detections.csv",
+      "frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z,utime\n1,7,10,20,30,40,0.5,-1,-1,-1,123456\n");
+  const DetectionsByTime read = RunFolder(folder.path()).detections();
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_TRUE(read.begin()->second.seen);
 }
 
 TEST(RunFolder, HomographiesReadBackToTheLastBit) {

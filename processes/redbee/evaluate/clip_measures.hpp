@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "processes/redbee/evaluate/clip_tracks.hpp"
 #include "redbee/evaluation/object_measures.hpp"
 #include "redbee/evaluation/pixel_measures.hpp"
+#include "redbee/evaluation/region_measures.hpp"
 
 namespace redbee {
 
@@ -21,10 +24,12 @@ struct FrameOutcome {
 
 struct ClipMeasures {
   std::string name;
-  bool has_movers = false;  ///< false: recall, error and F1 are undefined
-  PixelMeasures pixels;     ///< of P_FG, at every threshold
-  PixelMeasures decided;    ///< of the mask, which is the method's own operating point
-  ObjectMeasures objects;   ///< of the mask
+  bool has_movers = false;            ///< false: recall, error and F1 are undefined
+  PixelMeasures pixels;               ///< of P_FG, at every threshold
+  PixelMeasures decided;              ///< of the mask, which is the method's own operating point
+  RegionMeasures regions;             ///< of the mask
+  ObjectMeasures objects;             ///< of the mask
+  std::optional<TrackReport> tracks;  ///< of the detections; nothing where the run has none
   std::vector<FrameOutcome> frames;
   int64_t frames_limit = 0;          ///< only the first frames of the recording were evaluated; 0: all were
   int64_t truth_without_result = 0;  ///< labelled frames without a map in the run, counted as empty maps

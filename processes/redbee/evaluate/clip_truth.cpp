@@ -205,6 +205,7 @@ ClipTruth::Labels ClipTruth::read(const Frame& frame, cv::Size size) const {
 ObjectTruth ClipTruth::objectsFromIdentities(const Frame& frame, const cv::Mat1b& mask) const {
   ObjectTruth truth = objectsOfMask(mask);
   truth.objects.clear();
+  truth.has_identities = true;
   readLabels(folder_ / "id" / frame.mask.filename(), mask.size()).convertTo(truth.ids, CV_32S);
   forEachIn(objects_by_utime_, frame.utime,
             [&](const TruthObject& object) { truth.objects.push_back(object); });

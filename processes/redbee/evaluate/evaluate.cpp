@@ -106,6 +106,8 @@ ClipMeasures measureClip(const EvaluateOptions& options) {
   ClipMeasures clip;
   clip.name = fs::weakly_canonical(options.results).filename().string();
   clip.frames_limit = options.frames;
+  std::optional<ClipTracks> tracks;
+  if (fs::exists(options.results / "detections.csv")) tracks.emplace(run.detections());
   const auto labelled = labelledFrames(
       truth, options.log.empty() ? times : imageTimes(options.log, options.camera_channel), options.frames);
   for (const ClipTruth::Frame& frame : labelled) {
@@ -115,12 +117,15 @@ ClipMeasures measureClip(const EvaluateOptions& options) {
     if (!labels.mask.empty()) {
       clip.pixels.add(run.readOrZeros(RunMap::kProbability, frame.utime, size), labels.mask);
       clip.decided.add(mask, labels.mask);
+      clip.regions.add(mask, labels.mask);
     }
     clip.frames.push_back(outcome(frame.utime, mask, labels.mask));
     clip.frames.back().objects = clip.objects.add(mask, labels.objects);
+    if (tracks) tracks->add(frame.utime, labels.objects);
   }
   if (clip.truth_without_result == static_cast<int64_t>(labelled.size()))
     throw InputError(options.results / "probability", "holds no map of a labelled frame");
+  if (tracks) clip.tracks = tracks->report();
   clip.has_movers = clip.pixels.movingPixels() > 0 || clip.objects.counts().present > 0;
   return clip;
 }

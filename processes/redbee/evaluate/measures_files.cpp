@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "processes/redbee/pages/number.hpp"
 #include "processes/redbee/pages/svg_plot.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/csv.hpp"
@@ -25,6 +26,8 @@ nlohmann::json pixelJson(const ClipMeasures& clip) {
           {"best_f1", definedOnly(defined, clip.pixels.bestF1())},
           {"precision", definedOnly(defined, decided.precision)},
           {"recall", definedOnly(defined, decided.recall)},
+          {"region_similarity_j", definedOnly(defined, clip.regions.j())},
+          {"contour_accuracy_f", definedOnly(defined, clip.regions.f())},
           {"f1", definedOnly(defined, sum > 0 ? 2 * decided.precision * decided.recall / sum : 0)}};
 }
 
@@ -37,6 +40,38 @@ nlohmann::json objectJson(const ClipMeasures& clip) {
           {"recall", definedOnly(defined, objects.recall())},
           {"false_alarms_per_frame", objects.falseAlarmsPerFrame()},
           {"false_area_percent", 100 * objects.falseAreaFraction()}};
+}
+
+/// PESMOD's F1 of boxes, and the measures of tracks.
+nlohmann::json trackJson(const TrackReport& report) {
+  nlohmann::json json{{"least_visible_pixels", kLeastTrackedPixels}};
+  for (const auto& [overlap, m] : report.overlaps) {
+    const bool defined = m.truths > 0;
+    const bool identified = defined && report.has_identities;
+    json["iou_" + fixed(overlap, 2)] = {
+        {"objects", m.truths},
+        {"boxes", m.detections},
+        {"recall", definedOnly(defined, m.recall)},
+        {"false_boxes_per_frame", m.false_boxes_per_frame},
+        {"f1", definedOnly(defined, 2.0 * static_cast<double>(m.matches) /
+                                        static_cast<double>(m.truths + m.detections))},
+        {"mean_iou", definedOnly(m.matches > 0, m.mean_overlap)},
+        {"mota", definedOnly(identified, m.mota)},
+        {"id_switches", definedOnly(identified, m.id_switches)},
+        {"idf1", definedOnly(identified, m.idf1)},
+        {"hota", definedOnly(identified, m.hota)},
+        {"detection_accuracy", definedOnly(identified, m.detection_accuracy)},
+        {"association_accuracy", definedOnly(identified, m.association_accuracy)}};
+  }
+  return json;
+}
+
+void writeBoxCurve(const std::filesystem::path& results, const TrackReport& report) {
+  std::ostringstream csv;
+  csv << "least_score,recall,false_boxes_per_frame\n";
+  for (const BoxOperatingPoint& point : report.curve)
+    csv << point.least_score << ',' << point.recall << ',' << point.false_boxes_per_frame << '\n';
+  writeAtomically(results / "boxes.csv", csv.str());
 }
 
 void writeCurve(const std::filesystem::path& results, const ClipMeasures& clip) {
@@ -72,11 +107,14 @@ void writeFrames(const std::filesystem::path& results, const ClipMeasures& clip)
 
 void writeMeasures(const std::filesystem::path& results, const ClipMeasures& clip) {
   writeFrames(results, clip);
-  writeJson(results / "measures.json", {{"clip", clip.name},
-                                        {"frames_limit", clip.frames_limit},
-                                        {"truth_without_result", clip.truth_without_result},
-                                        {"pixels", pixelJson(clip)},
-                                        {"objects", objectJson(clip)}});
+  if (clip.tracks) writeBoxCurve(results, *clip.tracks);
+  writeJson(results / "measures.json",
+            {{"clip", clip.name},
+             {"frames_limit", clip.frames_limit},
+             {"truth_without_result", clip.truth_without_result},
+             {"pixels", pixelJson(clip)},
+             {"objects", objectJson(clip)},
+             {"tracks", clip.tracks ? trackJson(*clip.tracks) : nlohmann::json()}});
   if (clip.pixels.movingPixels() > 0) {
     writeCurve(results, clip);
   } else {

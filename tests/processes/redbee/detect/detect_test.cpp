@@ -63,7 +63,7 @@ TEST_F(Commands, DetectLeavesAMapAndAMaskForEveryFrame) {
 
 TEST_F(Commands, DetectLeavesTheTablesOfTheContract) {
   EXPECT_EQ(text(options_.out / "detections.csv")
-                .rfind("frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z,utime", 0),
+                .rfind("frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z,utime,seen", 0),
             0u);
   const std::string homographies = text(options_.out / "homography.csv");
   EXPECT_EQ(std::count(homographies.begin(), homographies.end(), '\n'), kFrames + 1);
