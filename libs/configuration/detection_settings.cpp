@@ -38,6 +38,7 @@ std::vector<Setting> detectionSettings() {
       setting("detection.parallax.use_epipolar", MEMBER(parallax.use_epipolar), anything),
       setting("detection.parallax.noise_px", MEMBER(parallax.noise_px), positive),
       setting("detection.parallax.min_gradient", MEMBER(parallax.min_gradient), positive),
+      setting("detection.parallax.use_static_match", MEMBER(parallax.use_static_match), anything),
       setting("detection.parallax.direction_error", MEMBER(parallax.direction_error), notNegative),
       setting("detection.parallax.nearest_depth_fraction", MEMBER(parallax.nearest_depth_fraction), fraction),
       setting("detection.parallax.evidence_sigmas", MEMBER(parallax.evidence_sigmas), positive),

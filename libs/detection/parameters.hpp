@@ -28,6 +28,8 @@ struct ParallaxParameters {
   double evidence_rate = 0.2;  ///< learning rate of the evidence propagated along the flow; 1: no propagation
   bool use_registration =
       true;  ///< estimate and remove the residual homography error before testing for motion
+  bool use_static_match =
+      true;  ///< compare the images along the parallax segment where the flow says that something moves
   /// Of the image's width: without an IMU, evidence connected to so long a stretch of the image's border
   /// belongs to a static structure; 0: off.
   double border_stretch = 0.05;

@@ -7,6 +7,7 @@
 
 #include "redbee/detection/parallax/border_structure.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
+#include "redbee/detection/parallax/static_match.hpp"
 #include "redbee/imaging/guided_filter.hpp"
 #include "redbee/imaging/warping.hpp"
 
@@ -84,7 +85,7 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   const bool two_planes = !frame.motion && frame.front;
   const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
                                              : ParallaxSegment(frame.motion, K, parameters_);
-  FrameEvidence now = frameEvidence(segment, grey, flow, frames);
+  FrameEvidence now = frameEvidence(segment, grey, reference.grey, flow, frames);
   fast_ = parameters_.use_short_baseline && holdsFastMovers(flow, now.normalized_residual, frames);
   now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
   travelling_.update(now, last_step_, unknown_);
@@ -143,7 +144,8 @@ cv::Mat1f ParallaxEvidence::flowVariance(const cv::Mat1b& grey) const {
 }
 
 FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey,
-                                              const cv::Mat2f& flow, double frames) {
+                                              const cv::Mat1b& reference, const cv::Mat2f& flow,
+                                              double frames) {
   const cv::Mat1f variance = flowVariance(grey);
   HomographyFlow error(flow.size());
   if (parameters_.use_registration) {
@@ -164,6 +166,8 @@ FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, co
       speed[x] = {std::sqrt(forth.dot(forth)), noise[x]};
     }
   }
+  if (parameters_.use_static_match)
+    StaticMatch(grey, reference, flow, error, segment).reduce(evidence.normalized_residual, unknown_);
   return evidence;
 }
 

@@ -45,8 +45,8 @@ class ParallaxEvidence {
  private:
   cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
                      double frames);
-  FrameEvidence frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey, const cv::Mat2f& flow,
-                              double frames);
+  FrameEvidence frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey,
+                              const cv::Mat1b& reference, const cv::Mat2f& flow, double frames);
   /// Whether much of the image moves so fast that the previous frame is a better reference than an earlier
   /// one.
   bool holdsFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;

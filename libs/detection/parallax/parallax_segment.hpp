@@ -36,13 +36,15 @@ class ParallaxSegment {
   /// Unit vector of the parallax at `ground`; 0 where there is none.
   cv::Vec2f direction(const cv::Vec2f& ground) const;
 
- private:
   struct Ray {
     cv::Vec2f direction;  ///< unit; 0 where there is no parallax
     float length;         ///< px; 0 there
   };
-  cv::Vec2f end(const cv::Vec2f& ground) const;
+  /// The segment at `ground`.
   Ray ray(const cv::Vec2f& ground) const;
+
+ private:
+  cv::Vec2f end(const cv::Vec2f& ground) const;
 
   cv::Vec3f epipole_{0, 0, 0};           ///< K t over the nearest depth
   std::optional<cv::Matx33f> to_front_;  ///< the ground's place of a pixel to the front plane's
