@@ -1,7 +1,8 @@
 #include "redbee/evaluation/object_boxes.hpp"
 
-#include <algorithm>
 #include <map>
+
+#include "redbee/evaluation/box_overlap.hpp"
 
 namespace redbee {
 namespace {
@@ -24,29 +25,6 @@ std::map<int, Region> visibleRegions(const cv::Mat1i& ids) {
   return regions;
 }
 
-struct Candidate {
-  TrackedBox box;
-  bool counts = false;
-};
-
-std::vector<Candidate> candidates(const ObjectTruth& truth, int64_t least_visible) {
-  std::vector<Candidate> all;
-  if (truth.ids.empty()) {
-    for (const TruthObject& object : truth.objects)
-      all.push_back({{object.id, object.box},
-                     object.counts && object.box.area() >= static_cast<double>(least_visible)});
-    return all;
-  }
-  const std::map<int, Region> regions = visibleRegions(truth.ids);
-  for (const TruthObject& object : truth.objects) {
-    const auto region = regions.find(object.id);
-    if (region == regions.end()) continue;
-    all.push_back({{object.id, cv::Rect2d(region->second.box)},
-                   object.counts && region->second.pixels >= least_visible});
-  }
-  return all;
-}
-
 bool isIgnored(const cv::Rect2d& box, const cv::Mat1b& ignored) {
   if (ignored.empty()) return false;
   const cv::Rect inside = cv::Rect(cvRound(box.x), cvRound(box.y), cvRound(box.width), cvRound(box.height)) &
@@ -56,24 +34,38 @@ bool isIgnored(const cv::Rect2d& box, const cv::Mat1b& ignored) {
 
 }  // namespace
 
-FrameBoxes comparedBoxes(const ObjectTruth& truth, const std::vector<TrackedBox>& detected,
-                         int64_t least_visible, double min_overlap) {
-  const std::vector<Candidate> all = candidates(truth, least_visible);
+ObjectBoxes::ObjectBoxes(const ObjectTruth& truth, int64_t least_visible) : ignored_(truth.ignored) {
+  if (truth.ids.empty()) {
+    for (const TruthObject& object : truth.objects)
+      objects_.push_back({{object.id, object.box},
+                          object.counts && object.box.area() >= static_cast<double>(least_visible)});
+    return;
+  }
+  const std::map<int, Region> regions = visibleRegions(truth.ids);
+  for (const TruthObject& object : truth.objects) {
+    const auto region = regions.find(object.id);
+    if (region == regions.end()) continue;
+    objects_.push_back({{object.id, cv::Rect2d(region->second.box)},
+                        object.counts && region->second.pixels >= least_visible});
+  }
+}
+
+FrameBoxes ObjectBoxes::compared(const std::vector<TrackedBox>& detected, double min_overlap) const {
   FrameBoxes boxes;
-  for (const Candidate& candidate : all) {
-    if (candidate.counts) boxes.truth.push_back(candidate.box);
+  for (const Object& object : objects_) {
+    if (object.counts) boxes.truth.push_back(object.box);
   }
   for (const TrackedBox& detection : detected) {
     double best = 0;
     bool counts = true;
-    for (const Candidate& candidate : all) {
-      const double overlap = intersectionOverUnion(detection.box, candidate.box.box);
+    for (const Object& object : objects_) {
+      const double overlap = intersectionOverUnion(detection.box, object.box.box);
       if (overlap <= best) continue;
       best = overlap;
-      counts = candidate.counts;
+      counts = object.counts;
     }
     const bool matches = best >= min_overlap;
-    if (matches ? counts : !isIgnored(detection.box, truth.ignored)) boxes.detected.push_back(detection);
+    if (matches ? counts : !isIgnored(detection.box, ignored_)) boxes.detected.push_back(detection);
   }
   return boxes;
 }

@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "redbee/evaluation/box_overlap.hpp"
+
 namespace redbee {
 namespace {
 
@@ -24,11 +26,6 @@ struct Component {
 cv::Rect2d grown(const cv::Rect2d& box) {
   return {box.x - kBoxTolerancePx, box.y - kBoxTolerancePx, box.width + 2 * kBoxTolerancePx,
           box.height + 2 * kBoxTolerancePx};
-}
-
-double overlap(const cv::Rect2d& a, const cv::Rect2d& b) {
-  const double both = (a & b).area();
-  return both / (a.area() + b.area() - both);
 }
 
 void check(const cv::Mat1b& detected, const ObjectTruth& truth) {
@@ -90,7 +87,7 @@ void countBoxes(const std::vector<Component>& components, const ObjectTruth& tru
     if (!object.counts) continue;
     ++counts.present;
     const bool found = std::any_of(components.begin(), components.end(), [&](const Component& component) {
-      return overlap(grown(object.box), grown(component.box)) >= kFoundOverlap;
+      return intersectionOverUnion(grown(object.box), grown(component.box)) >= kFoundOverlap;
     });
     if (found) ++counts.found;
   }

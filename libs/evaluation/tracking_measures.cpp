@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "redbee/evaluation/box_overlap.hpp"
 #include "redbee/geometry/assignment.hpp"
 
 namespace redbee {
@@ -49,12 +50,6 @@ std::vector<Match> bestMatches(const Eigen::MatrixXd& scores) {
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 }  // namespace
-
-double intersectionOverUnion(const cv::Rect2d& a, const cv::Rect2d& b) {
-  const double both = (a & b).area();
-  const double all = a.area() + b.area() - both;
-  return all > 0 ? both / all : 0;
-}
 
 void TrackingEvaluation::add(const std::vector<TrackedBox>& truth, const std::vector<TrackedBox>& detected) {
   Frame frame;

@@ -34,8 +34,6 @@ struct TrackingMeasures {
   double association_accuracy = 0;
 };
 
-double intersectionOverUnion(const cv::Rect2d& a, const cv::Rect2d& b);
-
 /// Keeps the frames; what is measured over the whole sequence is computed by measures().
 class TrackingEvaluation {
  public:

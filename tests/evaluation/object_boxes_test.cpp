@@ -20,7 +20,7 @@ ObjectTruth threeObjects() {
 }
 
 TEST(ObjectBoxes, ObjectsThatCountHaveTheBoxOfTheirVisiblePixels) {
-  const FrameBoxes boxes = comparedBoxes(threeObjects(), {}, kLeastVisible, 0.5);
+  const FrameBoxes boxes = ObjectBoxes(threeObjects(), kLeastVisible).compared({}, 0.5);
   ASSERT_EQ(boxes.truth.size(), 1u);
   EXPECT_EQ(boxes.truth[0].id, 1);
   EXPECT_EQ(boxes.truth[0].box, cv::Rect2d(10, 10, 10, 10));
@@ -32,7 +32,7 @@ TEST(ObjectBoxes, DetectionsOfWhatDoesNotCountAreLeftOut) {
                                          {3, {70, 10, 4, 5}},     // of the small object 3
                                          {4, {20, 70, 10, 10}},   // in an ignored area
                                          {5, {80, 30, 10, 10}}};  // of nothing
-  const FrameBoxes boxes = comparedBoxes(threeObjects(), detected, kLeastVisible, 0.5);
+  const FrameBoxes boxes = ObjectBoxes(threeObjects(), kLeastVisible).compared(detected, 0.5);
   ASSERT_EQ(boxes.detected.size(), 2u);
   EXPECT_EQ(boxes.detected[0].id, 1);
   EXPECT_EQ(boxes.detected[1].id, 5);
@@ -41,7 +41,7 @@ TEST(ObjectBoxes, DetectionsOfWhatDoesNotCountAreLeftOut) {
 TEST(ObjectBoxes, ObjectsLabelledByBoxesKeepThem) {
   ObjectTruth truth;
   truth.objects = {{1, {10, 10, 5, 8}, true}, {2, {30, 10, 5, 8}, false}};
-  const FrameBoxes boxes = comparedBoxes(truth, {{7, {30, 10, 5, 8}}}, kLeastVisible, 0.5);
+  const FrameBoxes boxes = ObjectBoxes(truth, kLeastVisible).compared({{7, {30, 10, 5, 8}}}, 0.5);
   ASSERT_EQ(boxes.truth.size(), 1u);
   EXPECT_EQ(boxes.truth[0].box, cv::Rect2d(10, 10, 5, 8));
   EXPECT_TRUE(boxes.detected.empty());

@@ -5,9 +5,9 @@ namespace {
 
 constexpr double kHalf = 0.5, kThird = 0.3, kQuarter = 0.25;
 
-void addTo(TrackingEvaluation& evaluation, const ObjectTruth& truth, const std::vector<TrackedBox>& detected,
-           double min_overlap) {
-  const FrameBoxes boxes = comparedBoxes(truth, detected, kLeastTrackedPixels, min_overlap);
+void addTo(TrackingEvaluation& evaluation, const ObjectBoxes& objects,
+           const std::vector<TrackedBox>& detected, double min_overlap) {
+  const FrameBoxes boxes = objects.compared(detected, min_overlap);
   evaluation.add(boxes.truth, boxes.detected);
 }
 
@@ -23,15 +23,16 @@ void ClipTracks::add(int64_t utime, const ObjectTruth& truth) {
     boxes.push_back({it->second.id, cv::Rect2d(it->second.box)});
     scores.push_back(it->second.score);
   }
-  addTo(at_half_, truth, boxes, kHalf);
-  addTo(at_third_, truth, boxes, kThird);
-  addTo(at_quarter_, truth, boxes, kQuarter);
+  const ObjectBoxes objects(truth, kLeastTrackedPixels);
+  addTo(at_half_, objects, boxes, kHalf);
+  addTo(at_third_, objects, boxes, kThird);
+  addTo(at_quarter_, objects, boxes, kQuarter);
   for (int step = 0; step < kScores; ++step) {
     std::vector<TrackedBox> kept;
     for (size_t i = 0; i < boxes.size(); ++i) {
       if (scores[i] * kScores >= step) kept.push_back(boxes[i]);
     }
-    addTo(by_score_[static_cast<size_t>(step)], truth, kept, kThird);
+    addTo(by_score_[static_cast<size_t>(step)], objects, kept, kThird);
   }
 }
 
