@@ -8,8 +8,6 @@
 #include "redbee/configuration/configuration_loader.hpp"
 #include "redbee/configuration/configuration_preset.hpp"
 #include "redbee/configuration/configuration_table.hpp"
-#include "redbee/configuration/configuration_value.hpp"
-#include "redbee/configuration/renamed_keys.hpp"
 
 namespace redbee {
 namespace {
@@ -27,12 +25,7 @@ std::vector<std::string> splitKey(const std::string& key) {
 
 }  // namespace
 
-Configuration loadConfiguration(const std::filesystem::path& file) {
-  configuration::Loader loader;
-  loader.loadFile(file);
-  loader.checkWhole(file);
-  return loader.configuration();
-}
+Configuration loadConfiguration(const std::filesystem::path& file) { return loadConfiguration(file, {}); }
 
 Configuration loadConfiguration(const std::filesystem::path& file, const ConfigurationOverrides& overrides) {
   configuration::Loader loader;
@@ -40,19 +33,6 @@ Configuration loadConfiguration(const std::filesystem::path& file, const Configu
   loader.applyOverrides(overrides);
   loader.checkWhole(file);
   return loader.configuration();
-}
-
-void applySetting(Configuration& configuration, const std::string& key, const std::string& text) {
-  const auto* setting = configuration::findSetting(key);
-  if (setting == nullptr)
-    throw ConfigurationError("command line: " + key + ": " + configuration::unknownKey(key));
-  try {
-    setting->read(configuration, YAML::Load(text));
-  } catch (const configuration::ValueError& error) {
-    throw ConfigurationError("command line: " + key + ": " + error.what());
-  } catch (const YAML::Exception& error) {
-    throw ConfigurationError("command line: " + key + ": " + error.msg);
-  }
 }
 
 std::vector<std::string> presetNames() { return configuration::presetNames(); }

@@ -82,8 +82,6 @@ struct ConfigurationOverrides {
 /// The same with overrides.
 Configuration loadConfiguration(const std::filesystem::path& file, const ConfigurationOverrides& overrides);
 
-/// Sets one key from YAML text. Checks only the rule of this key. Throws ConfigurationError.
-void applySetting(Configuration& configuration, const std::string& key, const std::string& text);
 /// In alphabetical order.
 std::vector<std::string> presetNames();
 

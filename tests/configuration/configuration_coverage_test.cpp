@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/configuration/configuration_table.hpp"
+#include "redbee/configuration/configuration_value.hpp"
 #include "tests/configuration/field_count.hpp"
 #include "tests/support/camera.hpp"
 
@@ -96,9 +98,9 @@ std::optional<std::pair<Configuration, std::string>> withNewValue(const std::str
     Configuration changed = validConfiguration();
     if (sameValue(valueOf(changed, key), YAML::Load(value))) continue;
     try {
-      applySetting(changed, key, value);
+      configuration::findSetting(key)->read(changed, YAML::Load(value));
       return std::make_pair(changed, value);
-    } catch (const ConfigurationError&) {
+    } catch (const configuration::ValueError&) {
       continue;
     }
   }

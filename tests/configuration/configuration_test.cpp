@@ -44,13 +44,13 @@ TEST_F(ConfigurationTest, AnEquidistantLensHasFourCoefficients) {
 }
 
 TEST_F(ConfigurationTest, RenamedKeysLeadToKeysThatExist) {
-  Configuration configuration;
+  const fs::path file = write("vehicle.yaml", kCamera);
   for (const char* old_key :
        {"segmentation.threshold", "segmentation.use_shadow_test", "segmentation.edge_doubt_px",
         "visual.min_sharpness_share", "channels.inertial_state"}) {
     std::string message;
     try {
-      applySetting(configuration, old_key, "1");
+      loadConfiguration(file, {"", {std::string(old_key) + "=1"}});
     } catch (const ConfigurationError& error) {
       message = error.what();
     }
