@@ -1,6 +1,7 @@
 #include "redbee/configuration/configuration_loader.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "redbee/configuration/configuration_preset.hpp"
@@ -187,13 +188,17 @@ void Loader::checkCamera() const {
 
 void Loader::checkThresholds() const {
   const ObjectParameters& objects = configuration_.detection.objects;
-  if (objects.extent_threshold <= objects.threshold) return;
-  const std::string lower = "detection.objects.extent_threshold";
   const std::string upper = "detection.objects.threshold";
-  const std::string& key = changed(lower, upper);
-  fail(places_.at(key), key,
-       lower + " (" + valueText(objects.extent_threshold) + ") must not exceed " + upper + " (" +
-           valueText(objects.threshold) + ")");
+  const std::map<std::string, double> lower_ones{
+      {"detection.objects.weak_threshold", objects.weak_threshold},
+      {"detection.objects.extent_threshold", objects.extent_threshold}};
+  for (const auto& [lower, value] : lower_ones) {
+    if (value <= objects.threshold) continue;
+    const std::string& key = changed(lower, upper);
+    fail(places_.at(key), key,
+         lower + " (" + valueText(value) + ") must not exceed " + upper + " (" +
+             valueText(objects.threshold) + ")");
+  }
 }
 
 }  // namespace redbee::configuration

@@ -36,7 +36,9 @@ PresetValues defaultValues() {
 /// image's border is suppressed. Thresholds tuned on DAVIS and UAVDT; they give no false alarms on Gull2,
 /// where nothing moves.
 PresetValues visionOnlyValues() {
-  return {{"detection.objects.threshold", "0.25"}, {"detection.objects.extent_threshold", "0.12"}};
+  return {{"detection.objects.threshold", "0.25"},
+          {"detection.objects.weak_threshold", "0.17"},
+          {"detection.objects.extent_threshold", "0.12"}};
 }
 
 const std::map<std::string, PresetValues>& presets() {

@@ -25,6 +25,7 @@ GroundDetector::GroundDetector(const DetectionParameters& parameters)
 DetectorOutput GroundDetector::step(const FrameInput& input) {
   const bool continues = isConsecutive(input);
   const bool is_first = !last_time_;
+  const Duration elapsed = is_first ? Duration(0) : input.time - *last_time_;
   if (!input.fullSize().empty() && input.fullSize() != size_) {
     tracker_.reset();
     image_check_.reset();
@@ -36,10 +37,11 @@ DetectorOutput GroundDetector::step(const FrameInput& input) {
   } else {
     reset();
   }
+  tracker_.propagate(elapsed, continues ? input.ground : std::nullopt);
   DetectorOutput output = emptyOutput(input);
   if (!image_check_.accepts(input.grey)) {
     output.status = DetectorStatus::kBadImage;
-    output.detections = tracker_.skip(size_);
+    output.detections = tracker_.skip(size_).detections;
     return output;
   }
   ForegroundMaps maps = learn(input);
@@ -55,7 +57,7 @@ DetectorOutput GroundDetector::step(const FrameInput& input) {
     output.status = DetectorStatus::kGood;
     findObjects(std::move(probability), maps.unknown, output);
   }
-  if (output.status != DetectorStatus::kGood) output.detections = tracker_.skip(size_);
+  if (output.status != DetectorStatus::kGood) output.detections = tracker_.skip(size_).detections;
   return output;
 }
 
@@ -73,7 +75,6 @@ void GroundDetector::reset() {
 void GroundDetector::propagate(const FrameInput& input) {
   warpBackground(input);
   probability_.propagate(*input.ground);
-  tracker_.propagate(*input.ground);
 }
 
 DetectorOutput GroundDetector::emptyOutput(const FrameInput& input) const {
@@ -101,8 +102,9 @@ void GroundDetector::findObjects(cv::Mat1b probability, const cv::Mat1b& unknown
   probability.setTo(0, unknown);
   cv::threshold(probability, output.probability, kNoise, 0, cv::THRESH_TOZERO);
   ForegroundComponents found = findComponents(output.probability, unknown, objects_);
-  output.mask = found.mask;
-  output.detections = tracker_.update(found.components, size_);
+  TrackedObjects objects = tracker_.update(found);
+  output.mask = found.mask(objects.components);
+  output.detections = std::move(objects.detections);
 }
 
 }  // namespace redbee

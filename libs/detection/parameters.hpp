@@ -71,14 +71,19 @@ struct RefinementParameters {
 
 /// Masks and tracks: the last stage of every detector.
 struct ObjectParameters {
-  double threshold = 0.6;         ///< on P_FG: upper hysteresis threshold
-  double extent_threshold = 0.4;  ///< on P_FG: lower hysteresis threshold, at most `threshold`
-  int opening_px = 3;             ///< px: diameter of the disc that removes specks; 0: none
-  int closing_px = 7;             ///< px: diameter of the disc that closes holes; 0: none
-  double min_area_px = 30;        ///< px^2: smaller components are discarded
-  int max_missed_frames =
-      24;                  ///< frames that a track survives without a component, and likewise skipped frames
-  int confirm_frames = 2;  ///< frames before a track is confirmed
+  /// On P_FG: components that exceed this somewhere are strong, and are assigned to tracks first.
+  double threshold = 0.6;
+  /// On P_FG, at most `threshold`: components count that exceed this somewhere. Halfway between the two, in
+  /// log odds, a component is evidence neither for nor against its track.
+  double weak_threshold = 0.4;
+  double extent_threshold = 0.12;  ///< on P_FG, at most `threshold`: components reach no further than this
+  int opening_px = 3;              ///< px: diameter of the disc that removes specks; 0: none
+  int closing_px = 7;              ///< px: diameter of the disc that closes holes; 0: none
+  double min_area_px = 30;         ///< px^2: smaller components are discarded
+  double max_missed_s = 2;  ///< s that a track survives without a component, and likewise of skipped frames
+  /// s: a track is confirmed by components whose log odds are above neutral by 1 for as long, surer ones
+  /// sooner; 0: at once.
+  double confirm_s = 0.15;
 };
 
 /// The paper's background (III.A): a mixture of Gaussians per pixel (Zivkovic) for each plane.

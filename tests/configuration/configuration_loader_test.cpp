@@ -43,7 +43,7 @@ TEST_F(ConfigurationLoader, FaultsAreReportedWithFileLineAndKey) {
       {"detection: {refinement: {alpha: 1.5}}\n", "2: detection.refinement.alpha: ", "from 0 to 1"},
       {"detection: {method: fancy}\n", "2: detection.method: ", "must be one of aurora, "},
       {"detection:\n  objects: {threshold: 0.3}\n",
-       "3: detection.objects.threshold: ", "extent_threshold (0.4) must not exceed"},
+       "3: detection.objects.threshold: ", "weak_threshold (0.4) must not exceed"},
       {"segmentation:\n  threshold: 0.5\n",
        "3: segmentation.threshold: ", "was renamed to detection.objects.threshold"},
       {"segmentation: {sample_grid_px: 16}\n",
@@ -133,6 +133,9 @@ TEST_F(ConfigurationLoader, TheCommandLineIsCheckedWithTheWhole) {
   EXPECT_THAT(
       faultOf("", "detection.objects.extent_threshold=0.9"),
       AllOf(StartsWith("command line: detection.objects.extent_threshold: "), HasSubstr("must not exceed")));
+  EXPECT_THAT(faultOf("", "detection.objects.weak_threshold=0.9"), HasSubstr("must not exceed"));
+  EXPECT_THAT(faultOf("", "detection.objects.max_missed_frames=24"),
+              HasSubstr("was renamed to detection.objects.max_missed_s"));
   EXPECT_THAT(faultOf("", "detection.objects.threshold=0.3"),
               StartsWith("command line: detection.objects.threshold: "));
   EXPECT_THAT(faultOf("", "waits.visual_s=3"), HasSubstr("must be longer"));

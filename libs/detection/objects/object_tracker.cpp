@@ -1,194 +1,234 @@
 #include "redbee/detection/objects/object_tracker.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
-#include <utility>
 
-#include "redbee/geometry/homography.hpp"
+#include "redbee/detection/objects/association.hpp"
+#include "redbee/geometry/assignment.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr double kVelocityRate = 0.3;       // of the newest step in an object's velocity
-constexpr double kMissedVelocity = 0.85;    // fraction of its velocity that a missed object keeps per frame
-constexpr double kReachInDiagonals = 0.75;  // of the larger box: how far apart a match may be
-constexpr double kReach_px = 4;             // and this much further; one more for each missed frame
-constexpr int kUnmatched = -1;
-constexpr double kFull = 255;  // P_FG of 1
+constexpr double kSeenVelocityDecay_s = 5;
+constexpr double kMissedVelocityDecay_s = 0.25;  // what is no longer found has probably stopped
+constexpr double kUnknownMotion_px = 100;        // per root s: the camera's, without a homography
 
-Eigen::Vector2d centreOf(const cv::Rect& box) { return {box.x + 0.5 * box.width, box.y + 0.5 * box.height}; }
+constexpr double kSurest = 0.95;           // P_FG beyond this, or below 1 minus this, is no better evidence
+constexpr double kMissedLogOdds = -1;      // of a frame without a component
+constexpr double kMostEvidence_s = 0.5;    // so that a track that has faded is soon no longer reported
+constexpr double kLeastEvidence_s = -0.1;  // an unconfirmed track below this is deleted
+constexpr double kUnconfirmedMissed_s = 0.1;
 
-double diagonal(const cv::Rect& box) { return std::hypot(box.width, box.height); }
+constexpr double kPart = 0.6;     // fraction of a component inside a track's box that makes it a part of it
+constexpr double kCovered = 0.5;  // fraction of a track's box inside a component that may show it
+constexpr double kOverlapping = 0.3;  // fraction of a box inside another's: one object
+constexpr double kRecentlySeen_s = 0.3;
+constexpr double kApart_s = 1;           // tracks that have been two for as long are two objects
+constexpr double kDistinctVelocity = 2;  // squared Mahalanobis distance of two objects' velocities
 
-cv::Rect boxAt(const cv::Rect& box, const Eigen::Vector2d& centre) {
-  return {static_cast<int>(std::lround(centre.x() - 0.5 * box.width)),
-          static_cast<int>(std::lround(centre.y() - 0.5 * box.height)), box.width, box.height};
+// Rounding of times that were added up.
+constexpr double kTimeTolerance_s = 1e-9;
+
+double logOdds(double probability) {
+  const double p = std::clamp(probability, 1 - kSurest, kSurest);
+  return std::log(p / (1 - p));
 }
 
-/// Gated distance of a component from an object: 0 at the same position, above 1 no match. The gate scales
-/// with the larger of the two boxes and grows with the number of missed frames.
-double misfit(const Eigen::Vector2d& centre, const cv::Rect& box, int missed, const Detection& component) {
-  const double reach =
-      kReachInDiagonals * std::max(diagonal(box), diagonal(component.box)) + kReach_px + missed;
-  return (centre - centreOf(component.box)).norm() / reach;
+cv::Rect pixelsOf(const cv::Rect2d& box) {
+  const cv::Point low(cvRound(box.x), cvRound(box.y));
+  return {low, cv::Point(cvRound(box.x + box.width), cvRound(box.y + box.height))};
 }
 
-cv::Mat1b disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
+bool isInside(const cv::Rect2d& box, cv::Size image) {
+  const cv::Point2d centre = 0.5 * (box.tl() + box.br());
+  return centre.x >= 0 && centre.y >= 0 && centre.x < image.width && centre.y < image.height;
+}
 
-/// Pixels above the lower threshold, after opening and closing. Only the bounding box of the foreground is
-/// processed; it is returned in `part`.
-cv::Mat1b foregroundPart(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                         const ObjectParameters& parameters, cv::Rect& part) {
-  cv::Mat1b mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
-  mask.setTo(0, unknown);
-  const int reach = std::max(parameters.opening_px, parameters.closing_px);
-  part = cv::boundingRect(mask);
-  if (part.empty()) return {};
-  part = cv::Rect(part.x - reach, part.y - reach, part.width + 2 * reach, part.height + 2 * reach) &
-         cv::Rect({}, mask.size());
-  mask = mask(part).clone();
-  if (mask.empty()) return mask;
-  if (parameters.opening_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(parameters.opening_px));
-  if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
-  mask.setTo(0, unknown(part));
-  return mask;
+bool movesApart(const BoxFilter& a, const BoxFilter& b) {
+  const Eigen::Vector2d difference = a.velocity() - b.velocity();
+  const Eigen::Matrix2d S = (a.covariance() + b.covariance()).bottomRightCorner<2, 2>();
+  return difference.dot(S.llt().solve(difference)) > kDistinctVelocity;
 }
 
 }  // namespace
 
-ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                                    const ObjectParameters& parameters) {
-  ForegroundComponents found;
-  found.mask = cv::Mat1b::zeros(probability.size());
-  cv::Rect part;
-  const cv::Mat1b mask = foregroundPart(probability, unknown, parameters, part);
-  if (mask.empty()) return found;
-  cv::Mat1i labels, statistics;
-  cv::Mat1d centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8, CV_32S);
-  for (int label = 1; label < count; ++label) {
-    const int* row = statistics[label];
-    if (row[cv::CC_STAT_AREA] < parameters.min_area_px) continue;
-    Detection component;
-    const cv::Rect in_part(row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
-                           row[cv::CC_STAT_HEIGHT]);
-    component.box = in_part + part.tl();
-    component.area_px = row[cv::CC_STAT_AREA];
-    const cv::Mat1b own = labels(in_part) == label;
-    double surest = 0;
-    cv::minMaxLoc(probability(component.box), nullptr, &surest, nullptr, nullptr, own);
-    if (surest <= kFull * parameters.threshold) continue;
-    component.score = cv::mean(probability(component.box), own)[0] / kFull;
-    found.mask(component.box).setTo(255, own);
-    found.components.push_back(component);
-  }
-  return found;
-}
+ObjectTracker::ObjectTracker(const ObjectParameters& parameters)
+    : parameters_(parameters),
+      neutral_log_odds_(0.5 * (logOdds(parameters.threshold) + logOdds(parameters.weak_threshold))) {}
 
-void ObjectTracker::propagate(const Eigen::Matrix3d& ground) {
-  for (Object& object : objects_) object.centre = transfer(ground, object.centre) + object.velocity;
-}
-
-void ObjectTracker::associate(const std::vector<Detection>& components,
-                              std::vector<int>& component_of_object) const {
-  struct Pair {
-    double misfit;
-    size_t object;
-    size_t component;
-  };
-  std::vector<Pair> pairs;
-  for (size_t o = 0; o < objects_.size(); ++o) {
-    for (size_t c = 0; c < components.size(); ++c) {
-      const Object& object = objects_[o];
-      const double value = misfit(object.centre, object.last.box, object.missed, components[c]);
-      if (value < 1) pairs.push_back({value, o, c});
-    }
-  }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& a, const Pair& b) { return a.misfit < b.misfit; });
-  component_of_object.assign(objects_.size(), kUnmatched);
-  std::vector<bool> taken(components.size(), false);
-  for (const Pair& pair : pairs) {
-    if (taken[pair.component] || component_of_object[pair.object] != kUnmatched) continue;
-    taken[pair.component] = true;
-    component_of_object[pair.object] = static_cast<int>(pair.component);
+void ObjectTracker::propagate(Duration elapsed, const std::optional<Eigen::Matrix3d>& ground) {
+  elapsed_s_ = std::max(0.0, seconds(elapsed));
+  for (Track& track : tracks_) {
+    const double decay_s = track.missed_s > 0 ? kMissedVelocityDecay_s : kSeenVelocityDecay_s;
+    track.filter.predict(ground.value_or(Eigen::Matrix3d::Identity()), elapsed_s_, decay_s);
+    if (!ground) track.filter.loosen(kUnknownMotion_px * kUnknownMotion_px * elapsed_s_);
+    track.age_s += elapsed_s_;
   }
 }
 
-void ObjectTracker::observe(Object& object, const Detection& component) const {
-  const Eigen::Vector2d centre = centreOf(component.box);
-  const Eigen::Vector2d surprise = (centre - object.centre) / (object.missed + 1);
-  object.velocity += kVelocityRate * surprise;
-  object.centre = centre;
-  const int id = object.last.id;
-  object.last = component;
-  object.last.id = id;
-  ++object.hits;
-  object.missed = 0;
-  object.skipped = 0;
-}
-
-void ObjectTracker::miss(Object& object) {
-  object.velocity *= kMissedVelocity;
-  ++object.missed;
-}
-
-void ObjectTracker::deleteLostTracks(const cv::Rect& view) {
-  const auto lost = [&](const Object& object) {
-    // An unconfirmed track is deleted at its first miss.
-    const int max_missed = object.confirmed ? parameters_.max_missed_frames : 0;
-    const bool in_view = (boxAt(object.last.box, object.centre) & view).area() > 0;
-    return object.missed - object.skipped > max_missed || !in_view;
-  };
-  objects_.erase(std::remove_if(objects_.begin(), objects_.end(), lost), objects_.end());
-}
-
-std::vector<Detection> ObjectTracker::confirmedTracks(const cv::Rect& view) {
-  std::vector<Detection> confirmed;
-  for (Object& object : objects_) {
-    if (object.hits < parameters_.confirm_frames) continue;
-    if (!object.confirmed) object.last.id = next_id_++;
-    object.confirmed = true;
-    Detection detection = object.last;
-    detection.seen = object.missed == 0;
-    if (!detection.seen) detection.box = boxAt(object.last.box, object.centre) & view;
-    confirmed.push_back(detection);
+/// Confirmed tracks that the box covers and that are different objects: they move differently, or have been
+/// apart for long. Two parts of one object are neither.
+std::vector<const ObjectTracker::Track*> ObjectTracker::coveredApart(const cv::Rect2d& box) const {
+  std::vector<const Track*> covered;
+  for (const Track& track : tracks_) {
+    if (track.id == 0 || track.missed_s > kRecentlySeen_s) continue;
+    if (coveredFraction(track.filter.box(), box) < kCovered) continue;
+    const bool is_apart = std::all_of(covered.begin(), covered.end(), [&](const Track* other) {
+      return coveredFraction(track.filter.box(), other->filter.box()) < kOverlapping &&
+             (std::min(track.age_s, other->age_s) > kApart_s || movesApart(track.filter, other->filter));
+    });
+    if (is_apart) covered.push_back(&track);
   }
-  return confirmed;
+  return covered;
 }
 
-std::vector<Detection> ObjectTracker::skip(cv::Size image) {
-  for (Object& object : objects_) {
-    miss(object);
-    if (object.confirmed && object.skipped < parameters_.max_missed_frames) ++object.skipped;
+void ObjectTracker::splitMerged(ForegroundComponents& found) const {
+  const size_t count = found.components.size();
+  for (size_t c = 0; c < count; ++c) {
+    const std::vector<const Track*> covered = coveredApart(found.components[c].box);
+    if (covered.size() < 2) continue;
+    std::vector<cv::Rect2d> boxes;
+    for (const Track* track : covered) boxes.push_back(track->filter.box());
+    splitComponent(found, c, boxes);
   }
-  deleteLostTracks({{}, image});
-  return confirmedTracks({{}, image});
 }
 
-std::vector<Detection> ObjectTracker::update(const std::vector<Detection>& components, cv::Size image) {
-  std::vector<int> component_of_object;
-  associate(components, component_of_object);
-  std::vector<bool> known(components.size(), false);
-  for (size_t o = 0; o < objects_.size(); ++o) {
-    Object& object = objects_[o];
-    if (component_of_object[o] != kUnmatched) {
-      const auto c = static_cast<size_t>(component_of_object[o]);
-      known[c] = true;
-      observe(object, components[c]);
-    } else {
-      miss(object);
-    }
-  }
-  deleteLostTracks({{}, image});
+std::vector<size_t> ObjectTracker::unassigned(Strength strength,
+                                              const std::vector<Component>& components) const {
+  std::vector<bool> is_free(components.size());
   for (size_t c = 0; c < components.size(); ++c) {
-    if (known[c]) continue;
-    Object object{components[c], centreOf(components[c].box), Eigen::Vector2d::Zero()};
-    object.last.id = 0;
-    objects_.push_back(object);
+    const bool strong = components[c].peak > parameters_.threshold;
+    is_free[c] = components[c].area_px >= parameters_.min_area_px &&
+                 (strength == Strength::kAny || strong == (strength == Strength::kStrong));
   }
-  return confirmedTracks({{}, image});
+  for (const Track& track : tracks_) {
+    for (const size_t c : track.components) is_free[c] = false;
+  }
+  std::vector<size_t> free;
+  for (size_t c = 0; c < components.size(); ++c) {
+    if (is_free[c]) free.push_back(c);
+  }
+  return free;
+}
+
+void ObjectTracker::assignTo(bool confirmed, Strength strength, const ForegroundComponents& found) {
+  std::vector<Track*> tracks;
+  std::vector<const BoxFilter*> filters;
+  for (Track& track : tracks_) {
+    if (!track.components.empty() || (track.id > 0) != confirmed) continue;
+    tracks.push_back(&track);
+    filters.push_back(&track.filter);
+  }
+  const std::vector<int> assigned =
+      associate(filters, found.components, unassigned(strength, found.components), found.image);
+  for (size_t t = 0; t < tracks.size(); ++t) {
+    if (assigned[t] != kUnassigned) tracks[t]->components.push_back(static_cast<size_t>(assigned[t]));
+  }
+}
+
+/// What is left inside a track's predicted box belongs to it: halves of a body.
+void ObjectTracker::absorbParts(const std::vector<Component>& components) {
+  for (const size_t c : unassigned(Strength::kAny, components)) {
+    Track* whole = nullptr;
+    double most = kPart;
+    for (Track& track : tracks_) {
+      if (track.components.empty()) continue;
+      const double inside = coveredFraction(components[c].box, track.filter.box());
+      if (inside <= most) continue;
+      most = inside;
+      whole = &track;
+    }
+    if (whole != nullptr) whole->components.push_back(c);
+  }
+}
+
+void ObjectTracker::assignAll(const ForegroundComponents& found) {
+  for (Track& track : tracks_) track.components.clear();
+  assignTo(true, Strength::kStrong, found);
+  assignTo(true, Strength::kWeak, found);
+  absorbParts(found.components);
+  assignTo(false, Strength::kAny, found);
+}
+
+void ObjectTracker::observe(Track& track, const ForegroundComponents& found) const {
+  track.last = joined(found.components, track.components);
+  track.filter.update(measurementOf(track.last, found.image));
+  track.evidence_s += elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_);
+  track.evidence_s = std::min(track.evidence_s, std::max(kMostEvidence_s, parameters_.confirm_s));
+  track.missed_s = 0;
+  track.skipped_s = 0;
+}
+
+void ObjectTracker::miss(Track& track) const {
+  track.missed_s += elapsed_s_;
+  track.evidence_s += elapsed_s_ * kMissedLogOdds;
+  // After a long time it takes as much to report it again as a new one.
+  if (track.id > 0) track.evidence_s = std::max(track.evidence_s, -parameters_.confirm_s);
+}
+
+void ObjectTracker::deleteLostTracks(cv::Size image) {
+  const auto lost = [&](const Track& track) {
+    if (track.id == 0 && track.evidence_s < kLeastEvidence_s) return true;
+    const double most_s = track.id > 0 ? parameters_.max_missed_s : kUnconfirmedMissed_s;
+    const bool is_missed = track.missed_s - track.skipped_s > most_s + kTimeTolerance_s;
+    return is_missed || (track.missed_s > 0 && !isInside(track.filter.box(), image));
+  };
+  tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), lost), tracks_.end());
+}
+
+TrackedObjects ObjectTracker::report(cv::Size image) {
+  TrackedObjects objects;
+  for (Track& track : tracks_) {
+    const bool is_found = !track.components.empty();
+    if (track.id == 0 && is_found && track.evidence_s >= parameters_.confirm_s - kTimeTolerance_s)
+      track.id = next_id_++;
+    if (track.id == 0) continue;
+    Detection detection;
+    detection.id = track.id;
+    detection.area_px = track.last.area_px;
+    detection.score = track.last.score;
+    detection.seen = is_found && track.evidence_s >= -kTimeTolerance_s;
+    detection.box = (is_found ? track.last.box : pixelsOf(track.filter.box())) & cv::Rect({}, image);
+    if (detection.box.empty()) continue;
+    objects.detections.push_back(detection);
+    if (!detection.seen) continue;
+    objects.components.insert(objects.components.end(), track.components.begin(), track.components.end());
+  }
+  return objects;
+}
+
+TrackedObjects ObjectTracker::skip(cv::Size image) {
+  for (Track& track : tracks_) {
+    track.components.clear();
+    track.missed_s += elapsed_s_;
+    if (track.id > 0) track.skipped_s = std::min(track.skipped_s + elapsed_s_, parameters_.max_missed_s);
+  }
+  elapsed_s_ = 0;
+  deleteLostTracks(image);
+  return report(image);
+}
+
+TrackedObjects ObjectTracker::update(ForegroundComponents& found) {
+  splitMerged(found);
+  assignAll(found);
+  for (Track& track : tracks_) {
+    if (track.components.empty()) {
+      miss(track);
+    } else {
+      observe(track, found);
+    }
+  }
+  elapsed_s_ = 0;
+  const std::vector<size_t> fresh = unassigned(Strength::kAny, found.components);
+  deleteLostTracks(found.image);
+  for (const size_t c : fresh) {
+    const Component& component = found.components[c];
+    Track track{BoxFilter(measurementOf(component, found.image)), component};
+    track.components.push_back(c);
+    tracks_.push_back(track);
+  }
+  return report(found.image);
 }
 
 }  // namespace redbee

@@ -1,11 +1,16 @@
-// Segmentation of the foreground into components, and tracking of objects over time.
+// Tracking of objects over time, before and after they are reported. libs/README.md, "Foreground and
+// objects".
 #pragma once
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
+#include "redbee/detection/objects/box_filter.hpp"
+#include "redbee/detection/objects/components.hpp"
 #include "redbee/detection/parameters.hpp"
+#include "redbee/geometry/time.hpp"
 
 namespace redbee {
 
@@ -14,53 +19,60 @@ struct Detection {
   cv::Rect box;        ///< px
   double area_px = 0;  ///< area of its mask, px^2
   double score = 0;    ///< mean P_FG in its mask, 0..1
-  bool seen = true;    ///< false: no component in this frame, predicted by the tracker
+  bool seen = true;    ///< false: not in this frame's mask, predicted by the tracker
 };
 
-/// Components of the foreground by hysteresis thresholding, opening, closing and a minimum area. `mask` (0 or
-/// 255) contains exactly these components. `probability`: P_FG * 255.
-struct ForegroundComponents {
-  cv::Mat1b mask;
-  std::vector<Detection> components;  ///< without identity
+struct TrackedObjects {
+  std::vector<Detection> detections;  ///< of the confirmed tracks inside the image
+  std::vector<size_t> components;     ///< of this frame, those that the seen detections consist of
 };
-ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                                    const ObjectParameters& parameters);
 
-/// Tracks objects over the ground. Each has a velocity relative to the ground, which decays while the object
-/// is missed, since it has probably stopped.
+/// Tracks over the ground, each with a Kalman filter. Components are assigned in two steps (ByteTrack, Zhang
+/// et al. 2022): the strong ones, which exceed `threshold`, then the weak ones to the tracks left over. Every
+/// component begins a track; it is reported once the log odds of its components, over time, confirm it.
 class ObjectTracker {
  public:
-  explicit ObjectTracker(const ObjectParameters& parameters) : parameters_(parameters) {}
+  explicit ObjectTracker(const ObjectParameters& parameters);
 
-  void reset() { objects_.clear(); }
-  /// Predicts all tracks by the camera's motion: ground homography, previous to current pixels.
-  void propagate(const Eigen::Matrix3d& ground);
-  /// Assigns components to tracks. Confirmed tracks without a component are returned with seen = false, until
-  /// max_missed_frames or until they leave the image.
-  std::vector<Detection> update(const std::vector<Detection>& components, cv::Size image);
+  void reset() { tracks_.clear(); }
+  /// To the next frame, before update() or skip(). `elapsed`: since the previous frame; negative counts as
+  /// none. `ground`: homography, previous to current [px]; std::nullopt if it is unknown.
+  void propagate(Duration elapsed, const std::optional<Eigen::Matrix3d>& ground);
+  /// Assigns components to tracks; one that covers several objects is split in `found`. Confirmed tracks
+  /// without a component are returned with seen = false for max_missed_s, or until they leave the image.
+  TrackedObjects update(ForegroundComponents& found);
   /// For a frame without detection, e.g. while a process restarts: no track counts as missed. Identities
-  /// survive up to max_missed_frames such frames in a row.
-  std::vector<Detection> skip(cv::Size image);
+  /// survive max_missed_s of such frames in a row.
+  TrackedObjects skip(cv::Size image);
 
  private:
-  struct Object {
-    Detection last;
-    Eigen::Vector2d centre;    ///< px
-    Eigen::Vector2d velocity;  ///< px per frame, relative to the ground
-    int hits = 1;
-    int missed = 0;   ///< consecutive frames without a component
-    int skipped = 0;  ///< of these, skipped frames
-    bool confirmed = false;
+  struct Track {
+    BoxFilter filter;
+    Component last;                    ///< what it was last found as
+    int id = 0;                        ///< 0: not confirmed
+    double age_s = 0;                  ///< since its first component
+    double missed_s = 0;               ///< since its last component
+    double skipped_s = 0;              ///< of this, in skipped frames
+    double evidence_s = 0;             ///< integral of its log odds over time
+    std::vector<size_t> components{};  ///< of this frame
   };
+  enum class Strength { kStrong, kWeak, kAny };
 
-  void associate(const std::vector<Detection>& components, std::vector<int>& component_of_object) const;
-  void observe(Object& object, const Detection& component) const;
-  static void miss(Object& object);
-  void deleteLostTracks(const cv::Rect& view);
-  std::vector<Detection> confirmedTracks(const cv::Rect& view);
+  void splitMerged(ForegroundComponents& found) const;
+  std::vector<const Track*> coveredApart(const cv::Rect2d& box) const;
+  void assignAll(const ForegroundComponents& found);
+  void assignTo(bool confirmed, Strength strength, const ForegroundComponents& found);
+  void absorbParts(const std::vector<Component>& components);
+  std::vector<size_t> unassigned(Strength strength, const std::vector<Component>& components) const;
+  void observe(Track& track, const ForegroundComponents& found) const;
+  void miss(Track& track) const;
+  void deleteLostTracks(cv::Size image);
+  TrackedObjects report(cv::Size image);
 
   ObjectParameters parameters_;
-  std::vector<Object> objects_;
+  double neutral_log_odds_;  ///< of a component that says nothing
+  std::vector<Track> tracks_;
+  double elapsed_s_ = 0;
   int next_id_ = 1;
 };
 

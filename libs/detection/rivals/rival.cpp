@@ -12,6 +12,7 @@ namespace {
 ObjectParameters decidedByScore(ObjectParameters objects) {
   objects.threshold = (kDecisionScore - 0.5) / 255;
   objects.extent_threshold = objects.threshold;
+  objects.weak_threshold = 0.5 * objects.threshold;  // whatever is decided is evidence for its track
   return objects;
 }
 
@@ -52,6 +53,7 @@ RivalScore Rival::score(const FrameInput& input) {
 }
 
 DetectorOutput Rival::step(const FrameInput& input) {
+  const Duration elapsed = last_time_ ? input.time - *last_time_ : Duration(0);
   const RivalScore scored = score(input);
   const cv::Size size = input.fullSize().empty() ? size_ : input.fullSize();
   const bool good = scored.status == DetectorStatus::kGood;
@@ -61,16 +63,17 @@ DetectorOutput Rival::step(const FrameInput& input) {
   output.unknown = cv::Mat1b(size, good ? 0 : 255);
   output.probability = good ? scored.score : cv::Mat1b(cv::Mat1b::zeros(size));
   output.mask = cv::Mat1b::zeros(size);
-  std::vector<Detection> components;
-  if (good) {
-    Eigen::Matrix3d background;
-    cv::cv2eigen(scored.background, background);
-    tracker_.propagate(background);
-    ForegroundComponents found = findComponents(output.probability, output.unknown, objects_);
-    output.mask = found.mask;
-    components = std::move(found.components);
+  if (!good) {
+    tracker_.propagate(elapsed, std::nullopt);
+    output.detections = tracker_.skip(size).detections;
+    return output;
   }
-  output.detections = tracker_.update(components, size);
+  Eigen::Matrix3d background;
+  cv::cv2eigen(scored.background, background);
+  tracker_.propagate(elapsed, background);
+  ForegroundComponents found = findComponents(output.probability, output.unknown, objects_);
+  output.mask = found.mask();
+  output.detections = tracker_.update(found).detections;
   return output;
 }
 

@@ -1,0 +1,146 @@
+#include "redbee/detection/objects/components.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+namespace {
+
+constexpr double kFull = 255;  // P_FG of 1
+// Of a component's peak, where it ends: half of what a blurred edge shows, less for holes.
+constexpr double kExtentFraction = 0.3;
+
+cv::Mat1b disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
+
+/// Pixels above extent_threshold, after opening and closing. Only the bounding box of the foreground is
+/// processed; it is returned in `part`.
+cv::Mat1b foregroundPart(const cv::Mat1b& probability, const cv::Mat1b& unknown,
+                         const ObjectParameters& parameters, cv::Rect& part) {
+  cv::Mat1b mask = probability > kFull * std::min(parameters.extent_threshold, parameters.threshold);
+  mask.setTo(0, unknown);
+  const int reach = std::max(parameters.opening_px, parameters.closing_px);
+  part = cv::boundingRect(mask);
+  if (part.empty()) return {};
+  part = cv::Rect(part.x - reach, part.y - reach, part.width + 2 * reach, part.height + 2 * reach) &
+         cv::Rect({}, mask.size());
+  mask = mask(part).clone();
+  if (mask.empty()) return mask;
+  if (parameters.opening_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(parameters.opening_px));
+  if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
+  mask.setTo(0, unknown(part));
+  return mask;
+}
+
+/// Calls work(box, area, pixels of the region in the box) for each connected region that is large enough.
+template <typename Work>
+void forEachRegion(const cv::Mat1b& mask, double min_area_px, const Work& work) {
+  cv::Mat1i labels, statistics;
+  cv::Mat1d centroids;
+  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8, CV_32S);
+  for (int label = 1; label < count; ++label) {
+    const int* row = statistics[label];
+    if (row[cv::CC_STAT_AREA] < min_area_px) continue;
+    const cv::Rect box(row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
+                       row[cv::CC_STAT_HEIGHT]);
+    work(box, row[cv::CC_STAT_AREA], cv::Mat1b(labels(box) == label));
+  }
+}
+
+double peakOf(const cv::Mat1b& probability, const cv::Mat1b& pixels) {
+  double peak = 0;
+  cv::minMaxLoc(probability, nullptr, &peak, nullptr, nullptr, pixels);
+  return peak;
+}
+
+/// Without the components whose peak does not exceed the weak threshold, and the rest without what is low
+/// beside its own peak.
+cv::Mat1b relativeExtents(const cv::Mat1b& mask, const cv::Mat1b& probability,
+                          const ObjectParameters& parameters) {
+  cv::Mat1b extents = cv::Mat1b::zeros(mask.size());
+  forEachRegion(mask, parameters.min_area_px, [&](const cv::Rect& box, int, const cv::Mat1b& own) {
+    const double peak = peakOf(probability(box), own);
+    if (peak <= kFull * parameters.weak_threshold) return;
+    extents(box).setTo(255, own & (probability(box) > kExtentFraction * peak));
+  });
+  return extents;
+}
+
+/// Of the box whose centre is nearest in units of its sides.
+size_t nearestBox(const std::vector<cv::Rect2d>& boxes, int x, int y) {
+  size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const double dx = (x - boxes[i].x - 0.5 * boxes[i].width) / boxes[i].width;
+    const double dy = (y - boxes[i].y - 0.5 * boxes[i].height) / boxes[i].height;
+    const double distance = dx * dx + dy * dy;
+    if (distance >= least) continue;
+    least = distance;
+    nearest = i;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
+                                    const ObjectParameters& parameters) {
+  ForegroundComponents found;
+  found.image = probability.size();
+  const cv::Mat1b foreground = foregroundPart(probability, unknown, parameters, found.part);
+  if (foreground.empty()) return found;
+  const cv::Mat1b part = probability(found.part);
+  found.labels = cv::Mat1i::zeros(part.size());
+  forEachRegion(relativeExtents(foreground, part, parameters), parameters.min_area_px,
+                [&](const cv::Rect& box, int area, const cv::Mat1b& own) {
+                  Component component;
+                  component.box = box + found.part.tl();
+                  component.area_px = area;
+                  component.score = cv::mean(part(box), own)[0] / kFull;
+                  component.peak = peakOf(part(box), own) / kFull;
+                  if (component.peak <= parameters.weak_threshold) return;
+                  found.components.push_back(component);
+                  found.labels(box).setTo(static_cast<double>(found.components.size()), own);
+                });
+  return found;
+}
+
+cv::Mat1b ForegroundComponents::mask() const {
+  cv::Mat1b mask = cv::Mat1b::zeros(image);
+  if (!labels.empty()) mask(part).setTo(255, labels > 0);
+  return mask;
+}
+
+cv::Mat1b ForegroundComponents::mask(const std::vector<size_t>& kept) const {
+  cv::Mat1b mask = cv::Mat1b::zeros(image);
+  for (const size_t index : kept) {
+    const cv::Rect& box = components.at(index).box;
+    mask(box).setTo(255, labels(box - part.tl()) == static_cast<int>(index) + 1);
+  }
+  return mask;
+}
+
+void splitComponent(ForegroundComponents& found, size_t index, const std::vector<cv::Rect2d>& boxes) {
+  const Component whole = found.components.at(index);
+  Component empty = whole;
+  empty.box = {};
+  empty.area_px = 0;
+  std::vector<Component> parts(boxes.size(), empty);
+  const int own = static_cast<int>(index) + 1;
+  const int appended = static_cast<int>(found.components.size());
+  for (int y = whole.box.y; y < whole.box.br().y; ++y) {
+    int* labels = found.labels[y - found.part.y];
+    for (int x = whole.box.x; x < whole.box.br().x; ++x) {
+      int& label = labels[x - found.part.x];
+      if (label != own) continue;
+      const size_t nearest = nearestBox(boxes, x, y);
+      parts[nearest].box |= cv::Rect(x, y, 1, 1);
+      parts[nearest].area_px += 1;
+      if (nearest > 0) label = appended + static_cast<int>(nearest);
+    }
+  }
+  found.components[index] = parts[0];
+  found.components.insert(found.components.end(), parts.begin() + 1, parts.end());
+}
+
+}  // namespace redbee

@@ -1,0 +1,83 @@
+// Which evidence makes a track, and the same at 10 and at 30 Hz.
+#include <gtest/gtest.h>
+
+#include "tests/support/tracked_objects.hpp"
+
+namespace redbee::test {
+namespace {
+
+constexpr double kWeak = 0.55, kStrong = 0.9;  // P_FG below and above the default threshold
+
+ObjectParameters shipped() {
+  ObjectParameters parameters;
+  parameters.opening_px = parameters.closing_px = 0;
+  return parameters;
+}
+
+cv::Rect walker(double time_s) { return {static_cast<int>(100 + 60 * time_s), 200, 20, 30}; }
+
+/// s until a walker of this P_FG is reported; 2 if it is not.
+double reportedAfter(double probability, double rate_hz) {
+  TrackerFlight flight(shipped(), rate_hz);
+  for (double time_s = 0; time_s < 2; time_s += 1 / rate_hz) {
+    if (!flight.step({{walker(time_s), probability}}).empty()) return time_s;
+  }
+  return 2;
+}
+
+TEST(TrackBeforeDetect, WeakEvidenceThatPersistsIsConfirmedAndStrongSooner) {
+  EXPECT_LT(reportedAfter(kWeak, 24), 1);
+  EXPECT_LT(reportedAfter(kStrong, 24), 0.7 * reportedAfter(kWeak, 24));
+  EXPECT_GT(reportedAfter(kStrong, 24), 0) << "one frame is no track";
+}
+
+TEST(TrackBeforeDetect, StrongEvidenceThatDoesNotPersistIsNotConfirmed) {
+  TrackerFlight flight(shipped());
+  for (int k = 0; k < 72; ++k) {
+    const cv::Rect elsewhere(50 + 97 * (k * k % 5), 60 + 83 * (k % 4), 20, 30);
+    EXPECT_TRUE(flight.step({{elsewhere, kStrong}}).empty()) << "frame " << k;
+    EXPECT_EQ(cv::countNonZero(flight.mask()), 0);
+  }
+}
+
+TEST(TrackBeforeDetect, EvidenceThatFlickersInPlaceIsNotConfirmed) {
+  TrackerFlight flight(shipped());
+  for (int k = 0; k < 72; ++k) {
+    const bool on = k % 6 == 0;
+    EXPECT_TRUE(flight.step(on ? Regions{{{100, 200, 20, 30}, kStrong}} : Regions{}).empty())
+        << "frame " << k;
+  }
+}
+
+TEST(TrackBeforeDetect, TheTimeToConfirmIsThatOfTenAndOfThirtyHertz) {
+  for (const double probability : {kWeak, kStrong}) {
+    EXPECT_NEAR(reportedAfter(probability, 10), reportedAfter(probability, 30), 0.1001) << probability;
+  }
+}
+
+TEST(TrackBeforeDetect, AnIdentityEndsAtTheSameTimeAtTenAndThirtyHertz) {
+  const auto keptFor = [](double rate_hz) {
+    TrackerFlight flight(shipped(), rate_hz);
+    double time_s = 0;
+    for (; time_s < 1; time_s += 1 / rate_hz) flight.step({{walker(time_s), kStrong}});
+    double kept_s = 0;
+    while (kept_s < 20 && !flight.step({}).empty()) kept_s += 1 / rate_hz;
+    return kept_s;
+  };
+  EXPECT_NEAR(keptFor(10), keptFor(30), 0.1001);
+  EXPECT_NEAR(keptFor(30), shipped().max_missed_s, 0.1001);
+}
+
+TEST(TrackBeforeDetect, TheMaskHoldsWhatIsReported) {
+  TrackerFlight flight(shipped());
+  for (int k = 0; k < 24; ++k) {
+    const cv::Rect flash(400, 60 + 40 * (k % 8), 30, 30);
+    const auto tracks = flight.step({{walker(k / 24.0), kStrong}, {flash, kStrong}});
+    const cv::Rect masked = cv::boundingRect(flight.mask());
+    ASSERT_LE(tracks.size(), 1U);
+    EXPECT_EQ(masked, tracks.empty() ? cv::Rect() : walker(k / 24.0)) << "frame " << k;
+  }
+}
+
+}  // namespace
+}  // namespace redbee::test
