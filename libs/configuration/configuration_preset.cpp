@@ -37,7 +37,7 @@ PresetValues defaultValues() {
 /// where nothing moves.
 PresetValues visionOnlyValues() {
   return {{"detection.objects.threshold", "0.25"},
-          {"detection.objects.weak_threshold", "0.17"},
+          {"detection.objects.weak_threshold", "0.18"},
           {"detection.objects.extent_threshold", "0.12"}};
 }
 

@@ -57,7 +57,7 @@ struct DetectorOutput {
   CameraTime time{};
   DetectorStatus status = DetectorStatus::kLearning;
   cv::Mat1b probability;  ///< P_FG * 255
-  cv::Mat1b mask;         ///< 0 or 255
+  cv::Mat1b mask;         ///< 0 or 255; of ours, what the seen detections consist of
   cv::Mat1b unknown;      ///< 255 where no earlier frame shows the scene; the mask is 0 there
   std::vector<Detection> detections;
 };

@@ -64,7 +64,7 @@ TEST_F(ConfigurationTest, RenamedKeysLeadToKeysThatExist) {
 TEST_F(ConfigurationTest, TheVisionOnlyPresetHasLowerThresholds) {
   const Configuration configuration = load(std::string(kCamera) + "preset: vision_only\n");
   EXPECT_EQ(configuration.detection.objects.threshold, 0.25);
-  EXPECT_EQ(configuration.detection.objects.weak_threshold, 0.17);
+  EXPECT_EQ(configuration.detection.objects.weak_threshold, 0.18);
   EXPECT_EQ(configuration.detection.objects.extent_threshold, 0.12);
 }
 

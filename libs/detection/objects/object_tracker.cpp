@@ -6,6 +6,7 @@
 
 #include "redbee/detection/objects/association.hpp"
 #include "redbee/geometry/assignment.hpp"
+#include "redbee/geometry/homography.hpp"
 
 namespace redbee {
 namespace {
@@ -14,9 +15,13 @@ constexpr double kSeenVelocityDecay_s = 5;
 constexpr double kMissedVelocityDecay_s = 0.25;  // what is no longer found has probably stopped
 constexpr double kUnknownMotion_px = 100;        // per root s: the camera's, without a homography
 
-constexpr double kSurest = 0.95;           // P_FG beyond this, or below 1 minus this, is no better evidence
-constexpr double kMissedLogOdds = -1;      // of a frame without a component
-constexpr double kMostEvidence_s = 0.5;    // so that a track that has faded is soon no longer reported
+constexpr double kSurest = 0.95;         // P_FG beyond this, or below 1 minus this, is no better evidence
+constexpr double kMissedLogOdds = -1;    // of a frame without a component
+constexpr double kMostEvidence_s = 0.5;  // so that a track that has faded is soon no longer reported
+// What has not left its place, in roots of its box's area, sways or is static: evidence against an object.
+constexpr double kSettled_s = 0.5;  // age from which it counts
+constexpr double kLeftPlace = 2;
+constexpr double kStayedLogOdds = -1;      // at worst
 constexpr double kLeastEvidence_s = -0.1;  // an unconfirmed track below this is deleted
 constexpr double kUnconfirmedMissed_s = 0.1;
 
@@ -24,11 +29,9 @@ constexpr double kPart = 0.6;     // fraction of a component inside a track's bo
 constexpr double kCovered = 0.5;  // fraction of a track's box inside a component that may show it
 constexpr double kOverlapping = 0.3;  // fraction of a box inside another's: one object
 constexpr double kRecentlySeen_s = 0.3;
-constexpr double kApart_s = 1;           // tracks that have been two for as long are two objects
-constexpr double kDistinctVelocity = 2;  // squared Mahalanobis distance of two objects' velocities
-
-// Rounding of times that were added up.
-constexpr double kTimeTolerance_s = 1e-9;
+constexpr double kApart_s = 1;             // tracks that have been two for as long are two objects
+constexpr double kDistinctVelocity = 2;    // squared Mahalanobis distance of two objects' velocities
+constexpr double kTimeTolerance_s = 1e-9;  // rounding of times that were added up
 
 double logOdds(double probability) {
   const double p = std::clamp(probability, 1 - kSurest, kSurest);
@@ -40,9 +43,18 @@ cv::Rect pixelsOf(const cv::Rect2d& box) {
   return {low, cv::Point(cvRound(box.x + box.width), cvRound(box.y + box.height))};
 }
 
+Eigen::Vector2d centreOf(const cv::Rect2d& box) {
+  return {box.x + 0.5 * box.width, box.y + 0.5 * box.height};
+}
+
 bool isInside(const cv::Rect2d& box, cv::Size image) {
-  const cv::Point2d centre = 0.5 * (box.tl() + box.br());
-  return centre.x >= 0 && centre.y >= 0 && centre.x < image.width && centre.y < image.height;
+  const Eigen::Vector2d centre = centreOf(box);
+  return centre.x() >= 0 && centre.y() >= 0 && centre.x() < image.width && centre.y() < image.height;
+}
+
+double stayedLogOdds(double age_s, double farthest) {
+  if (age_s < kSettled_s || farthest >= kLeftPlace) return 0;
+  return std::max(std::log(farthest / kLeftPlace), kStayedLogOdds);
 }
 
 bool movesApart(const BoxFilter& a, const BoxFilter& b) {
@@ -62,6 +74,7 @@ void ObjectTracker::propagate(Duration elapsed, const std::optional<Eigen::Matri
   for (Track& track : tracks_) {
     const double decay_s = track.missed_s > 0 ? kMissedVelocityDecay_s : kSeenVelocityDecay_s;
     track.filter.predict(ground.value_or(Eigen::Matrix3d::Identity()), elapsed_s_, decay_s);
+    if (ground) track.origin = transfer(*ground, track.origin);
     if (!ground) track.filter.loosen(kUnknownMotion_px * kUnknownMotion_px * elapsed_s_);
     track.age_s += elapsed_s_;
   }
@@ -96,18 +109,15 @@ void ObjectTracker::splitMerged(ForegroundComponents& found) const {
 
 std::vector<size_t> ObjectTracker::unassigned(Strength strength,
                                               const std::vector<Component>& components) const {
-  std::vector<bool> is_free(components.size());
-  for (size_t c = 0; c < components.size(); ++c) {
-    const bool strong = components[c].peak > parameters_.threshold;
-    is_free[c] = components[c].area_px >= parameters_.min_area_px &&
-                 (strength == Strength::kAny || strong == (strength == Strength::kStrong));
-  }
+  std::vector<bool> is_taken(components.size(), false);
   for (const Track& track : tracks_) {
-    for (const size_t c : track.components) is_free[c] = false;
+    for (const size_t c : track.components) is_taken[c] = true;
   }
   std::vector<size_t> free;
   for (size_t c = 0; c < components.size(); ++c) {
-    if (is_free[c]) free.push_back(c);
+    if (is_taken[c] || components[c].area_px < parameters_.min_area_px) continue;
+    const bool is_strong = components[c].peak > parameters_.threshold;
+    if (strength == Strength::kAny || is_strong == (strength == Strength::kStrong)) free.push_back(c);
   }
   return free;
 }
@@ -151,10 +161,21 @@ void ObjectTracker::assignAll(const ForegroundComponents& found) {
   assignTo(false, Strength::kAny, found);
 }
 
+void ObjectTracker::begin(size_t component, const ForegroundComponents& found) {
+  const Component& first = found.components[component];
+  Track track{BoxFilter(measurementOf(first, found.image)), first};
+  track.origin = centreOf(first.box);
+  track.components.push_back(component);
+  tracks_.push_back(track);
+}
+
 void ObjectTracker::observe(Track& track, const ForegroundComponents& found) const {
   track.last = joined(found.components, track.components);
   track.filter.update(measurementOf(track.last, found.image));
-  track.evidence_s += elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_);
+  const cv::Rect2d box = track.filter.box();
+  track.farthest = std::max(track.farthest, (centreOf(box) - track.origin).norm() / std::sqrt(box.area()));
+  track.evidence_s += elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_ +
+                                    stayedLogOdds(track.age_s, track.farthest));
   track.evidence_s = std::min(track.evidence_s, std::max(kMostEvidence_s, parameters_.confirm_s));
   track.missed_s = 0;
   track.skipped_s = 0;
@@ -222,12 +243,7 @@ TrackedObjects ObjectTracker::update(ForegroundComponents& found) {
   elapsed_s_ = 0;
   const std::vector<size_t> fresh = unassigned(Strength::kAny, found.components);
   deleteLostTracks(found.image);
-  for (const size_t c : fresh) {
-    const Component& component = found.components[c];
-    Track track{BoxFilter(measurementOf(component, found.image)), component};
-    track.components.push_back(c);
-    tracks_.push_back(track);
-  }
+  for (const size_t c : fresh) begin(c, found);
   return report(found.image);
 }
 

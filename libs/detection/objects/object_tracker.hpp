@@ -48,12 +48,14 @@ class ObjectTracker {
  private:
   struct Track {
     BoxFilter filter;
-    Component last;                    ///< what it was last found as
-    int id = 0;                        ///< 0: not confirmed
-    double age_s = 0;                  ///< since its first component
-    double missed_s = 0;               ///< since its last component
-    double skipped_s = 0;              ///< of this, in skipped frames
-    double evidence_s = 0;             ///< integral of its log odds over time
+    Component last;                                    ///< what it was last found as
+    int id = 0;                                        ///< 0: not confirmed
+    double age_s = 0;                                  ///< since its first component
+    double missed_s = 0;                               ///< since its last component
+    double skipped_s = 0;                              ///< of this, in skipped frames
+    double evidence_s = 0;                             ///< integral of its log odds over time
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< px: where on the ground it was first found
+    double farthest = 0;  ///< distance from there, in roots of the box's area, the greatest so far
     std::vector<size_t> components{};  ///< of this frame
   };
   enum class Strength { kStrong, kWeak, kAny };
@@ -64,6 +66,7 @@ class ObjectTracker {
   void assignTo(bool confirmed, Strength strength, const ForegroundComponents& found);
   void absorbParts(const std::vector<Component>& components);
   std::vector<size_t> unassigned(Strength strength, const std::vector<Component>& components) const;
+  void begin(size_t component, const ForegroundComponents& found);
   void observe(Track& track, const ForegroundComponents& found) const;
   void miss(Track& track) const;
   void deleteLostTracks(cv::Size image);
