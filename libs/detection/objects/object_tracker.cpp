@@ -12,8 +12,8 @@ namespace redbee {
 namespace {
 
 constexpr double kSeenVelocityDecay_s = 5;
-constexpr double kMissedVelocityDecay_s = 0.25;  // what is no longer found has probably stopped
-constexpr double kUnknownMotion_px = 100;        // per root s: the camera's, without a homography
+constexpr double kMissedVelocityDecay_s = 0.5;  // what is no longer found has probably stopped
+constexpr double kUnknownMotion_px = 100;       // per root s: the camera's, without a homography
 
 constexpr double kSurest = 0.95;         // P_FG beyond this, or below 1 minus this, is no better evidence
 constexpr double kMissedLogOdds = -1;    // of a frame without a component
@@ -28,7 +28,7 @@ constexpr double kUnconfirmedMissed_s = 0.1;
 constexpr double kPart = 0.6;     // fraction of a component inside a track's box that makes it a part of it
 constexpr double kCovered = 0.5;  // fraction of a track's box inside a component that may show it
 constexpr double kOverlapping = 0.3;  // fraction of a box inside another's: one object
-constexpr double kRecentlySeen_s = 0.3;
+constexpr double kRecentlySeen_s = 1;
 constexpr double kApart_s = 1;             // tracks that have been two for as long are two objects
 constexpr double kDistinctVelocity = 2;    // squared Mahalanobis distance of two objects' velocities
 constexpr double kTimeTolerance_s = 1e-9;  // rounding of times that were added up
