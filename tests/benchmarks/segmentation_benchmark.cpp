@@ -125,6 +125,19 @@ void components(benchmark::State& state) {
 }
 BENCHMARK(components)->Unit(benchmark::kMillisecond);
 
+void trackTwentyObjects(benchmark::State& state) {
+  cv::Mat1b probability = cv::Mat1b::zeros(480, 640);
+  for (int i = 0; i < 20; ++i) probability(cv::Rect(30 * i, 20 * i, 12, 25)).setTo(230);
+  ForegroundComponents found = findComponents(probability, cv::Mat1b::zeros(480, 640), {});
+  ObjectTracker tracker{ObjectParameters{}};
+  const Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();
+  for (auto _ : state) {
+    tracker.propagate(std::chrono::milliseconds(40), ground);
+    benchmark::DoNotOptimize(tracker.update(found));
+  }
+}
+BENCHMARK(trackTwentyObjects)->Unit(benchmark::kMillisecond);
+
 void twoPlaneBackground(benchmark::State& state) {
   TwoPlaneBackground background{{}, paperDetection().learning_frames};
   background.learn(inputs()[0].grey);

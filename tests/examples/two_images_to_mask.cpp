@@ -13,6 +13,7 @@ int main(int argc, char** argv) try {
   redbee::DetectionParameters parameters;
   parameters.learning_frames = 1;         // the first image is all there is to learn from,
   parameters.appearance.enabled = false;  // and shows no ground where the object was
+  parameters.objects.confirm_s = 0;       // and there is no time for a track
   const auto detector = redbee::makeDetector(parameters);
   redbee::FrameInput frame;
   redbee::DetectorOutput output;

@@ -7,9 +7,8 @@
 namespace redbee {
 namespace {
 
-constexpr double kFull = 255;  // P_FG of 1
-// Of a component's peak, where it ends: half of what a blurred edge shows, less for holes.
-constexpr double kExtentFraction = 0.3;
+constexpr double kFull = 255;            // P_FG of 1
+constexpr double kExtentFraction = 0.3;  // of a component's peak: where it ends; EXPERIMENTS.md, "Objects"
 
 cv::Mat1b disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
 

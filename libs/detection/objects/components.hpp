@@ -29,8 +29,8 @@ struct ForegroundComponents {
 };
 
 /// Components that exceed `weak_threshold` somewhere. Each reaches as far as P_FG exceeds `extent_threshold`
-/// and a fraction of the component's own peak (after opening, closing and a minimum area): what blurs a weak
-/// object's outline is a halo around a strong one. `probability`: P_FG * 255. `unknown`: not 0 where there is
+/// and 0.3 of the component's own peak (after opening, closing and a minimum area): what belongs to a weak
+/// object is a halo around a strong one. `probability`: P_FG * 255. `unknown`: not 0 where there is
 /// no statement.
 ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
                                     const ObjectParameters& parameters);
