@@ -52,17 +52,17 @@ double peakOf(const cv::Mat1b& probability, const cv::Mat1b& pixels) {
   return peak;
 }
 
-/// Without the components whose peak does not exceed the weak threshold, and the rest without what is low
-/// beside its own peak.
-cv::Mat1b relativeExtents(const cv::Mat1b& mask, const cv::Mat1b& probability,
-                          const ObjectParameters& parameters) {
-  cv::Mat1b extents = cv::Mat1b::zeros(mask.size());
-  forEachRegion(mask, parameters.min_area_px, [&](const cv::Rect& box, int, const cv::Mat1b& own) {
-    const double peak = peakOf(probability(box), own);
-    if (peak <= kFull * parameters.weak_threshold) return;
-    extents(box).setTo(255, own & (probability(box) > kExtentFraction * peak));
-  });
-  return extents;
+/// Adds a region of `found.part`, if it is strong enough. `pixels`: of the region in its box.
+void add(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Rect& in_part, int area,
+         const cv::Mat1b& pixels, double weak_threshold) {
+  Component component;
+  component.box = in_part + found.part.tl();
+  component.area_px = area;
+  component.score = cv::mean(probability(component.box), pixels)[0] / kFull;
+  component.peak = peakOf(probability(component.box), pixels) / kFull;
+  if (component.peak <= weak_threshold) return;
+  found.components.push_back(component);
+  found.labels(in_part).setTo(static_cast<double>(found.components.size()), pixels);
 }
 
 /// Of the box whose centre is nearest in units of its sides.
@@ -88,19 +88,17 @@ ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1
   found.image = probability.size();
   const cv::Mat1b foreground = foregroundPart(probability, unknown, parameters, found.part);
   if (foreground.empty()) return found;
-  const cv::Mat1b part = probability(found.part);
-  found.labels = cv::Mat1i::zeros(part.size());
-  forEachRegion(relativeExtents(foreground, part, parameters), parameters.min_area_px,
-                [&](const cv::Rect& box, int area, const cv::Mat1b& own) {
-                  Component component;
-                  component.box = box + found.part.tl();
-                  component.area_px = area;
-                  component.score = cv::mean(part(box), own)[0] / kFull;
-                  component.peak = peakOf(part(box), own) / kFull;
-                  if (component.peak <= parameters.weak_threshold) return;
-                  found.components.push_back(component);
-                  found.labels(box).setTo(static_cast<double>(found.components.size()), own);
-                });
+  found.labels = cv::Mat1i::zeros(foreground.size());
+  const double min_area_px = parameters.min_area_px;
+  forEachRegion(foreground, min_area_px, [&](const cv::Rect& region, int, const cv::Mat1b& own) {
+    const cv::Mat1b values = probability(region + found.part.tl());
+    const double peak = peakOf(values, own);
+    if (peak <= kFull * parameters.weak_threshold) return;
+    const cv::Mat1b extents = own & (values > kExtentFraction * peak);
+    forEachRegion(extents, min_area_px, [&](const cv::Rect& box, int area, const cv::Mat1b& pixels) {
+      add(found, probability, box + region.tl(), area, pixels, parameters.weak_threshold);
+    });
+  });
   return found;
 }
 

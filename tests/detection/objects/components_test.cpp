@@ -43,9 +43,9 @@ TEST(FindComponents, AHaloEndsAboveWhereAWeakObjectDoes) {
   probability(cv::Rect(290, 90, 40, 50)).setTo(50);  // above 0.3 of the peak of 0.47
   probability(cv::Rect(300, 100, 20, 30)).setTo(120);
   const ForegroundComponents found = componentsOf(probability);
-  ASSERT_EQ(found.components.size(), 2U);  // from above
-  EXPECT_EQ(found.components[0].box, cv::Rect(290, 90, 40, 50));
-  EXPECT_EQ(found.components[1].box, cv::Rect(100, 100, 20, 30));
+  ASSERT_EQ(found.components.size(), 2U);
+  EXPECT_EQ(found.components[0].box, cv::Rect(100, 100, 20, 30));
+  EXPECT_EQ(found.components[1].box, cv::Rect(290, 90, 40, 50));
 }
 
 TEST(FindComponents, AMaskHoldsTheComponentsThatAreKept) {
