@@ -34,6 +34,7 @@ std::vector<Setting> detectionSettings() {
       setting("detection.parallax.baseline_s", MEMBER(parallax.baseline_s), positive),
       setting("detection.parallax.use_short_baseline", MEMBER(parallax.use_short_baseline), anything),
       setting("detection.parallax.use_epipolar", MEMBER(parallax.use_epipolar), anything),
+      setting("detection.parallax.use_epipole", MEMBER(parallax.use_epipole), anything),
       setting("detection.parallax.noise_px", MEMBER(parallax.noise_px), positive),
       setting("detection.parallax.min_gradient", MEMBER(parallax.min_gradient), positive),
       setting("detection.parallax.direction_error", MEMBER(parallax.direction_error), notNegative),

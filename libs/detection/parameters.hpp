@@ -18,6 +18,7 @@ struct ParallaxParameters {
   bool use_short_baseline =
       true;                   ///< use the previous frame as reference while large, fast objects are in view
   bool use_epipolar = true;   ///< accept flow along the epipolar line as static, not only that of the ground
+  bool use_epipole = true;    ///< without an IMU, estimate the epipole from the flow
   double noise_px = 0.5;      ///< px at full size, one sigma of the flow over good texture
   double min_gradient = 1.6;  ///< grey levels per px, in an image four times smaller: gradient at which the
                               ///< flow's variance doubles

@@ -43,6 +43,7 @@ ParallaxEvidence::ParallaxEvidence(const ParallaxParameters& parameters)
 
 void ParallaxEvidence::reset() {
   frames_.reset();
+  epipole_.reset();
   propagated_.reset();
   fast_ = false;
   unknown_.release();
@@ -66,8 +67,8 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
   const EarlierFrame* frame = frames_.aged(time, fast_ ? 0 : parameters_.baseline_s);
   const EarlierFrame* newest = frames_.newest();
   if (frame != nullptr && newest != nullptr) {
-    const double frames = static_cast<double>((time - frame->time).count()) /
-                          static_cast<double>((time - newest->time).count());
+    elapsed_s_ = seconds(time - newest->time);
+    const double frames = seconds(time - frame->time) / elapsed_s_;
     found = evidence(*frame, small, work_ * K, frames);
   }
   frames_.store(time, small, parameters_.baseline_s);
@@ -81,10 +82,8 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   unknown_ = reference.unknown;
   cv::Mat2f flow;
   dis_->calc(grey, reference.grey, flow);
-  const bool two_planes = !frame.motion && frame.front;
-  const ParallaxSegment segment = two_planes ? ParallaxSegment(frame.ground, *frame.front, parameters_)
-                                             : ParallaxSegment(frame.motion, K, parameters_);
-  FrameEvidence now = frameEvidence(segment, grey, flow, frames);
+  const cv::Mat1f variance = flowVariance(grey);
+  FrameEvidence now = frameEvidence(segmentOf(frame, K, flow, variance), variance, flow, frames);
   fast_ = parameters_.use_short_baseline && hasFastMovers(flow, now.normalized_residual, frames);
   now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
   propagated_.update(now, last_step_, unknown_);
@@ -93,6 +92,17 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   motion = cv::min(cv::max(motion, 0), 1);
   if (!frame.motion && parameters_.border_stretch > 0) suppressBorderStructure(motion);
   return motion;
+}
+
+ParallaxSegment ParallaxEvidence::segmentOf(const EarlierFrame& frame, const Eigen::Matrix3d& K,
+                                            const cv::Mat2f& flow, const cv::Mat1f& variance) {
+  if (!frame.motion && parameters_.use_epipolar && parameters_.use_epipole) {
+    const HomographyFlow error = registration(flow, variance, ParallaxSegment(std::nullopt, K, parameters_));
+    const EpipoleInput input{flow, variance, unknown_, error, toMatx(frame.ground), toMatx(K)};
+    if (const auto epipole = epipole_.update(input, elapsed_s_)) return {*epipole, parameters_};
+  }
+  if (!frame.motion && frame.front) return {frame.ground, *frame.front, parameters_};
+  return {frame.motion, K, parameters_};
 }
 
 bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual,
@@ -142,14 +152,15 @@ cv::Mat1f ParallaxEvidence::flowVariance(const cv::Mat1b& grey) const {
   return variance;
 }
 
-FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey,
+HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const cv::Mat1f& variance,
+                                              const ParallaxSegment& segment) const {
+  if (!parameters_.use_registration) return HomographyFlow(flow.size());
+  return registrationError(flow, variance, unknown_, segment, static_cast<float>(kExpectedErrorPx / scale_));
+}
+
+FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const cv::Mat1f& variance,
                                               const cv::Mat2f& flow, double frames) {
-  const cv::Mat1f variance = flowVariance(grey);
-  HomographyFlow error(flow.size());
-  if (parameters_.use_registration) {
-    const double expected = kExpectedErrorPx / scale_;
-    error = registrationError(flow, variance, unknown_, segment, static_cast<float>(expected));
-  }
+  const HomographyFlow error = registration(flow, variance, segment);
   FrameEvidence evidence{cv::Mat2f(flow.size()), flow * (1 / frames)};
   speed_.create(flow.size());
   for (int y = 0; y < flow.rows; ++y) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "redbee/detection/parallax/earlier_frames.hpp"
+#include "redbee/detection/parallax/epipole.hpp"
 #include "redbee/detection/parallax/parallax_segment.hpp"
 #include "redbee/detection/parallax/propagated_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
@@ -46,8 +47,12 @@ class ParallaxEvidence {
  private:
   cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
                      double frames);
-  FrameEvidence frameEvidence(const ParallaxSegment& segment, const cv::Mat1b& grey, const cv::Mat2f& flow,
-                              double frames);
+  ParallaxSegment segmentOf(const EarlierFrame& frame, const Eigen::Matrix3d& K, const cv::Mat2f& flow,
+                            const cv::Mat1f& variance);
+  HomographyFlow registration(const cv::Mat2f& flow, const cv::Mat1f& variance,
+                              const ParallaxSegment& segment) const;
+  FrameEvidence frameEvidence(const ParallaxSegment& segment, const cv::Mat1f& variance,
+                              const cv::Mat2f& flow, double frames);
   /// True if much of the image moves so fast that the previous frame is a better reference than an earlier
   /// one.
   bool hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;
@@ -59,8 +64,10 @@ class ParallaxEvidence {
   Eigen::Matrix3d work_;  ///< full-size pixels to those at work_downscale
   cv::Ptr<cv::DISOpticalFlow> dis_;
   EarlierFrames frames_;
+  EpipoleEstimator epipole_;
   PropagatedEvidence propagated_;
   Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< pixels at work_downscale
+  double elapsed_s_ = 0;                                     ///< between the last two frames
   bool fast_ = false;                                        ///< the last frame had fast movers
   cv::Mat1b unknown_;
   cv::Mat2f speed_;

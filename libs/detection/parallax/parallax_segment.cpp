@@ -29,6 +29,10 @@ ParallaxSegment::ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Mat
   if (parameters.use_epipolar) to_front_ = cv::Matx33f(toMatx(front * ground.inverse()));
 }
 
+ParallaxSegment::ParallaxSegment(const cv::Vec3f& epipole, const ParallaxParameters& parameters)
+    : epipole_(epipole),
+      direction_variance_(static_cast<float>(std::pow(kPlanesError * parameters.direction_error, 2))) {}
+
 /// From the position on the ground to that on the nearest static surface.
 cv::Vec2f ParallaxSegment::end(const cv::Vec2f& ground) const {
   constexpr float kBeyondFront = 1.5F;  // for parts that protrude from the plane

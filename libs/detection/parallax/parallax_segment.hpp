@@ -24,6 +24,9 @@ class ParallaxSegment {
   ParallaxSegment(const Eigen::Matrix3d& ground, const Eigen::Matrix3d& front,
                   const ParallaxParameters& parameters);
 
+  /// `epipole`: findEpipole().
+  ParallaxSegment(const cv::Vec3f& epipole, const ParallaxParameters& parameters);
+
   struct Residual {
     cv::Vec2f nearest;              ///< px: point of the segment closest to the flow
     cv::Vec2f normalized_residual;  ///< flow minus that point, over its standard deviation
