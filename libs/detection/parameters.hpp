@@ -76,7 +76,7 @@ struct ObjectParameters {
   double threshold = 0.6;
   /// On P_FG, at most `threshold`: components count that exceed this somewhere. Halfway between the two, in
   /// log odds, a component is evidence neither for nor against its track.
-  double weak_threshold = 0.45;
+  double weak_threshold = 0.5;
   double extent_threshold = 0.12;  ///< on P_FG, at most `threshold`: components reach no further than this
   int opening_px = 3;              ///< px: diameter of the disc that removes specks; 0: none
   int closing_px = 7;              ///< px: diameter of the disc that closes holes; 0: none

@@ -7,8 +7,11 @@
 namespace redbee {
 namespace {
 
-constexpr double kFull = 255;            // P_FG of 1
-constexpr double kExtentFraction = 0.3;  // of a component's peak: where it ends; EXPERIMENTS.md, "Objects"
+constexpr double kFull = 255;  // P_FG of 1
+// Where a component ends (EXPERIMENTS.md, "Objects"): at a fraction of its peak, or of the threshold if that
+// is lower.
+constexpr double kExtentOfPeak = 0.3;
+constexpr double kExtentOfThreshold = 0.5;
 
 cv::Mat1b disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
 
@@ -94,7 +97,8 @@ ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1
     const cv::Mat1b values = probability(region + found.part.tl());
     const double peak = peakOf(values, own);
     if (peak <= kFull * parameters.weak_threshold) return;
-    const cv::Mat1b extents = own & (values > kExtentFraction * peak);
+    const double end = std::min(kExtentOfPeak * peak, kExtentOfThreshold * kFull * parameters.threshold);
+    const cv::Mat1b extents = own & (values > end);
     forEachRegion(extents, min_area_px, [&](const cv::Rect& box, int area, const cv::Mat1b& pixels) {
       add(found, probability, box + region.tl(), area, pixels, parameters.weak_threshold);
     });

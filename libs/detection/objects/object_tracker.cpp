@@ -20,7 +20,7 @@ constexpr double kMissedLogOdds = -1;    // of a frame without a component
 constexpr double kMostEvidence_s = 0.5;  // so that a track that has faded is soon no longer reported
 // What has not left its place, in roots of its box's area, sways or is static: evidence against an object.
 constexpr double kSettled_s = 0.5;  // age from which it counts
-constexpr double kLeftPlace = 1;
+constexpr double kLeftPlace = 2;
 constexpr double kStayedLogOdds = -1;      // at worst
 constexpr double kLeastEvidence_s = -0.1;  // an unconfirmed track below this is deleted
 constexpr double kUnconfirmedMissed_s = 0.1;

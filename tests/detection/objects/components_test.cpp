@@ -28,20 +28,20 @@ TEST(FindComponents, SmallAndUnknownRegionsAreNoObjects) {
 TEST(FindComponents, ThoseCountThatExceedTheWeakThresholdSomewhere) {
   cv::Mat1b probability = cv::Mat1b::zeros(kImage);
   probability(cv::Rect(100, 100, 20, 30)).setTo(90);  // 0.35
-  probability(cv::Rect(105, 105, 4, 4)).setTo(120);   // 0.47
+  probability(cv::Rect(105, 105, 4, 4)).setTo(140);   // 0.55
   probability(cv::Rect(300, 100, 20, 30)).setTo(90);
   const ForegroundComponents found = componentsOf(probability);
   ASSERT_EQ(found.components.size(), 1U);
   EXPECT_EQ(found.components[0].box, cv::Rect(100, 100, 20, 30));
-  EXPECT_NEAR(found.components[0].peak, 120 / 255.0, 1e-9);
+  EXPECT_NEAR(found.components[0].peak, 140 / 255.0, 1e-9);
 }
 
 TEST(FindComponents, AHaloEndsAboveWhereAWeakObjectDoes) {
   cv::Mat1b probability = cv::Mat1b::zeros(kImage);
   probability(cv::Rect(90, 90, 40, 50)).setTo(50);  // below 0.3 of the peak of 0.9
   probability(cv::Rect(100, 100, 20, 30)).setTo(230);
-  probability(cv::Rect(290, 90, 40, 50)).setTo(50);  // above 0.3 of the peak of 0.47
-  probability(cv::Rect(300, 100, 20, 30)).setTo(120);
+  probability(cv::Rect(290, 90, 40, 50)).setTo(50);  // above 0.3 of the peak of 0.55
+  probability(cv::Rect(300, 100, 20, 30)).setTo(140);
   const ForegroundComponents found = componentsOf(probability);
   ASSERT_EQ(found.components.size(), 2U);
   EXPECT_EQ(found.components[0].box, cv::Rect(100, 100, 20, 30));
