@@ -195,9 +195,10 @@ void Loader::checkThresholds() const {
   for (const auto& [lower, value] : lower_ones) {
     if (value <= objects.threshold) continue;
     const std::string& key = changed(lower, upper);
-    fail(places_.at(key), key,
-         lower + " (" + valueText(value) + ") must not exceed " + upper + " (" +
-             valueText(objects.threshold) + ")");
+    std::string fault = lower;
+    fault.append(" (").append(valueText(value)).append(") must not exceed ").append(upper);
+    fault.append(" (").append(valueText(objects.threshold)).append(")");
+    fail(places_.at(key), key, fault);
   }
 }
 

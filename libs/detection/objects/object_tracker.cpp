@@ -102,6 +102,7 @@ void ObjectTracker::splitMerged(ForegroundComponents& found) const {
     const std::vector<const Track*> covered = coveredApart(found.components[c].box);
     if (covered.size() < 2) continue;
     std::vector<cv::Rect2d> boxes;
+    boxes.reserve(covered.size());
     for (const Track* track : covered) boxes.push_back(track->filter.box());
     splitComponent(found, c, boxes);
   }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "redbee/geometry/homography.hpp"
