@@ -101,9 +101,8 @@ void ObjectTracker::splitMerged(ForegroundComponents& found) const {
   for (size_t c = 0; c < count; ++c) {
     const std::vector<const Track*> covered = coveredApart(found.components[c].box);
     if (covered.size() < 2) continue;
-    std::vector<cv::Rect2d> boxes;
-    boxes.reserve(covered.size());
-    for (const Track* track : covered) boxes.push_back(track->filter.box());
+    std::vector<cv::Rect2d> boxes(covered.size());
+    for (size_t i = 0; i < boxes.size(); ++i) boxes[i] = covered[i]->filter.box();
     splitComponent(found, c, boxes);
   }
 }
