@@ -41,7 +41,7 @@ DetectorOutput GroundDetector::step(const FrameInput& input) {
   DetectorOutput output = emptyOutput(input);
   if (!image_check_.accepts(input.grey)) {
     output.status = DetectorStatus::kBadImage;
-    output.detections = tracker_.skip(size_).detections;
+    output.detections = tracker_.skip(size_);
     return output;
   }
   ForegroundMaps maps = learn(input);
@@ -57,7 +57,7 @@ DetectorOutput GroundDetector::step(const FrameInput& input) {
     output.status = DetectorStatus::kGood;
     findObjects(std::move(probability), maps.unknown, output);
   }
-  if (output.status != DetectorStatus::kGood) output.detections = tracker_.skip(size_).detections;
+  if (output.status != DetectorStatus::kGood) output.detections = tracker_.skip(size_);
   return output;
 }
 

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "redbee/evaluation/box_overlap.hpp"
+#include "redbee/imaging/box_overlap.hpp"
 
 namespace redbee {
 namespace {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "redbee/evaluation/box_overlap.hpp"
+#include "redbee/imaging/box_overlap.hpp"
 
 namespace redbee {
 namespace {
@@ -22,11 +22,6 @@ struct Component {
   int64_t ignored = 0;
   bool touches_object = false;
 };
-
-cv::Rect2d grown(const cv::Rect2d& box) {
-  return {box.x - kBoxTolerancePx, box.y - kBoxTolerancePx, box.width + 2 * kBoxTolerancePx,
-          box.height + 2 * kBoxTolerancePx};
-}
 
 void check(const cv::Mat1b& detected, const ObjectTruth& truth) {
   const bool ids_fit = truth.ids.empty() || truth.ids.size() == detected.size();
@@ -56,9 +51,10 @@ std::vector<Component> componentsOf(const cv::Mat1b& detected, const ObjectTruth
   components.erase(components.begin());  // the background
   if (truth.ids.empty()) {
     for (Component& component : components) {
-      component.touches_object = std::any_of(
-          truth.objects.begin(), truth.objects.end(),
-          [&](const TruthObject& object) { return (grown(object.box) & component.box).area() > 0; });
+      component.touches_object =
+          std::any_of(truth.objects.begin(), truth.objects.end(), [&](const TruthObject& object) {
+            return (grown(object.box, kBoxTolerancePx) & component.box).area() > 0;
+          });
     }
   }
   return components;
@@ -87,7 +83,8 @@ void countBoxes(const std::vector<Component>& components, const ObjectTruth& tru
     if (!object.counts) continue;
     ++counts.present;
     const bool found = std::any_of(components.begin(), components.end(), [&](const Component& component) {
-      return intersectionOverUnion(grown(object.box), grown(component.box)) >= kFoundOverlap;
+      return intersectionOverUnion(grown(object.box, kBoxTolerancePx),
+                                   grown(component.box, kBoxTolerancePx)) >= kFoundOverlap;
     });
     if (found) ++counts.found;
   }

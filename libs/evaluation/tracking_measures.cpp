@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "redbee/evaluation/box_overlap.hpp"
 #include "redbee/geometry/assignment.hpp"
+#include "redbee/imaging/box_overlap.hpp"
 
 namespace redbee {
 namespace {

@@ -24,11 +24,6 @@ inline ObjectParameters atOnce() {
   return parameters;
 }
 
-inline double overlap(const cv::Rect& a, const cv::Rect& b) {
-  const double both = (a & b).area();
-  return both / (a.area() + b.area() - both);
-}
-
 /// Images of 640x480, 24 a second.
 class TrackerFlight {
  public:
@@ -56,7 +51,7 @@ class TrackerFlight {
   }
   std::vector<Detection> skip() {
     propagate(period_s_, std::nullopt);
-    return tracker_.skip({640, 480}).detections;
+    return tracker_.skip({640, 480});
   }
   /// Of the last update().
   const cv::Mat1b& mask() const { return mask_; }

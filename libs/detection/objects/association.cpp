@@ -5,6 +5,7 @@
 
 #include "redbee/geometry/assignment.hpp"
 #include "redbee/geometry/chi_square.hpp"
+#include "redbee/imaging/box_overlap.hpp"
 
 namespace redbee {
 namespace {
@@ -18,17 +19,11 @@ constexpr double kEdgeSigmaByPeak = 0.33;  // less at 1
 constexpr double kGateProbability = 0.99;
 constexpr double kLeastOverlap = 0.1;  // intersection over union
 
-cv::Rect2d grown(const cv::Rect2d& box, double margin) {
-  return {box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin};
-}
-
 /// Intersection over union of both boxes, grown by the sigma of the predicted position (Yang et al. 2023):
 /// what was missed for long need not overlap.
 double overlapOf(const BoxFilter& filter, const cv::Rect2d& measured) {
   const double margin = filter.positionSigma();
-  const cv::Rect2d a = grown(filter.box(), margin), b = grown(measured, margin);
-  const double both = (a & b).area();
-  return both > 0 ? both / (a.area() + b.area() - both) : 0;
+  return intersectionOverUnion(grown(filter.box(), margin), grown(measured, margin));
 }
 
 }  // namespace
@@ -86,10 +81,6 @@ std::vector<int> associate(const std::vector<const BoxFilter*>& tracks,
     column = matches ? static_cast<int>(candidates[static_cast<size_t>(column)]) : kUnassigned;
   }
   return assigned;
-}
-
-double coveredFraction(const cv::Rect2d& box, const cv::Rect2d& other) {
-  return box.area() > 0 ? (box & other).area() / box.area() : 0;
 }
 
 }  // namespace redbee

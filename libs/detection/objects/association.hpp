@@ -16,14 +16,10 @@ BoxMeasurement measurementOf(const Component& component, cv::Size image);
 Component joined(const std::vector<Component>& all, const std::vector<size_t>& parts);
 
 /// Minimum-cost assignment over 1 - IoU of predicted and measured box, both grown by the predicted position's
-/// sigma. Pairs beyond the gate of the
-/// innovation covariance, or with hardly an overlap, are none. The component of each track, an element of
-/// `candidates`, or kUnassigned.
+/// sigma. Pairs beyond the gate of the innovation covariance, or with hardly an overlap, are none. Returns
+/// the component of each track, an element of `candidates`, or kUnassigned.
 std::vector<int> associate(const std::vector<const BoxFilter*>& tracks,
                            const std::vector<Component>& components, const std::vector<size_t>& candidates,
                            cv::Size image);
-
-/// Fraction of `box` inside `other`.
-double coveredFraction(const cv::Rect2d& box, const cv::Rect2d& other);
 
 }  // namespace redbee

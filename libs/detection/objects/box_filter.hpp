@@ -36,6 +36,9 @@ class BoxFilter {
   double centreDistance(const BoxMeasurement& measured) const;
 
   cv::Rect2d box() const;
+  Eigen::Vector2d centre() const { return state_.head<2>(); }
+  /// Root of the box's area [px].
+  double size() const;
   Eigen::Vector2d velocity() const { return state_.tail<2>(); }
   const State& state() const { return state_; }
   const Covariance& covariance() const { return covariance_; }
@@ -44,8 +47,6 @@ class BoxFilter {
   double positionSigma() const;
 
  private:
-  double size() const;
-
   State state_;
   Covariance covariance_;
 };

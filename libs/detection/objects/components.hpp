@@ -29,9 +29,9 @@ struct ForegroundComponents {
 };
 
 /// Components that exceed `weak_threshold` somewhere. Each reaches as far as P_FG exceeds `extent_threshold`
-/// and 0.3 of the component's own peak (after opening, closing and a minimum area): what belongs to a weak
-/// object is a halo around a strong one. `probability`: P_FG * 255. `unknown`: not 0 where there is
-/// no statement.
+/// and the lower of 0.3 of the component's own peak and half of `threshold` (after opening, closing and a
+/// minimum area): what belongs to a weak object is a halo around a strong one. `probability`: P_FG * 255.
+/// `unknown`: not 0 where there is no statement.
 ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
                                     const ObjectParameters& parameters);
 

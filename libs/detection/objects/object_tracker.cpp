@@ -7,6 +7,7 @@
 #include "redbee/detection/objects/association.hpp"
 #include "redbee/geometry/assignment.hpp"
 #include "redbee/geometry/homography.hpp"
+#include "redbee/imaging/box_overlap.hpp"
 
 namespace redbee {
 namespace {
@@ -43,13 +44,8 @@ cv::Rect pixelsOf(const cv::Rect2d& box) {
   return {low, cv::Point(cvRound(box.x + box.width), cvRound(box.y + box.height))};
 }
 
-Eigen::Vector2d centreOf(const cv::Rect2d& box) {
-  return {box.x + 0.5 * box.width, box.y + 0.5 * box.height};
-}
-
-bool isInside(const cv::Rect2d& box, cv::Size image) {
-  const Eigen::Vector2d centre = centreOf(box);
-  return centre.x() >= 0 && centre.y() >= 0 && centre.x() < image.width && centre.y() < image.height;
+bool isInside(const Eigen::Vector2d& point, cv::Size image) {
+  return cv::Rect2d(cv::Point2d(), image).contains({point.x(), point.y()});
 }
 
 double stayedLogOdds(double age_s, double farthest) {
@@ -164,7 +160,7 @@ void ObjectTracker::assignAll(const ForegroundComponents& found) {
 void ObjectTracker::begin(size_t component, const ForegroundComponents& found) {
   const Component& first = found.components[component];
   Track track{BoxFilter(measurementOf(first, found.image)), first};
-  track.origin = centreOf(first.box);
+  track.origin = track.filter.centre();
   track.components.push_back(component);
   tracks_.push_back(track);
 }
@@ -172,8 +168,8 @@ void ObjectTracker::begin(size_t component, const ForegroundComponents& found) {
 void ObjectTracker::observe(Track& track, const ForegroundComponents& found) const {
   track.last = joined(found.components, track.components);
   track.filter.update(measurementOf(track.last, found.image));
-  const cv::Rect2d box = track.filter.box();
-  track.farthest = std::max(track.farthest, (centreOf(box) - track.origin).norm() / std::sqrt(box.area()));
+  const double moved_px = (track.filter.centre() - track.origin).norm();
+  track.farthest = std::max(track.farthest, moved_px / track.filter.size());
   track.evidence_s += elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_ +
                                     stayedLogOdds(track.age_s, track.farthest));
   track.evidence_s = std::min(track.evidence_s, std::max(kMostEvidence_s, parameters_.confirm_s));
@@ -193,7 +189,7 @@ void ObjectTracker::deleteLostTracks(cv::Size image) {
     if (track.id == 0 && track.evidence_s < kLeastEvidence_s) return true;
     const double most_s = track.id > 0 ? parameters_.max_missed_s : kUnconfirmedMissed_s;
     const bool is_missed = track.missed_s - track.skipped_s > most_s + kTimeTolerance_s;
-    return is_missed || (track.missed_s > 0 && !isInside(track.filter.box(), image));
+    return is_missed || (track.missed_s > 0 && !isInside(track.filter.centre(), image));
   };
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), lost), tracks_.end());
 }
@@ -219,7 +215,7 @@ TrackedObjects ObjectTracker::report(cv::Size image) {
   return objects;
 }
 
-TrackedObjects ObjectTracker::skip(cv::Size image) {
+std::vector<Detection> ObjectTracker::skip(cv::Size image) {
   for (Track& track : tracks_) {
     track.components.clear();
     track.missed_s += elapsed_s_;
@@ -227,7 +223,7 @@ TrackedObjects ObjectTracker::skip(cv::Size image) {
   }
   elapsed_s_ = 0;
   deleteLostTracks(image);
-  return report(image);
+  return report(image).detections;
 }
 
 TrackedObjects ObjectTracker::update(ForegroundComponents& found) {

@@ -43,7 +43,7 @@ class ObjectTracker {
   TrackedObjects update(ForegroundComponents& found);
   /// For a frame without detection, e.g. while a process restarts: no track counts as missed. Identities
   /// survive max_missed_s of such frames in a row.
-  TrackedObjects skip(cv::Size image);
+  std::vector<Detection> skip(cv::Size image);
 
  private:
   struct Track {

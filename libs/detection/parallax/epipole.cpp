@@ -55,11 +55,6 @@ class Coverage {
   std::array<int, kColumns * kRows> held_{};
 };
 
-/// The parallax at `ground` is along this vector.
-cv::Vec2f parallax(const cv::Vec3f& e, const cv::Vec2f& ground) {
-  return {e[0] - e[2] * ground[0], e[1] - e[2] * ground[1]};
-}
-
 float cross(const cv::Vec2f& a, const cv::Vec2f& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 float cosine(const cv::Vec2f& a, const cv::Vec2f& b) {
@@ -67,7 +62,7 @@ float cosine(const cv::Vec2f& a, const cv::Vec2f& b) {
 }
 
 bool agrees(const cv::Vec3f& e, const Sample& sample) {
-  const cv::Vec2f along = parallax(e, sample.ground);
+  const cv::Vec2f along = parallaxOf(e, sample.ground);
   const float across = cross(along, sample.flow);
   return along.dot(sample.flow) > 0 &&
          across * across <= kWithin * kWithin * sample.variance * along.dot(along);
@@ -118,7 +113,7 @@ bool isAmong(const std::vector<cv::Vec3f>& others, const cv::Vec3f& e, cv::Size 
     for (int i = 0; i < kSide * kSide; ++i) {
       const auto middle_of = [](int cell) { return 2 * (static_cast<float>(cell) + 0.5F) / kSide - 1; };
       const cv::Vec2f place(middle_of(i % kSide), aspect * middle_of(i / kSide));
-      sum += cosine(parallax(e, place), parallax(other, place));
+      sum += cosine(parallaxOf(e, place), parallaxOf(other, place));
     }
     return sum > std::cos(kTravelAngle) * kSide * kSide;
   });
@@ -138,7 +133,7 @@ std::optional<cv::Vec3f> bestHypothesis(const std::vector<Sample>& samples,
   for (int i = 0; i < kHypotheses; ++i) {
     const Sample& first = any();
     cv::Vec3f e = cv::normalize(line(first).cross(line(any())));
-    if (parallax(e, first.ground).dot(first.flow) < 0) e = -e;
+    if (parallaxOf(e, first.ground).dot(first.flow) < 0) e = -e;
     if (!isAmong(travel, e, image)) continue;
     const long agreeing =
         std::count_if(samples.begin(), samples.end(), [&](const Sample& s) { return agrees(e, s); });
@@ -155,7 +150,7 @@ cv::Vec3f refined(const std::vector<Sample>& samples, cv::Vec3f e) {
     cv::Matx33f normal = cv::Matx33f::zeros();
     for (const Sample& s : samples) {
       if (!agrees(e, s)) continue;
-      const cv::Vec2f along = parallax(e, s.ground);
+      const cv::Vec2f along = parallaxOf(e, s.ground);
       const cv::Vec3f row(s.flow[1], -s.flow[0], s.flow[0] * s.ground[1] - s.flow[1] * s.ground[0]);
       normal += row * row.t() * (1 / (s.variance * along.dot(along) + kTiny));
     }
@@ -180,7 +175,7 @@ Consensus consensusOn(const cv::Vec3f& e, const std::vector<Sample>& samples, co
   double sum = 0, sum2 = 0;
   for (const Sample& s : samples) {
     if (!agrees(e, s)) continue;
-    const cv::Vec2f along = parallax(e, s.ground);
+    const cv::Vec2f along = parallaxOf(e, s.ground);
     found.depths.push_back(along.dot(s.flow) / along.dot(along));
     const double across = cross(along, s.ground) / std::sqrt(along.dot(along));
     sum += across;

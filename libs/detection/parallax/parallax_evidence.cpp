@@ -83,7 +83,15 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   cv::Mat2f flow;
   dis_->calc(grey, reference.grey, flow);
   const cv::Mat1f variance = flowVariance(grey);
-  FrameEvidence now = frameEvidence(segmentOf(frame, K, flow, variance), variance, flow, frames);
+  ParallaxSegment segment(frame.motion, K, parameters_);
+  HomographyFlow error = registration(flow, variance, segment);
+  if (!frame.motion) {
+    if (const auto estimated = segmentWithoutMotion(frame, K, flow, variance, error)) {
+      segment = *estimated;
+      error = registration(flow, variance, segment);
+    }
+  }
+  FrameEvidence now = frameEvidence(segment, error, variance, flow, frames);
   fast_ = parameters_.use_short_baseline && hasFastMovers(flow, now.normalized_residual, frames);
   now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
   propagated_.update(now, last_step_, unknown_);
@@ -94,15 +102,18 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   return motion;
 }
 
-ParallaxSegment ParallaxEvidence::segmentOf(const EarlierFrame& frame, const Eigen::Matrix3d& K,
-                                            const cv::Mat2f& flow, const cv::Mat1f& variance) {
-  if (!frame.motion && parameters_.use_epipolar && parameters_.use_epipole) {
-    const HomographyFlow error = registration(flow, variance, ParallaxSegment(std::nullopt, K, parameters_));
+std::optional<ParallaxSegment> ParallaxEvidence::segmentWithoutMotion(const EarlierFrame& frame,
+                                                                      const Eigen::Matrix3d& K,
+                                                                      const cv::Mat2f& flow,
+                                                                      const cv::Mat1f& variance,
+                                                                      const HomographyFlow& error) {
+  if (parameters_.use_epipolar && parameters_.use_epipole) {
     const EpipoleInput input{flow, variance, unknown_, error, toMatx(frame.ground), toMatx(K)};
-    if (const auto epipole = epipole_.update(input, elapsed_s_)) return {*epipole, parameters_};
+    if (const auto epipole = epipole_.update(input, elapsed_s_))
+      return ParallaxSegment(*epipole, parameters_);
   }
-  if (!frame.motion && frame.front) return {frame.ground, *frame.front, parameters_};
-  return {frame.motion, K, parameters_};
+  if (frame.front) return ParallaxSegment(frame.ground, *frame.front, parameters_);
+  return std::nullopt;
 }
 
 bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual,
@@ -158,9 +169,9 @@ HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const cv::M
   return registrationError(flow, variance, unknown_, segment, static_cast<float>(kExpectedErrorPx / scale_));
 }
 
-FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const cv::Mat1f& variance,
-                                              const cv::Mat2f& flow, double frames) {
-  const HomographyFlow error = registration(flow, variance, segment);
+FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const HomographyFlow& error,
+                                              const cv::Mat1f& variance, const cv::Mat2f& flow,
+                                              double frames) {
   FrameEvidence evidence{cv::Mat2f(flow.size()), flow * (1 / frames)};
   speed_.create(flow.size());
   for (int y = 0; y < flow.rows; ++y) {

@@ -47,12 +47,14 @@ class ParallaxEvidence {
  private:
   cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
                      double frames);
-  ParallaxSegment segmentOf(const EarlierFrame& frame, const Eigen::Matrix3d& K, const cv::Mat2f& flow,
-                            const cv::Mat1f& variance);
+  /// By the epipole, or else by the front plane. `error`: of the registration without parallax.
+  std::optional<ParallaxSegment> segmentWithoutMotion(const EarlierFrame& frame, const Eigen::Matrix3d& K,
+                                                      const cv::Mat2f& flow, const cv::Mat1f& variance,
+                                                      const HomographyFlow& error);
   HomographyFlow registration(const cv::Mat2f& flow, const cv::Mat1f& variance,
                               const ParallaxSegment& segment) const;
-  FrameEvidence frameEvidence(const ParallaxSegment& segment, const cv::Mat1f& variance,
-                              const cv::Mat2f& flow, double frames);
+  FrameEvidence frameEvidence(const ParallaxSegment& segment, const HomographyFlow& error,
+                              const cv::Mat1f& variance, const cv::Mat2f& flow, double frames);
   /// True if much of the image moves so fast that the previous frame is a better reference than an earlier
   /// one.
   bool hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;

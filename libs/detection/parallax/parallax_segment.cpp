@@ -38,7 +38,7 @@ cv::Vec2f ParallaxSegment::end(const cv::Vec2f& ground) const {
   constexpr float kBeyondFront = 1.5F;  // for parts that protrude from the plane
   // A point at depth z lies at (a + e / z) / (a_3 + e_3 / z), a its image at infinity: whatever the depth, it
   // moves along e_12 - e_3 ground.
-  if (!to_front_) return {epipole_[0] - epipole_[2] * ground[0], epipole_[1] - epipole_[2] * ground[1]};
+  if (!to_front_) return parallaxOf(epipole_, ground);
   const cv::Vec3f front = *to_front_ * cv::Vec3f(ground[0], ground[1], 1);
   return kBeyondFront * (cv::Vec2f(front[0], front[1]) / front[2] - ground);
 }

@@ -11,6 +11,11 @@
 
 namespace redbee {
 
+/// Vector of the parallax at position `ground` [px], of an epipole e (homogeneous): e_12 - e_3 ground.
+inline cv::Vec2f parallaxOf(const cv::Vec3f& epipole, const cv::Vec2f& ground) {
+  return {epipole[0] - epipole[2] * ground[0], epipole[1] - epipole[2] * ground[1]};
+}
+
 /// The residual flow of a static surface nearer than the ground lies on the line through the epipole e = K t,
 /// between 0 (ground) and the flow of a surface at the smallest plausible depth. Without an IMU the front
 /// plane gives the segment, somewhat extended for surfaces in front of it. With neither the segment is the

@@ -65,7 +65,7 @@ DetectorOutput Rival::step(const FrameInput& input) {
   output.mask = cv::Mat1b::zeros(size);
   if (!good) {
     tracker_.propagate(elapsed, std::nullopt);
-    output.detections = tracker_.skip(size).detections;
+    output.detections = tracker_.skip(size);
     return output;
   }
   Eigen::Matrix3d background;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "redbee/imaging/box_overlap.hpp"
 #include "tests/support/tracked_objects.hpp"
 
 namespace redbee::test {
@@ -12,7 +13,7 @@ namespace {
 /// The identity of the seen track whose box overlaps this one most; 0: none by half.
 int identityAt(const std::vector<Detection>& tracks, const cv::Rect& box) {
   for (const Detection& track : tracks)
-    if (track.seen && overlap(track.box, box) > 0.5) return track.id;
+    if (track.seen && intersectionOverUnion(track.box, box) > 0.5) return track.id;
   return 0;
 }
 
@@ -58,7 +59,7 @@ TEST(MergeSplit, ABodyInTwoHalvesStaysOneTrack) {
     const auto tracks = flight.step(in_halves ? Regions{{upper}, {lower}} : Regions{{body}});
     ASSERT_EQ(tracks.size(), 1U) << "frame " << k;
     EXPECT_EQ(tracks[0].id, 1);
-    EXPECT_GT(overlap(tracks[0].box, body), 0.8) << "frame " << k;
+    EXPECT_GT(intersectionOverUnion(tracks[0].box, body), 0.8) << "frame " << k;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/imaging/box_overlap.hpp"
 #include "tests/support/tracked_objects.hpp"
 
 namespace redbee::test {
@@ -50,7 +51,7 @@ TEST(ObjectTracker, FollowsAConstantVelocityUnderAMovingCamera) {
     ASSERT_EQ(tracks.size(), 1U) << "frame " << k;
     EXPECT_EQ(tracks[0].id, 1);
     EXPECT_EQ(tracks[0].seen, !is_missed);
-    EXPECT_GT(overlap(tracks[0].box, truth), is_missed ? 0.5 : 0.8) << "frame " << k;
+    EXPECT_GT(intersectionOverUnion(tracks[0].box, truth), is_missed ? 0.5 : 0.8) << "frame " << k;
   }
 }
 
