@@ -25,12 +25,6 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-std::string listOf(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 }  // namespace
 
 void Loader::fail(const Place& place, const std::string& key, const std::string& what) {

@@ -110,6 +110,12 @@ void readValue(const YAML::Node& node, Vector8d& value) {
   value = Eigen::Map<const Vector8d>(readNumbers(node, 8).data());
 }
 
+std::string listOf(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 std::string valueText(double value) {
   std::array<char, 32> text{};
   const auto result = std::to_chars(text.data(), text.data() + text.size(), value);

@@ -33,6 +33,9 @@ void readValue(const YAML::Node& node, Eigen::Vector3d& value);
 void readValue(const YAML::Node& node, Eigen::Matrix3d& value);
 void readValue(const YAML::Node& node, Vector8d& value);
 
+/// "a, b, c", for error messages.
+std::string listOf(const std::vector<std::string>& names);
+
 /// YAML text that reads back to exactly the same value.
 std::string valueText(double value);
 std::string valueText(int value);

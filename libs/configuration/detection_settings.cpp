@@ -8,12 +8,6 @@
 namespace redbee::configuration {
 namespace {
 
-std::string listOf(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 bool isDetector(const std::string& name) {
   const std::vector<std::string> names = detectorNames();
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -34,7 +34,7 @@ InertialExtrinsics disturbed(const InertialExtrinsics& truth, const ExtrinsicsDi
                              std::string_view seed) {
   SplitMix64 random(seed);
   const double z = 2 * random.uniform() - 1;
-  const double longitude = 2 * kPi * random.uniform();
+  const double longitude = kTurn * random.uniform();
   const double radius = std::sqrt(1 - z * z);
   const Eigen::Vector3d axis(radius * std::cos(longitude), radius * std::sin(longitude), z);
   InertialExtrinsics result = truth;

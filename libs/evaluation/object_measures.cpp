@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "redbee/evaluation/truth_label.hpp"
 #include "redbee/imaging/box_overlap.hpp"
 
 namespace redbee {
@@ -13,8 +14,6 @@ namespace {
 constexpr double kFoundFraction = 0.25;
 constexpr double kFoundOverlap = 0.2;
 constexpr double kBoxTolerancePx = 2;
-constexpr uint8_t kMoving = 255;
-constexpr uint8_t kBackground = 0;
 
 struct Component {
   cv::Rect2d box;
@@ -94,9 +93,9 @@ void countBoxes(const std::vector<Component>& components, const ObjectTruth& tru
 
 ObjectTruth objectsOfMask(const cv::Mat1b& mask) {
   ObjectTruth truth;
-  const int count = cv::connectedComponents(mask == kMoving, truth.ids, 8, CV_32S);
+  const int count = cv::connectedComponents(mask == kTruthMoving, truth.ids, 8, CV_32S);
   for (int id = 1; id < count; ++id) truth.objects.push_back({id, {}, true});
-  truth.ignored = (mask != kMoving) & (mask != kBackground);
+  truth.ignored = (mask != kTruthMoving) & (mask != kTruthStatic);
   truth.has_identities = false;
   return truth;
 }

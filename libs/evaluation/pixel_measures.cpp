@@ -4,11 +4,10 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "redbee/evaluation/truth_label.hpp"
+
 namespace redbee {
 namespace {
-
-constexpr uint8_t kMoving = 255;
-constexpr uint8_t kBackground = 0;
 
 OperatingPoint operatingPoint(int threshold, int64_t hits, int64_t false_alarms, int64_t positives) {
   OperatingPoint point;
@@ -29,9 +28,9 @@ void PixelMeasures::add(const cv::Mat1b& probability, const cv::Mat1b& truth) {
     const uint8_t* p = probability[row];
     const uint8_t* t = truth[row];
     for (int column = 0; column < truth.cols; ++column) {
-      if (t[column] == kMoving) {
+      if (t[column] == kTruthMoving) {
         ++moving_[p[column]];
-      } else if (t[column] == kBackground) {
+      } else if (t[column] == kTruthStatic) {
         ++background_[p[column]];
       }
     }

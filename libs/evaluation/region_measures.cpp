@@ -4,12 +4,12 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "redbee/evaluation/truth_label.hpp"
+
 namespace redbee {
 namespace {
 
 constexpr double kContourTolerance = 0.008;  // of the image's diagonal
-constexpr uint8_t kMoving = 255;
-constexpr uint8_t kStatic = 0;
 
 /// Pixels whose right, lower or lower right neighbour lies on the other side, as DAVIS' seg2bmap has them.
 cv::Mat1b contourOf(const cv::Mat1b& region) {
@@ -51,8 +51,8 @@ double contourAccuracy(const cv::Mat1b& mask, const cv::Mat1b& truth) {
 
 void RegionMeasures::add(const cv::Mat1b& mask, const cv::Mat1b& labels) {
   if (mask.size() != labels.size()) throw std::invalid_argument("RegionMeasures: maps of different sizes");
-  const cv::Mat1b truth = labels == kMoving;
-  const cv::Mat1b known_mask = (mask != 0) & (truth | (labels == kStatic));
+  const cv::Mat1b truth = labels == kTruthMoving;
+  const cv::Mat1b known_mask = (mask != 0) & (truth | (labels == kTruthStatic));
   j_sum_ += regionSimilarity(known_mask, truth);
   f_sum_ += contourAccuracy(known_mask, truth);
   ++frames_;

@@ -4,6 +4,7 @@
 namespace redbee {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kTurn = 2 * kPi;      ///< rad
 inline constexpr double kDegree = kPi / 180;  ///< rad
 
 }  // namespace redbee

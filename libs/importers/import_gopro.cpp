@@ -10,7 +10,7 @@
 namespace redbee {
 namespace {
 
-std::vector<ImuSample> readImu(const std::filesystem::path& video) {
+std::vector<ImuSample> imuOf(const std::filesystem::path& video) {
   const std::vector<DataPacket> packets = readDataTrack(video, "gpmd");
   if (packets.empty()) throw InputError(video, "has no GPMF track: import it as a video");
   try {
@@ -31,7 +31,7 @@ ImportSummary importGopro(const ImportOptions& options, Progress& progress) {
   ImportSummary summary;
   summary.vehicle.name = options.source.stem().string();
   summary.vehicle.R_CI = nominalMounting();
-  FlightMerger merger(options.log, options.channels, readImu(options.source), {});
+  FlightMerger merger(options.log, options.channels, imuOf(options.source), {});
   addVideoFrames(options, merger, summary, progress);
   merger.close(summary);
   return summary;

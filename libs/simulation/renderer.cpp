@@ -13,7 +13,6 @@ namespace redbee::simulation {
 namespace {
 
 constexpr float kHorizonInverseDepth = 1e-3F;  // 1/m: ground farther away than this is sky
-constexpr double kTurn = 2 * kPi;
 
 /// Scaled so that the grey level of the coloured surface is the uncoloured one.
 cv::Vec3f tintOf(const Eigen::Vector3d& bgr) {

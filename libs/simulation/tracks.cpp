@@ -11,7 +11,6 @@
 namespace redbee::simulation {
 namespace {
 
-constexpr double kTurn = 2 * kPi;
 constexpr double kOutlierLow = 5, kOutlierHigh = 30;  // px off the true place
 
 /// Column by column from the left, so that a fraction of the last ones is a connected region.

@@ -19,7 +19,7 @@ struct Derivatives {
 Derivatives evaluate(const Channel& channel, double t_s) {
   Derivatives sum{channel.offset + channel.rate * t_s, channel.rate, 0};
   for (const Sinusoid& s : channel.sinusoids) {
-    const double omega = 2 * kPi * s.frequency_hz;
+    const double omega = kTurn * s.frequency_hz;
     const double angle = omega * t_s + s.phase;
     sum.value += s.amplitude * std::sin(angle);
     sum.first += s.amplitude * omega * std::cos(angle);
@@ -52,7 +52,7 @@ class ChannelMaker {
     double band = low_hz;
     for (const double amplitude : amplitudes) {
       const double frequency = uniform(band, band + fraction);
-      channel.sinusoids.push_back({amplitude, frequency, uniform(0, 2 * kPi)});
+      channel.sinusoids.push_back({amplitude, frequency, uniform(0, kTurn)});
       band += fraction;
     }
     return channel;

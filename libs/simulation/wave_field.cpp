@@ -8,8 +8,6 @@
 namespace redbee::simulation {
 namespace {
 
-constexpr double kTurn = 2 * kPi;
-
 /// Sine of an angle in turns; the table's step shifts a wave by less than a hundredth of its amplitude.
 float sineOfTurns(float turns) {
   constexpr int kEntries = 1024;

@@ -9,7 +9,6 @@
 namespace redbee {
 namespace {
 
-constexpr double kMegabyte = 1048576;
 constexpr const char* kNone = "-";
 
 /// A measure over clips: their mean, and over how many.

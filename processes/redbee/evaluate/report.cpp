@@ -21,7 +21,6 @@ namespace redbee {
 namespace {
 
 constexpr int kImages = 6;
-constexpr double kMegabyte = 1048576;
 
 std::string count(const nlohmann::json& json, const char* key) {
   return std::to_string(json.at(key).get<int64_t>());

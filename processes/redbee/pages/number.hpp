@@ -7,6 +7,8 @@
 
 namespace redbee {
 
+inline constexpr double kMegabyte = 1 << 20;  ///< bytes
+
 /// With this many decimals.
 inline std::string fixed(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
 

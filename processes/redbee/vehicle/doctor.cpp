@@ -16,13 +16,13 @@ namespace redbee {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kPoll = std::chrono::milliseconds(20);
+constexpr auto kTestPoll = std::chrono::milliseconds(20);
 constexpr const char* kProbeChannel = "REDBEE_DOCTOR";
 
 template <typename Done>
 void handleUntil(Bus& bus, double seconds, const Done& done) {
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  while (!done() && Clock::now() < end) bus.handle(kPoll);
+  while (!done() && Clock::now() < end) bus.handle(kTestPoll);
 }
 
 bool onPath(const std::string& program) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "processes/redbee/pages/number.hpp"
 #include "processes/redbee/vehicle/recording_queue.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/bus/socket_drops.hpp"
@@ -22,7 +23,6 @@ namespace redbee {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kMegabyte = 1 << 20;
 constexpr int64_t kQueueBytes = int64_t{100} << 20;
 constexpr std::chrono::milliseconds kSyncPeriod{100};
 constexpr std::chrono::milliseconds kHealthPeriod{1000};

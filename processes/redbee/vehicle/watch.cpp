@@ -17,7 +17,7 @@ extern "C" {
 namespace redbee {
 namespace {
 
-constexpr int kQueue = 256;
+constexpr int kForegroundQueue = 256;
 constexpr std::chrono::milliseconds kPeriod{20};
 constexpr std::chrono::milliseconds kWaking{500};
 
@@ -84,7 +84,7 @@ void runWatch(const WatchOptions& options) {
   const auto bus = makeLcmBus(options.url);
   ProcessWatch watch;
   const Subscription subscription = bus->subscribe<process_health_t>(
-      channel, kQueue,
+      channel, kForegroundQueue,
       [&](const process_health_t& health) { watch.onHealth(health, ProcessWatch::Clock::now()); }, nullptr);
   const std::atomic<bool>& stop = stopOnSignals();
   auto wake_until = ProcessWatch::Clock::time_point::min();
