@@ -33,7 +33,7 @@ void initialiseAttitudes(JointState& state, const std::vector<Preintegration>& s
     R = nearestRotation(R * steps[k].R);
   }
   state.frames.back().q_GI = Eigen::Quaterniond(R);
-  const Eigen::Quaterniond upright = Eigen::Quaterniond::FromTwoVectors(upwards, Eigen::Vector3d::UnitZ());
+  const Eigen::Quaterniond upright = rotationBetween(upwards, Eigen::Vector3d::UnitZ());
   for (FrameState& frame : state.frames) frame.q_GI = (upright * frame.q_GI).normalized();
 }
 
@@ -214,7 +214,7 @@ void initialiseBeforeTarget(JointState& state, const JointInput& input) {
     frame.p_GI = -(pose.q_CT.conjugate() * pose.p_CT) - frame.q_GI * state.p_IC;
     if (pose.frame < steps.size()) upwards_T += frame.q_GI * steps[pose.frame].v;
   }
-  state.q_GT = Eigen::Quaterniond::FromTwoVectors(upwards_T, Eigen::Vector3d::UnitZ());
+  state.q_GT = rotationBetween(upwards_T, Eigen::Vector3d::UnitZ());
   for (FrameState& frame : state.frames) {
     frame.q_GI = (state.q_GT * frame.q_GI).normalized();
     frame.p_GI = state.q_GT * frame.p_GI;

@@ -1,8 +1,10 @@
 #include "redbee/fusion/estimate.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "redbee/geometry/products.hpp"
+#include "redbee/geometry/small_decompositions.hpp"
 
 namespace redbee {
 namespace {
@@ -15,7 +17,7 @@ Estimate identityEstimate() { return {Eigen::Matrix3d::Identity(), Matrix8d::Zer
 
 Matrix8d symmetric(const Matrix8d& P) { return 0.5 * (P + P.transpose()); }
 
-Matrix8d transformed(const Matrix8d& J, const Matrix8d& P) { return symmetric(J * P * J.transpose()); }
+Matrix8d transformed(const Matrix8d& J, const Matrix8d& P) { return symmetric(mappedCovariance(J, P)); }
 
 bool isUsable(const Eigen::Matrix3d& H) {
   return H.allFinite() && std::abs(H(2, 2)) > 1e-9 && normaliseHomography(H).determinant() > kMinDeterminant;
@@ -23,8 +25,8 @@ bool isUsable(const Eigen::Matrix3d& H) {
 
 bool isCovariance(const Matrix8d& P) {
   if (!P.allFinite() || P.diagonal().minCoeff() < 0) return false;
-  const Eigen::LDLT<Matrix8d> factors(symmetric(P));
-  return factors.info() == Eigen::Success && factors.vectorD().minCoeff() > -1e-12 * (1 + P.trace());
+  const LdltFactors factors(symmetric(P));
+  return factors.succeeded() && factors.smallestPivot() > -1e-12 * (1 + P.trace());
 }
 
 Estimate composed(const Estimate& second, const Estimate& first) {
@@ -36,8 +38,9 @@ Estimate composed(const Estimate& second, const Estimate& first) {
 Estimate remainder(const Estimate& whole, const Estimate& first) {
   const Eigen::Matrix3d back = normaliseHomography(first.H.inverse());
   const ComposeJacobians J = composeJacobians(whole.H, back);
-  return {normaliseHomography(whole.H * back),
-          transformed(J.by_left, whole.P) + transformed(J.by_right * inverseJacobian(first.H), first.P)};
+  return {
+      normaliseHomography(whole.H * back),
+      transformed(J.by_left, whole.P) + transformed(product(J.by_right, inverseJacobian(first.H)), first.P)};
 }
 
 }  // namespace redbee

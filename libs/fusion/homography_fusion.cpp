@@ -1,11 +1,12 @@
 #include "redbee/fusion/homography_fusion.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "redbee/fusion/overlap.hpp"
 #include "redbee/fusion/transfer_sigma.hpp"
 #include "redbee/geometry/chi_square.hpp"
+#include "redbee/geometry/products.hpp"
+#include "redbee/geometry/small_decompositions.hpp"
 
 namespace redbee {
 namespace {
@@ -112,8 +113,8 @@ Matrix8d HomographyFusion::toScaled(const Estimate& estimate) const {
   if (parameters_.noise != FusionNoise::kPaper) return estimate.P;
   const Eigen::Matrix3d& T_inverse = scaling_.T_inverse;
   const Matrix8d by_entries =
-      composeJacobians(scaling_.T, normaliseHomography(estimate.H * T_inverse)).by_right *
-      composeJacobians(estimate.H, T_inverse).by_left;
+      product(composeJacobians(scaling_.T, normaliseHomography(estimate.H * T_inverse)).by_right,
+              composeJacobians(estimate.H, T_inverse).by_left);
   return transformed(by_entries, estimate.P);
 }
 
@@ -132,7 +133,7 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
   const Matrix8d propagated = propagatedCovariance(inertial.H);
   const Matrix8d prior = paper ? Matrix8d(propagated + inertial.P) : inertial.P;
   const Matrix8d S = symmetric(prior + visual.P);
-  const Eigen::LDLT<Matrix8d> factors(S);
+  const LdltFactors factors(S);
   out.has_innovation = true;
   const Vector8d innovation = toVector(visual.H) - toVector(inertial.H);
   out.test_ratio = innovation.dot(factors.solve(innovation)) / gate_;

@@ -12,7 +12,7 @@ double transferSigma(const Eigen::Matrix3d& H, const Matrix8d& covariance, int w
     for (int column = 0; column <= kSteps; ++column) {
       const Eigen::Vector3d pixel(column * (width - 1.0) / kSteps, row * (height - 1.0) / kSteps, 1);
       const auto J = transferJacobian(H, (scaling.T * pixel).head<2>());
-      sum += (J * covariance * J.transpose()).trace();
+      sum += transferCovariance(J, covariance).trace();
     }
   }
   return scaling.unit_px * std::sqrt(sum / ((kSteps + 1) * (kSteps + 1)));

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <limits>
 
+#include "redbee/geometry/products.hpp"
 #include "redbee/geometry/row_major.hpp"
 #include "redbee/geometry/so3.hpp"
 
@@ -68,6 +69,12 @@ Eigen::Matrix<double, 2, 8> transferJacobian(const Eigen::Matrix3d& H, const Eig
   return J / y.z();
 }
 
+Eigen::Matrix<double, 2, 2, Eigen::RowMajor> transferCovariance(const Eigen::Matrix<double, 2, 8>& J,
+                                                                const Matrix8d& P) {
+  const Eigen::Matrix<double, 2, 8> JP = J.lazyProduct(P);
+  return JP.lazyProduct(J.transpose());
+}
+
 Eigen::Matrix2d transferJacobianPoint(const Eigen::Matrix3d& H, const Eigen::Vector2d& x) {
   const Eigen::Vector3d y = H * x.homogeneous();
   return (H.topLeftCorner<2, 2>() - y.hnormalized() * H.block<1, 2>(2, 0)) / y.z();
@@ -83,12 +90,13 @@ Eigen::Matrix<double, 8, 9> projectionJacobian(const Eigen::Matrix3d& M) {
 ComposeJacobians composeJacobians(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) {
   const Eigen::Matrix<double, 8, 9> project = projectionJacobian(A * B);
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  return {project * rowwiseProduct(I, B).leftCols<8>(), project * rowwiseProduct(A, I).leftCols<8>()};
+  return {product(project, Matrix98d(rowwiseProduct(I, B).leftCols<8>())),
+          product(project, Matrix98d(rowwiseProduct(A, I).leftCols<8>()))};
 }
 
 Matrix8d inverseJacobian(const Eigen::Matrix3d& H) {
   const Eigen::Matrix3d inverse = H.inverse();
-  return projectionJacobian(inverse) * Matrix98d(-rowwiseProduct(inverse, inverse).leftCols<8>());
+  return product(projectionJacobian(inverse), Matrix98d(-rowwiseProduct(inverse, inverse).leftCols<8>()));
 }
 
 Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion) {

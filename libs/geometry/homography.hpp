@@ -39,6 +39,9 @@ Eigen::Matrix3d fromVector(const Vector8d& h);
 Eigen::Vector2d transfer(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
 /// d transfer(H, x) / d toVector(H), for H with h33 = 1.
 Eigen::Matrix<double, 2, 8> transferJacobian(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
+/// J P J', the covariance of the transferred point by that of the homography.
+Eigen::Matrix<double, 2, 2, Eigen::RowMajor> transferCovariance(const Eigen::Matrix<double, 2, 8>& J,
+                                                                const Matrix8d& P);
 /// d transfer(H, x) / d x.
 Eigen::Matrix2d transferJacobianPoint(const Eigen::Matrix3d& H, const Eigen::Vector2d& x);
 

@@ -46,6 +46,23 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& M) {
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
+Eigen::Quaterniond rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  constexpr double kOpposite = 1e-12;  // of the cosine
+  const Eigen::Vector3d a = from.normalized();
+  const Eigen::Vector3d b = to.normalized();
+  const double cosine = b.dot(a);
+  Eigen::Quaterniond q;
+  if (cosine < -1 + kOpposite) {
+    q.w() = 0;
+    q.vec() = a.unitOrthogonal();
+    return q;
+  }
+  const double twice_w = std::sqrt((1 + cosine) * 2);
+  q.vec() = a.cross(b) * (1 / twice_w);
+  q.w() = 0.5 * twice_w;
+  return q;
+}
+
 bool isRotation(const Eigen::Matrix3d& R, double tolerance) {
   return R.allFinite() &&
          (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= tolerance &&

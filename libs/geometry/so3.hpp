@@ -20,6 +20,10 @@ Eigen::Matrix3d rightJacobianSO3(const Eigen::Vector3d& phi);
 /// The rotation closest to `M` in the Frobenius norm.
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& M);
 
+/// The smallest rotation that turns `from` into the direction of `to`; half a turn about some axis if they
+/// are opposite.
+Eigen::Quaterniond rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// True if `R` is orthonormal with determinant +1, each entry of R R' - I within `tolerance`.
 bool isRotation(const Eigen::Matrix3d& R, double tolerance = 1e-6);
 

@@ -1,11 +1,12 @@
 #include "redbee/inertial/corrections.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "redbee/geometry/chi_square.hpp"
+#include "redbee/geometry/products.hpp"
+#include "redbee/geometry/small_decompositions.hpp"
 #include "redbee/geometry/so3.hpp"
 #include "redbee/inertial/homography_measurement.hpp"
 
@@ -99,9 +100,9 @@ CorrectionReport VisionCorrection::correct(NavigationState& state, const Homogra
   const Vector8d innovation = toVector(scaling.scale(observation.H)) - z.predicted;
   const Matrix8d R = feedback_correlation_frames_ * observation.covariance + z.second_order_covariance;
   const Matrix8d S = z.linear_covariance + R;
-  const Eigen::LDLT<Matrix8d> factors(S);
-  if (!innovation.allFinite() || factors.info() != Eigen::Success || !factors.isPositive()) return {};
-  const Matrix8d S_inverse = factors.solve(Matrix8d::Identity());
+  const LdltFactors factors(S);
+  if (!innovation.allFinite() || !factors.succeeded() || !factors.isPositive()) return {};
+  const Matrix8d S_inverse = factors.inverse();
   const double test_ratio = innovation.dot(S_inverse * innovation) / gate_;
   if (!std::isfinite(test_ratio)) return {};
   if (test_ratio > 1) {
@@ -160,7 +161,7 @@ void correctVertical(NavigationState& state, const Eigen::Vector3d& force, doubl
   MeasurementJacobian<3> H = MeasurementJacobian<3>::Zero();
   H.middleCols<3>(kAttitude) = skew(expected);
   H.middleCols<3>(kAccelBias).setIdentity();
-  const Eigen::Matrix3d S_inverse = (H * state.P * H.transpose() + R).inverse();
+  const Eigen::Matrix3d S_inverse = mappedCovariancePlus(H, state.P, R).inverse();
   const Eigen::Vector3d innovation = force - expected;
   if (innovation.dot(S_inverse * innovation) > chiSquareQuantile(parameters.innovation_gate_probability, 3)) {
     return;

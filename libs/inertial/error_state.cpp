@@ -70,8 +70,10 @@ MovingMatrix processNoise(const Step& step, double gap_s, const PropagationParam
 
 void moveCovariance(ErrorCovariance& P, const MovingMatrix& F, const MovingMatrix& Q) {
   constexpr int kRest = kErrorSize - kMovingSize;
-  const MovingMatrix moved = F * P.topLeftCorner<kMovingSize, kMovingSize>() * F.transpose() + Q;
-  const Eigen::Matrix<double, kMovingSize, kRest> cross = F * P.topRightCorner<kMovingSize, kRest>();
+  using Cross = Eigen::Matrix<double, kMovingSize, kRest>;
+  const MovingMatrix moved =
+      mappedCovariancePlus(F, MovingMatrix(P.topLeftCorner<kMovingSize, kMovingSize>()), Q);
+  const Cross cross = product(F, Cross(P.topRightCorner<kMovingSize, kRest>()));
   P.topLeftCorner<kMovingSize, kMovingSize>() = 0.5 * (moved + moved.transpose());
   P.topRightCorner<kMovingSize, kRest>() = cross;
   P.bottomLeftCorner<kRest, kMovingSize>() = cross.transpose();
@@ -117,6 +119,11 @@ void addError(NavigationState& state, const ErrorVector& error) {
   state.R_GI_clone = state.R_GI_clone * expSO3(error.segment<3>(kCloneAttitude));
   state.p_GI_clone += error.segment<3>(kClonePosition);
   state.R_CI = expSO3(error.segment<3>(kMounting)) * state.R_CI;
+}
+
+void setCovariance(NavigationState& state, const ErrorCovariance& rest, const ErrorCovariance& noise) {
+  const ErrorCovariance P = mappedCovariance(rest, state.P) + noise;
+  state.P = 0.5 * (P + P.transpose());
 }
 
 bool isValid(const NavigationState& state) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "redbee/geometry/products.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/inertial/imu_buffer.hpp"
 
@@ -63,16 +64,18 @@ void clonePose(NavigationState& state);
 /// Adds an estimated error to the state.
 void addError(NavigationState& state, const ErrorVector& error);
 
+/// P <- rest P rest' + noise.
+void setCovariance(NavigationState& state, const ErrorCovariance& rest, const ErrorCovariance& noise);
+
 /// Kalman update in Joseph's form. `innovation` = measured - predicted; S_inverse of its covariance H P H' +
 /// R.
 template <int kRows>
 void update(NavigationState& state, const MeasurementJacobian<kRows>& H,
             const Eigen::Matrix<double, kRows, 1>& innovation, const Eigen::Matrix<double, kRows, kRows>& R,
             const Eigen::Matrix<double, kRows, kRows>& S_inverse) {
-  const Eigen::Matrix<double, kErrorSize, kRows> gain = state.P * H.transpose() * S_inverse;
-  const ErrorCovariance rest = ErrorCovariance::Identity() - gain * H;
-  const ErrorCovariance P = rest * state.P * rest.transpose() + gain * R * gain.transpose();
-  state.P = 0.5 * (P + P.transpose());
+  const Eigen::Matrix<double, kErrorSize, kRows> gain = product(productTransposed(state.P, H), S_inverse);
+  const ErrorCovariance rest = ErrorCovariance::Identity() - product(gain, H);
+  setCovariance(state, rest, productTransposed(product(gain, R), gain));
   addError(state, gain * innovation);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "redbee/geometry/products.hpp"
 #include "redbee/geometry/so3.hpp"
 
 namespace redbee {
@@ -69,12 +70,13 @@ HomographyMeasurement homographyMeasurement(const NavigationState& state, const 
   const PlaneHomographyJacobians by = planeHomographyJacobians(K_scaled, motion);
   HomographyMeasurement z;
   z.predicted = toVector(planeHomography(K_scaled, motion));
-  z.jacobian = by.by_rotation * jacobians.rotation + by.by_translation * jacobians.translation +
-               by.by_normal * jacobians.normal + by.by_height * jacobians.height;
-  z.linear_covariance = z.jacobian * state.P * z.jacobian.transpose();
+  z.jacobian = product(by.by_rotation, jacobians.rotation) +
+               product(by.by_translation, jacobians.translation) + product(by.by_normal, jacobians.normal) +
+               by.by_height * jacobians.height;
+  z.linear_covariance = mappedCovariance(z.jacobian, state.P);
   z.second_order_covariance =
-      productCovariance(K_scaled, motion, jacobians.translation * state.P * jacobians.translation.transpose(),
-                        jacobians.normal * state.P * jacobians.normal.transpose());
+      productCovariance(K_scaled, motion, mappedCovariance(jacobians.translation, state.P),
+                        mappedCovariance(jacobians.normal, state.P));
   return z;
 }
 
@@ -107,7 +109,7 @@ void describe(const NavigationState& state, const Camera& camera, const Eigen::V
   const Matrix8d covariance =
       z.linear_covariance + z.second_order_covariance + kVarianceFloor * Matrix8d::Identity();
   result.covariance = 0.5 * (covariance + covariance.transpose());
-  result.rotation_covariance = J.rotation * state.P * J.rotation.transpose();
+  result.rotation_covariance = mappedCovariance(J.rotation, state.P);
   result.direction_of_gravity = -(state.R_CI * state.R_GI.transpose()).col(2);
   result.height_m = cameraHeight(state, p_IC);
   result.height_sigma_m = cameraHeightSigma(state, p_IC);

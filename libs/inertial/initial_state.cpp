@@ -33,7 +33,7 @@ void setVariance(ErrorCovariance& P, int index, const Eigen::Vector3d& sigma) {
 
 /// The smallest rotation that turns `up` into z.
 Eigen::Matrix3d righting(const Eigen::Vector3d& up) {
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return rotationBetween(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 /// Tilt error = skew(up) (bias error + the drone's acceleration) / g, to first order.

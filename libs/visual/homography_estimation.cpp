@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "redbee/geometry/chi_square.hpp"
+#include "redbee/geometry/small_decompositions.hpp"
 #include "redbee/visual/plane_refinement.hpp"
 #include "redbee/visual/scaled_pairs.hpp"
 
@@ -50,7 +51,7 @@ std::vector<uint8_t> flagNear(const ScaledPairs& pairs, const PlanePrior& prior,
     }
     const Eigen::Matrix<double, 2, 8> J = transferJacobian(prior.H, a);
     const Eigen::Matrix2d S =
-        J * prior.covariance * J.transpose() + sigma * sigma * Eigen::Matrix2d::Identity();
+        transferCovariance(J, prior.covariance) + sigma * sigma * Eigen::Matrix2d::Identity();
     near[i] = residual.dot(S.ldlt().solve(residual)) <= gate ? 1 : 0;
   }
   return near;
@@ -96,7 +97,7 @@ std::optional<HomographyEstimate> estimateHomographyNear(const PointTracks& trac
   const Matrix8d S = prior.covariance + estimate->covariance;
   const Vector8d innovation = toVector(scaling.scale(estimate->H)) - toVector(prior.H);
   static const double gate = chiSquareQuantile(kPlaneProbability, 8);
-  if (!(innovation.dot(S.ldlt().solve(innovation)) <= gate)) return std::nullopt;
+  if (!(innovation.dot(LdltFactors(S).solve(innovation)) <= gate)) return std::nullopt;
   return estimate;
 }
 

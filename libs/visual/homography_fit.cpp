@@ -1,11 +1,11 @@
 #include "redbee/visual/homography_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "redbee/geometry/small_decompositions.hpp"
 #include "redbee/visual/normal_equations.hpp"
 
 namespace redbee {
@@ -84,7 +84,7 @@ std::optional<LeastSquares> fitHomography(const ScaledPairs& pairs, const std::v
   for (int iteration = 0; iteration < iterations; ++iteration) {
     Matrix8d damped = equations.information;
     damped.diagonal() *= 1 + damping;
-    const Vector8d step = damped.ldlt().solve(equations.gradient);
+    const Vector8d step = LdltFactors(damped).solve(equations.gradient);
     if (!step.allFinite()) return std::nullopt;
     const NormalEquations next = linearise(packed, fromVector(h + step), knee, prior);
     if (next.cost <= equations.cost) {
@@ -96,12 +96,12 @@ std::optional<LeastSquares> fitHomography(const ScaledPairs& pairs, const std::v
     }
     if (step.norm() < kConverged) break;
   }
-  const Eigen::LDLT<Matrix8d> factors(equations.information);
-  if (factors.info() != Eigen::Success || !factors.isPositive() || factors.rcond() < 1e-12)
+  const LdltFactors factors(equations.information);
+  if (!factors.succeeded() || !factors.isPositive() || factors.reciprocalCondition() < 1e-12)
     return std::nullopt;
   LeastSquares fit;
   fit.H = fromVector(h);
-  fit.inverse_information = factors.solve(Matrix8d::Identity());
+  fit.inverse_information = factors.inverse();
   fit.inverse_information = 0.5 * (fit.inverse_information + fit.inverse_information.transpose()).eval();
   fit.variance = varianceOf(equations, packed.size());
   return fit;

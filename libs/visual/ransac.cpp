@@ -21,13 +21,9 @@ constexpr double kKnee = 0.5;
 PlanePrior::PlanePrior(const Eigen::Matrix3d& H_scaled, const Matrix8d& covariance_scaled)
     : H(H_scaled), covariance(covariance_scaled), factors(covariance) {}
 
-bool PlanePrior::isUsable() const {
-  return H.allFinite() && factors.info() == Eigen::Success && factors.isPositive();
-}
+bool PlanePrior::isUsable() const { return H.allFinite() && factors.succeeded() && factors.isPositive(); }
 
-FitPrior PlanePrior::forFit(double variance) const {
-  return {toVector(H), variance * Matrix8d(factors.solve(Matrix8d::Identity()))};
-}
+FitPrior PlanePrior::forFit(double variance) const { return {toVector(H), variance * factors.inverse()}; }
 
 double PlanePrior::squaredDistance(const Eigen::Matrix3d& candidate) const {
   const Vector8d difference = toVector(candidate) - toVector(H);

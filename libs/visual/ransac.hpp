@@ -2,7 +2,6 @@
 // (geometry/homography.hpp, ImageScaling).
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "redbee/geometry/small_decompositions.hpp"
 #include "redbee/visual/homography_fit.hpp"
 
 namespace redbee {
@@ -47,7 +47,7 @@ struct PlanePrior {
 
   Eigen::Matrix3d H;
   Matrix8d covariance;
-  Eigen::LDLT<Matrix8d> factors;
+  LdltFactors factors;
 };
 
 class Ransac {

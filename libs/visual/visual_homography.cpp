@@ -1,9 +1,11 @@
 #include "redbee/visual/visual_homography.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
+
+#include "redbee/geometry/products.hpp"
+#include "redbee/geometry/small_decompositions.hpp"
 
 namespace redbee {
 namespace {
@@ -41,7 +43,7 @@ double sharpnessOf(const Pyramid& pyramid) {
   Eigen::Matrix2d tensor;
   tensor << static_cast<double>(xx), static_cast<double>(xy), static_cast<double>(xy),
       static_cast<double>(yy);
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scale * tensor).eigenvalues()(0);
+  return smallestEigenvalue(scale * tensor);
 }
 
 }  // namespace
@@ -64,8 +66,7 @@ HomographyPrediction compose(const HomographyPrediction& later, const Homography
                              const ImageScaling& scaling) {
   const auto J = composeJacobians(scaling.scale(later.H), scaling.scale(earlier.H));
   return {normaliseHomography(later.H * earlier.H),
-          J.by_left * later.covariance * J.by_left.transpose() +
-              J.by_right * earlier.covariance * J.by_right.transpose()};
+          mappedCovariance(J.by_left, later.covariance) + mappedCovariance(J.by_right, earlier.covariance)};
 }
 
 VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& parameters,

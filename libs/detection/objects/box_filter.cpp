@@ -1,9 +1,12 @@
 #include "redbee/detection/objects/box_filter.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/small_decompositions.hpp"
 
 namespace redbee {
 namespace {
@@ -97,7 +100,7 @@ double BoxFilter::centreDistance(const BoxMeasurement& measured) const {
       0.5 * (measured.edges_px.head<2>() + measured.edges_px.tail<2>()) - state_.head<2>();
   Eigen::Matrix2d S = covariance_.topLeftCorner<2, 2>();
   S.diagonal() += 0.25 * (measured.variance_px2.head<2>() + measured.variance_px2.tail<2>());
-  return innovation.dot(S.llt().solve(innovation));
+  return squaredMahalanobis(innovation, S);
 }
 
 cv::Rect2d BoxFilter::box() const {

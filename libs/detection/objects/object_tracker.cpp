@@ -1,12 +1,13 @@
 #include "redbee/detection/objects/object_tracker.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "redbee/detection/objects/association.hpp"
 #include "redbee/geometry/assignment.hpp"
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/small_decompositions.hpp"
 #include "redbee/imaging/box_overlap.hpp"
 
 namespace redbee {
@@ -56,7 +57,7 @@ double stayedLogOdds(double age_s, double farthest) {
 bool movesApart(const BoxFilter& a, const BoxFilter& b) {
   const Eigen::Vector2d difference = a.velocity() - b.velocity();
   const Eigen::Matrix2d S = (a.covariance() + b.covariance()).bottomRightCorner<2, 2>();
-  return difference.dot(S.llt().solve(difference)) > kDistinctVelocity;
+  return squaredMahalanobis(difference, S) > kDistinctVelocity;
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "redbee/detection/rivals/lrr.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "redbee/detection/rivals/spectral_clustering.hpp"
+#include "redbee/geometry/decompositions.hpp"
+#include "redbee/geometry/products.hpp"
 
 namespace redbee {
 namespace {
@@ -19,17 +19,16 @@ constexpr double kRankTolerance = 1e-10;
 
 /// Columns: orthonormal basis of the row space.
 Eigen::MatrixXd rowSpace(const Eigen::MatrixXd& X) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(X, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& values = svd.singularValues();
-  const Eigen::Index rank = (values.array() > kRankTolerance * values(0)).count();
-  return svd.matrixV().leftCols(rank);
+  const ThinSvd svd = thinSvd(X);
+  const Eigen::Index rank = (svd.values.array() > kRankTolerance * svd.values(0)).count();
+  return svd.V.leftCols(rank);
 }
 
 /// Nearest matrix of small nuclear norm: singular values less `by`.
 Eigen::MatrixXd shrinkSingularValues(const Eigen::MatrixXd& M, double by) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd kept = (svd.singularValues().array() - by).max(0.0);
-  return svd.matrixU() * kept.asDiagonal() * svd.matrixV().transpose();
+  const ThinSvd svd = thinSvd(M);
+  const Eigen::VectorXd kept = (svd.values.array() - by).max(0.0);
+  return productTransposed(svd.U * kept.asDiagonal(), svd.V);
 }
 
 Eigen::MatrixXd shrinkColumns(const Eigen::MatrixXd& M, double by) {
@@ -42,9 +41,9 @@ Eigen::MatrixXd shrinkColumns(const Eigen::MatrixXd& M, double by) {
 
 LowRankRepresentation lowRankRepresentation(const Eigen::MatrixXd& X, double lambda) {
   const Eigen::MatrixXd basis = rowSpace(X);
-  const Eigen::MatrixXd A = X * basis;
-  const Eigen::MatrixXd inner = A.transpose() * A + Eigen::MatrixXd::Identity(A.cols(), A.cols());
-  const Eigen::LLT<Eigen::MatrixXd> solver(inner);
+  const Eigen::MatrixXd A = product(X, basis);
+  const Eigen::MatrixXd inner = transposedProduct(A, A) + Eigen::MatrixXd::Identity(A.cols(), A.cols());
+  const LltFactors solver(inner);
   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(A.cols(), X.cols());
   Eigen::MatrixXd Y1 = Eigen::MatrixXd::Zero(X.rows(), X.cols());
   Eigen::MatrixXd Y2 = Z;
@@ -53,9 +52,9 @@ LowRankRepresentation lowRankRepresentation(const Eigen::MatrixXd& X, double lam
   double mu = kFirstMu;
   while (answer.iterations < kMaxIterations && !answer.converged) {
     const Eigen::MatrixXd J = shrinkSingularValues(Z + Y2 / mu, 1 / mu);
-    Z = solver.solve(A.transpose() * (X - answer.E + Y1 / mu) + J - Y2 / mu);
-    answer.E = shrinkColumns(X - A * Z + Y1 / mu, lambda / mu);
-    const Eigen::MatrixXd data_gap = X - A * Z - answer.E;
+    Z = solver.solve(transposedProduct(A, X - answer.E + Y1 / mu) + J - Y2 / mu);
+    answer.E = shrinkColumns(X - product(A, Z) + Y1 / mu, lambda / mu);
+    const Eigen::MatrixXd data_gap = X - product(A, Z) - answer.E;
     const Eigen::MatrixXd copy_gap = Z - J;
     answer.constraint = data_gap.cwiseAbs().maxCoeff();
     answer.converged = std::max(answer.constraint, copy_gap.cwiseAbs().maxCoeff()) < kTolerance;
@@ -64,7 +63,7 @@ LowRankRepresentation lowRankRepresentation(const Eigen::MatrixXd& X, double lam
     mu = std::min(kGreatestMu, kRho * mu);
     ++answer.iterations;
   }
-  answer.Z = basis * Z;
+  answer.Z = product(basis, Z);
   return answer;
 }
 
@@ -74,12 +73,12 @@ std::vector<int> lrrClusters(const Eigen::MatrixXd& X, int count) {
   // Z = B Z_r with B orthonormal: its left singular vectors are B times those of the few rows of Z_r.
   const LowRankRepresentation answer = lowRankRepresentation(with_ones);
   const Eigen::MatrixXd basis = rowSpace(with_ones);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis.transpose() * answer.Z, Eigen::ComputeThinU);
-  const Eigen::VectorXd& values = svd.singularValues();
+  const ThinSvd svd = leftThinSvd(transposedProduct(basis, answer.Z));
+  const Eigen::VectorXd& values = svd.values;
   const Eigen::Index rank = std::max<Eigen::Index>(1, (values.array() > 1e-4 * values(0)).count());
-  Eigen::MatrixXd U = basis * svd.matrixU().leftCols(rank) * values.head(rank).cwiseSqrt().asDiagonal();
+  Eigen::MatrixXd U = product(basis, svd.U.leftCols(rank)) * values.head(rank).cwiseSqrt().asDiagonal();
   U.rowwise().normalize();
-  const Eigen::MatrixXd W = (U * U.transpose()).array().square().square();
+  const Eigen::MatrixXd W = productTransposed(U, U).array().square().square();
   constexpr bool kNormalisedCut = false;
   return spectralClusters(W, count, kNormalisedCut);
 }

@@ -1,11 +1,12 @@
 #include "redbee/detection/rivals/ssc.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "redbee/detection/rivals/spectral_clustering.hpp"
+#include "redbee/geometry/decompositions.hpp"
+#include "redbee/geometry/products.hpp"
 
 namespace redbee {
 namespace {
@@ -25,12 +26,13 @@ class RidgeInverse {
  public:
   RidgeInverse(const Eigen::MatrixXd& X, double mu1, double mu2) : V_(X.cols(), X.rows() + 1), mu2_(mu2) {
     V_ << std::sqrt(mu1) * X.transpose(), Eigen::VectorXd::Constant(X.cols(), std::sqrt(mu2));
-    const Eigen::MatrixXd inner = V_.transpose() * V_ + mu2 * Eigen::MatrixXd::Identity(V_.cols(), V_.cols());
-    inner_ = inner.llt().solve(V_.transpose());
+    const Eigen::MatrixXd inner =
+        transposedProduct(V_, V_) + mu2 * Eigen::MatrixXd::Identity(V_.cols(), V_.cols());
+    inner_ = LltFactors(inner).solve(V_.transpose());
   }
   Eigen::MatrixXd operator*(const Eigen::MatrixXd& B) const {
-    const Eigen::MatrixXd small = inner_ * B;
-    return (B - V_ * small) / mu2_;
+    const Eigen::MatrixXd small = product(inner_, B);
+    return (B - product(V_, small)) / mu2_;
   }
 
  private:
@@ -60,7 +62,7 @@ void keepLargest(Eigen::Ref<Eigen::VectorXd> column) {
 
 SparseRepresentation sparseRepresentation(const Eigen::MatrixXd& X, int max_iterations, double tolerance) {
   const Eigen::Index n = X.cols();
-  const Eigen::MatrixXd gram = X.transpose() * X;
+  const Eigen::MatrixXd gram = transposedProduct(X, X);
   const double mu1 = kAlpha / smallestGreatestCorrelation(gram);
   constexpr double kMu2 = kAlpha;
   const RidgeInverse inverse(X, mu1, kMu2);

@@ -1,6 +1,5 @@
 #include "redbee/detection/rivals/trajectory_rival.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +11,8 @@
 #include "redbee/detection/rivals/randomized_voting.hpp"
 #include "redbee/detection/rivals/registration.hpp"
 #include "redbee/detection/rivals/ssc.hpp"
+#include "redbee/geometry/decompositions.hpp"
+#include "redbee/geometry/products.hpp"
 
 namespace redbee {
 namespace {
@@ -104,10 +105,9 @@ Eigen::VectorXd distanceFromAffineMotion(const Eigen::MatrixXd& tracks, const Ei
   }
   const Eigen::VectorXd mean = own.rowwise().mean();
   own.colwise() -= mean;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(own * own.transpose(), Eigen::ComputeThinU);
-  const Eigen::MatrixXd basis = svd.matrixU().leftCols(kAffineRank);
+  const Eigen::MatrixXd basis = leftThinSvd(productTransposed(own, own)).U.leftCols(kAffineRank);
   const Eigen::MatrixXd centred = tracks.colwise() - mean;
-  const Eigen::MatrixXd off = centred - basis * (basis.transpose() * centred);
+  const Eigen::MatrixXd off = centred - product(basis, transposedProduct(basis, centred));
   return (off.colwise().squaredNorm().transpose() * 2.0 / static_cast<double>(X.rows())).cwiseSqrt();
 }
 
