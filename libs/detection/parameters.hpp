@@ -16,12 +16,12 @@ struct ParallaxParameters {
   double baseline_s =
       0.083;  ///< s: to the reference frame; a longer one detects slower objects, with more difficult flow
   bool use_short_baseline =
-      true;                   ///< use the previous frame as reference while large, fast objects are in view
-  bool use_epipolar = true;   ///< accept flow along the epipolar line as static, not only that of the ground
-  bool use_epipole = true;    ///< without an IMU, estimate the epipole from the flow
-  double noise_px = 0.5;      ///< px at full size, one sigma of the flow over good texture
-  double min_gradient = 1.6;  ///< grey levels per px, in an image four times smaller: gradient at which the
-                              ///< flow's variance doubles
+      true;                  ///< use the previous frame as reference while large, fast objects are in view
+  bool use_epipolar = true;  ///< accept flow along the epipolar line as static, not only that of the ground
+  bool use_epipole = true;   ///< without an IMU, estimate the epipole from the flow
+  double noise_px = 0.5;     ///< px at full size, one sigma of the flow over good texture
+  double min_gradient = 10;  ///< grey levels per px, in an image four times smaller: gradient at which the
+                             ///< variance of the flow along it doubles
   double direction_error = 0.05;  ///< rad, one sigma of the direction of travel; scales with the parallax
   double nearest_depth_fraction =
       0.15;                      ///< of the height: no static surface is nearer to the camera than this

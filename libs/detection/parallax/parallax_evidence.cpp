@@ -14,7 +14,10 @@ namespace redbee {
 namespace {
 
 constexpr double kExpectedErrorPx = 0.5;  // full-size px, of the registration of two frames
-constexpr double kMarginPx = 16;          // full-size px: the flow so close to unknown pixels is extrapolated
+// As min_gradient, but of the flow that the registration and the epipole are fitted to: they average over
+// the image, and look for outliers.
+constexpr double kFitGradient = 1.6;
+constexpr double kMarginPx = 16;  // full-size px: the flow so close to unknown pixels is extrapolated
 
 int halvings(int from_downscale, int to_downscale) {
   int times = 0;
@@ -82,7 +85,9 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   unknown_ = reference.unknown;
   cv::Mat2f flow;
   dis_->calc(grey, reference.grey, flow);
-  const cv::Mat1f variance = flowVariance(grey);
+  const cv::Mat3f covariance = flowCovariance(grey, scale_, {parameters_.noise_px, parameters_.min_gradient});
+  const cv::Mat1f variance =
+      largestVariance(flowCovariance(grey, scale_, {parameters_.noise_px, kFitGradient}));
   ParallaxSegment segment(frame.motion, K, parameters_);
   HomographyFlow error = registration(flow, variance, segment);
   if (!frame.motion) {
@@ -91,7 +96,7 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
       error = registration(flow, variance, segment);
     }
   }
-  FrameEvidence now = frameEvidence(segment, error, variance, flow, frames);
+  FrameEvidence now = frameEvidence(segment, error, covariance, flow, frames);
   fast_ = parameters_.use_short_baseline && hasFastMovers(flow, now.normalized_residual, frames);
   now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
   propagated_.update(now, last_step_, unknown_);
@@ -144,25 +149,6 @@ void ParallaxEvidence::suppressBorderStructure(cv::Mat1f& motion) const {
   motion = motion.mul(inside).mul(inside);
 }
 
-cv::Mat1f ParallaxEvidence::flowVariance(const cv::Mat1b& grey) const {
-  // At a quarter of the full size, about the flow's own grid. OpenCV's eigenvalue is that of the sum of
-  // squared Sobel responses over kBlock^2 pixels, scaled by (kSobelGain / 2 * kBlock * 255)^-2.
-  constexpr int kBlock = 5;
-  constexpr double kSobelGain = 8;
-  const double to_square_gradient = std::pow(kSobelGain / 2 * kBlock * 255 / (kBlock * kSobelGain), 2);
-  constexpr double kQuarter = 4;
-  constexpr double kNoGradient2 = 1e-3;  // keeps the variance finite without texture
-  cv::Mat1b quarter;
-  cv::Mat1f variance;
-  cv::resize(grey, quarter, {}, scale_ / kQuarter, scale_ / kQuarter, cv::INTER_AREA);
-  cv::cornerMinEigenVal(quarter, variance, kBlock);
-  const double noise2 = std::pow(parameters_.noise_px / scale_, 2);
-  const double floor2 = parameters_.min_gradient * parameters_.min_gradient;
-  variance = noise2 + noise2 * floor2 / (variance * to_square_gradient + kNoGradient2);
-  cv::resize(variance, variance, grey.size(), 0, 0, cv::INTER_LINEAR);
-  return variance;
-}
-
 HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const cv::Mat1f& variance,
                                               const ParallaxSegment& segment) const {
   if (!parameters_.use_registration) return HomographyFlow(flow.size());
@@ -170,20 +156,22 @@ HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const cv::M
 }
 
 FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const HomographyFlow& error,
-                                              const cv::Mat1f& variance, const cv::Mat2f& flow,
+                                              const cv::Mat3f& covariance, const cv::Mat2f& flow,
                                               double frames) {
   FrameEvidence evidence{cv::Mat2f(flow.size()), flow * (1 / frames)};
   speed_.create(flow.size());
+  const cv::Mat1f largest = largestVariance(covariance);
   for (int y = 0; y < flow.rows; ++y) {
     const cv::Vec2f* back = flow[y];
-    const float* noise = variance[y];
+    const Symmetric2f* noise = covariance[y];
     cv::Vec2f* residual = evidence.normalized_residual[y];
     cv::Vec2f* speed = speed_[y];
+    const float* doubt = largest[y];
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const cv::Vec2f forth = -back[x] - error.at(pixel[0], pixel[1]);
       residual[x] = segment.residual(pixel + back[x], forth, noise[x]).normalized_residual;
-      speed[x] = {std::sqrt(forth.dot(forth)), noise[x]};
+      speed[x] = {std::sqrt(forth.dot(forth)), doubt[x]};
     }
   }
   return evidence;

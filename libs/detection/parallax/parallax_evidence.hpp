@@ -54,12 +54,11 @@ class ParallaxEvidence {
   HomographyFlow registration(const cv::Mat2f& flow, const cv::Mat1f& variance,
                               const ParallaxSegment& segment) const;
   FrameEvidence frameEvidence(const ParallaxSegment& segment, const HomographyFlow& error,
-                              const cv::Mat1f& variance, const cv::Mat2f& flow, double frames);
+                              const cv::Mat3f& covariance, const cv::Mat2f& flow, double frames);
   /// True if much of the image moves so fast that the previous frame is a better reference than an earlier
   /// one.
   bool hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;
   void suppressBorderStructure(cv::Mat1f& motion) const;
-  cv::Mat1f flowVariance(const cv::Mat1b& grey) const;
 
   ParallaxParameters parameters_;
   double scale_;          ///< full-size pixels per pixel at work_downscale

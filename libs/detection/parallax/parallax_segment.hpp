@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "redbee/detection/parallax/flow_covariance.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/homography.hpp"
 #include "redbee/visual/point_tracker.hpp"
@@ -33,13 +34,13 @@ class ParallaxSegment {
   ParallaxSegment(const cv::Vec3f& epipole, const ParallaxParameters& parameters);
 
   struct Residual {
-    cv::Vec2f nearest;              ///< px: point of the segment closest to the flow
-    cv::Vec2f normalized_residual;  ///< flow minus that point, over its standard deviation
+    cv::Vec2f nearest;              ///< px: point of the segment closest to the flow, by Mahalanobis distance
+    cv::Vec2f normalized_residual;  ///< flow minus that point, times the inverse root of its covariance
     float squaredMahalanobis() const { return normalized_residual.dot(normalized_residual); }
   };
   /// `ground`: position of the scene point in the current image if it lay on the ground [px]; `flow`: from
-  /// there to its actual position [px], of variance `noise_variance` [px^2].
-  Residual residual(const cv::Vec2f& ground, const cv::Vec2f& flow, float noise_variance) const;
+  /// there to its actual position [px], of covariance `noise` [px^2]. The direction's error adds to it.
+  Residual residual(const cv::Vec2f& ground, const cv::Vec2f& flow, const Symmetric2f& noise) const;
   /// Unit vector of the parallax at `ground`; 0 where there is none.
   cv::Vec2f direction(const cv::Vec2f& ground) const;
 

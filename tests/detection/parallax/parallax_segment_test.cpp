@@ -4,13 +4,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
 #include "redbee/geometry/so3.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr float kNoiseVariance = 0.25F;
+const Symmetric2f kNoise(0.25F, 0, 0.25F);
 
 class Parallax : public testing::Test {
  protected:
@@ -26,7 +27,7 @@ class Parallax : public testing::Test {
     const Eigen::Vector2d flow = now - ground;
     return ParallaxSegment(motion_, K_, {})
         .residual({static_cast<float>(ground.x()), static_cast<float>(ground.y())},
-                  {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance);
+                  {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoise);
   }
 
   Eigen::Matrix3d K_;
@@ -54,6 +55,31 @@ TEST_F(Parallax, MotionAcrossTheLineOrBelowTheGroundIsNot) {
   EXPECT_GT(residual({150, 300}, ground - 3 * along).squaredMahalanobis(), 20);
 }
 
+TEST(ParallaxSegmentNoise, FlowAlongAnEdgeIsNoEvidence) {
+  // Without parallax the residual is the flow, over its sigmas of 0.5 px across the edge and 5 px along it.
+  const ParallaxSegment none(std::nullopt, Eigen::Matrix3d::Identity(), {});
+  const Symmetric2f vertical_edge(0.25F, 0, 25);
+  EXPECT_NEAR(none.residual({100, 100}, {2, 0}, vertical_edge).squaredMahalanobis(), 16, 1e-4);
+  EXPECT_NEAR(none.residual({100, 100}, {0, 2}, vertical_edge).squaredMahalanobis(), 0.16, 1e-4);
+  // The same edge turned by 45 degrees.
+  const Symmetric2f turned(12.625F, 12.375F, 12.625F);
+  const float half = std::sqrt(2.0F);
+  EXPECT_NEAR(none.residual({100, 100}, {half, -half}, turned).squaredMahalanobis(), 16, 1e-3);
+  EXPECT_NEAR(none.residual({100, 100}, {half, half}, turned).squaredMahalanobis(), 0.16, 1e-4);
+}
+
+TEST(ParallaxSegmentNoise, TheNearestPointIsByMahalanobisDistance) {
+  // Parallax along x; the flow slides along an edge at 45 degrees, from a point on the segment.
+  ParallaxParameters parameters;
+  parameters.direction_error = 0;
+  const ParallaxSegment segment(cv::Vec3f(20, 0, 0), parameters);
+  const float slid = 3;
+  const auto residual = segment.residual({100, 100}, {5 + slid, slid}, {12.625F, 12.375F, 12.625F});
+  EXPECT_NEAR(residual.nearest[0], 5, 0.2);
+  EXPECT_NEAR(residual.nearest[1], 0, 1e-4);
+  EXPECT_LT(residual.squaredMahalanobis(), 1);
+}
+
 TEST_F(Parallax, ASecondPlaneShowsWhereStaticSurfacesGo) {
   const Eigen::Matrix3d ground = planeHomography(K_, motion_);
   PlaneMotion facade = motion_;
@@ -67,7 +93,7 @@ TEST_F(Parallax, ASecondPlaneShowsWhereStaticSurfacesGo) {
     const Eigen::Vector2d flow = project(motion_.R_ba * X + motion_.t_ba) + moved - on_ground;
     return segment
         .residual({static_cast<float>(on_ground.x()), static_cast<float>(on_ground.y())},
-                  {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoiseVariance)
+                  {static_cast<float>(flow.x()), static_cast<float>(flow.y())}, kNoise)
         .squaredMahalanobis();
   };
   const Eigen::Vector2d parallax = transfer(planeHomography(K_, facade), before) - on_ground;
