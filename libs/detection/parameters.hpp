@@ -20,7 +20,7 @@ struct ParallaxParameters {
   bool use_epipolar = true;  ///< accept flow along the epipolar line as static, not only that of the ground
   bool use_epipole = true;   ///< without an IMU, estimate the epipole from the flow
   double noise_px = 0.5;     ///< px at full size, one sigma of the flow over good texture
-  double min_gradient = 10;  ///< grey levels per px, in an image four times smaller: gradient at which the
+  double min_gradient = 8;   ///< grey levels per px, in an image four times smaller: gradient at which the
                              ///< variance of the flow along it doubles
   double direction_error = 0.05;  ///< rad, one sigma of the direction of travel; scales with the parallax
   double nearest_depth_fraction =

@@ -5,7 +5,7 @@
 namespace redbee {
 namespace {
 
-constexpr FlowNoise kNoise{0.5, 10};
+constexpr FlowNoise kNoise{0.5, 8};
 constexpr int kSide = 96;
 
 /// A ramp, `scale` times smaller than the full image: its gradient is (slope_x, slope_y) everywhere, in grey
