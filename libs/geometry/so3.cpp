@@ -1,6 +1,5 @@
 #include "redbee/geometry/so3.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <cmath>
 
