@@ -14,6 +14,9 @@
 
 namespace redbee {
 
+/// Messages: queue length of a program that only listens.
+inline constexpr int kListenerQueue = 256;
+
 class Bus {
  public:
   using Handler = std::function<void(const uint8_t* data, int size)>;

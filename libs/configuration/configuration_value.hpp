@@ -33,7 +33,7 @@ void readValue(const YAML::Node& node, Eigen::Vector3d& value);
 void readValue(const YAML::Node& node, Eigen::Matrix3d& value);
 void readValue(const YAML::Node& node, Vector8d& value);
 
-/// "a, b, c", for error messages.
+/// "a, b, c", for messages.
 std::string listOf(const std::vector<std::string>& names);
 
 /// YAML text that reads back to exactly the same value.

@@ -41,27 +41,34 @@ Eigenvalues eigenvaluesOf(const Symmetric2f& S) {
 
 }  // namespace
 
-cv::Mat3f flowCovariance(const cv::Mat1b& grey, double scale, const FlowNoise& noise) {
+FlowTexture::FlowTexture(const cv::Mat1b& grey, double scale) : size_(grey.size()), scale_(scale) {
   cv::Mat1b quarter;
   cv::resize(grey, quarter, {}, scale / kQuarter, scale / kQuarter, cv::INTER_AREA);
-  cv::Mat3f covariance = gradientMatrix(quarter);
-  const auto variance = static_cast<float>(std::pow(noise.sigma_px / scale, 2));
+  gradients_ = gradientMatrix(quarter);
+}
+
+cv::Mat3f FlowTexture::covariance(const FlowNoise& noise) const {
+  cv::Mat3f covariance(gradients_.size());
+  const auto variance = static_cast<float>(std::pow(noise.sigma_px / scale_, 2));
   const auto gradient2 = static_cast<float>(noise.min_gradient * noise.min_gradient);
-  for (Symmetric2f& S : covariance) {
+  const auto covarianceOf = [&](const Symmetric2f& S) -> Symmetric2f {
     // The inverse of S + kNoGradient2 I is its adjugate over its determinant.
     const float xx = S[0] + kNoGradient2, yy = S[2] + kNoGradient2;
     const auto [largest, smallest] = eigenvaluesOf(S);
     const float scaled = variance * gradient2 / ((largest + kNoGradient2) * (smallest + kNoGradient2));
-    S = {variance + scaled * yy, -scaled * S[1], variance + scaled * xx};
-  }
-  cv::resize(covariance, covariance, grey.size(), 0, 0, cv::INTER_LINEAR);
+    return {variance + scaled * yy, -scaled * S[1], variance + scaled * xx};
+  };
+  std::transform(gradients_.begin(), gradients_.end(), covariance.begin(), covarianceOf);
+  cv::resize(covariance, covariance, size_, 0, 0, cv::INTER_LINEAR);
   return covariance;
 }
+
+float largestVariance(const Symmetric2f& covariance) { return eigenvaluesOf(covariance).largest; }
 
 cv::Mat1f largestVariance(const cv::Mat3f& covariance) {
   cv::Mat1f largest(covariance.size());
   std::transform(covariance.begin(), covariance.end(), largest.begin(),
-                 [](const Symmetric2f& C) { return eigenvaluesOf(C).largest; });
+                 [](const Symmetric2f& C) { return largestVariance(C); });
   return largest;
 }
 

@@ -13,12 +13,25 @@ struct FlowNoise {
   double min_gradient;  ///< grey levels per px, in an image four times smaller: doubles the variance
 };
 
-/// Covariance [px^2] of the flow of an image that is `scale` times smaller than the full one, of its size:
-/// sigma^2 (I + min_gradient^2 S^-1), S the gradient matrix (structure tensor; Foerstner and Guelch 1987)
-/// around each pixel. `grey` is reduced for it to a quarter of the full size, about the flow's own grid.
-cv::Mat3f flowCovariance(const cv::Mat1b& grey, double scale, const FlowNoise& noise);
+/// Covariance of the flow of one image, by its texture.
+class FlowTexture {
+ public:
+  /// `grey`: `scale` times smaller than the full image. It is reduced to a quarter of the full size, about
+  /// the flow's own grid.
+  FlowTexture(const cv::Mat1b& grey, double scale);
+
+  /// Covariance [px^2], of grey's size: sigma^2 (I + min_gradient^2 S^-1), S the gradient matrix (structure
+  /// tensor; Foerstner and Guelch 1987) around each pixel.
+  cv::Mat3f covariance(const FlowNoise& noise) const;
+
+ private:
+  cv::Mat3f gradients_;  ///< S, quarter-size
+  cv::Size size_;
+  double scale_;
+};
 
 /// The variance along the direction in which it is the largest.
+float largestVariance(const Symmetric2f& covariance);
 cv::Mat1f largestVariance(const cv::Mat3f& covariance);
 
 }  // namespace redbee

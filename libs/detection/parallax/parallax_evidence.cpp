@@ -85,9 +85,9 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   unknown_ = reference.unknown;
   cv::Mat2f flow;
   dis_->calc(grey, reference.grey, flow);
-  const cv::Mat3f covariance = flowCovariance(grey, scale_, {parameters_.noise_px, parameters_.min_gradient});
-  const cv::Mat1f variance =
-      largestVariance(flowCovariance(grey, scale_, {parameters_.noise_px, kFitGradient}));
+  const FlowTexture texture(grey, scale_);
+  const cv::Mat3f covariance = texture.covariance({parameters_.noise_px, parameters_.min_gradient});
+  const cv::Mat1f variance = largestVariance(texture.covariance({parameters_.noise_px, kFitGradient}));
   ParallaxSegment segment(frame.motion, K, parameters_);
   HomographyFlow error = registration(flow, variance, segment);
   if (!frame.motion) {
@@ -160,18 +160,16 @@ FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, co
                                               double frames) {
   FrameEvidence evidence{cv::Mat2f(flow.size()), flow * (1 / frames)};
   speed_.create(flow.size());
-  const cv::Mat1f largest = largestVariance(covariance);
   for (int y = 0; y < flow.rows; ++y) {
     const cv::Vec2f* back = flow[y];
     const Symmetric2f* noise = covariance[y];
     cv::Vec2f* residual = evidence.normalized_residual[y];
     cv::Vec2f* speed = speed_[y];
-    const float* doubt = largest[y];
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const cv::Vec2f forth = -back[x] - error.at(pixel[0], pixel[1]);
       residual[x] = segment.residual(pixel + back[x], forth, noise[x]).normalized_residual;
-      speed[x] = {std::sqrt(forth.dot(forth)), doubt[x]};
+      speed[x] = {std::sqrt(forth.dot(forth)), largestVariance(noise[x])};
     }
   }
   return evidence;

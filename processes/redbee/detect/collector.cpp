@@ -10,8 +10,6 @@
 namespace redbee {
 namespace {
 
-constexpr int kQueue = 256;
-
 std::string_view bytesOf(const std::vector<uint8_t>& data) {
   return {reinterpret_cast<const char*>(data.data()), data.size()};
 }
@@ -55,13 +53,16 @@ ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesy
   run_.prepare();
   const auto damaged = [this] { ++damaged_; };
   subscriptions_.push_back(bus.subscribe<foreground_t>(
-      channels.foreground, kQueue, [this](const foreground_t& m) { onForeground(m); }, damaged));
+      channels.foreground, kListenerQueue, [this](const foreground_t& m) { onForeground(m); }, damaged));
   subscriptions_.push_back(bus.subscribe<detections_t>(
-      channels.detections, kQueue, [this](const detections_t& m) { detections_[m.utime] = m; }, damaged));
+      channels.detections, kListenerQueue, [this](const detections_t& m) { detections_[m.utime] = m; },
+      damaged));
   subscriptions_.push_back(bus.subscribe<fused_homography_t>(
-      channels.fused_homography, kQueue, [this](const fused_homography_t& m) { onFused(m); }, damaged));
+      channels.fused_homography, kListenerQueue, [this](const fused_homography_t& m) { onFused(m); },
+      damaged));
   subscriptions_.push_back(bus.subscribe<process_health_t>(
-      channels.health, kQueue, [this](const process_health_t& m) { health_[m.process] = m; }, damaged));
+      channels.health, kListenerQueue, [this](const process_health_t& m) { health_[m.process] = m; },
+      damaged));
 }
 
 void ResultCollector::onForeground(const foreground_t& message) {

@@ -7,6 +7,7 @@
 #include "processes/motion_segmentation/node.hpp"
 #include "processes/redbee/detect/collector.hpp"
 #include "processes/redbee/detect/process_usage.hpp"
+#include "redbee/configuration/configuration_value.hpp"
 #include "redbee/detection/detector.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
@@ -75,11 +76,7 @@ std::vector<std::string> methodNames() {
   return names;
 }
 
-std::string methodList() {
-  std::string list;
-  for (const std::string& name : methodNames()) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
+std::string methodList() { return configuration::listOf(methodNames()); }
 
 int64_t runDetect(const DetectOptions& options) {
   const Configuration configuration = configurationFor(options);

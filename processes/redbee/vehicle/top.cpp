@@ -17,7 +17,6 @@ namespace redbee {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int kHealthQueue = 256;
 constexpr int kMinColumns = 80;
 constexpr std::chrono::milliseconds kPoll{100};
 constexpr std::chrono::seconds kRefresh{1};
@@ -30,7 +29,7 @@ struct Receiver {
 Receiver listen(const TopOptions& options, HealthBoard& board) {
   auto bus = makeLcmBus(options.url);
   auto subscription = bus->subscribe<process_health_t>(
-      options.channel, kHealthQueue,
+      options.channel, kListenerQueue,
       [&board](const process_health_t& m) { board.onHealth(m, Clock::now()); });
   return {std::move(bus), std::move(subscription)};
 }

@@ -17,7 +17,6 @@ extern "C" {
 namespace redbee {
 namespace {
 
-constexpr int kForegroundQueue = 256;
 constexpr std::chrono::milliseconds kPeriod{20};
 constexpr std::chrono::milliseconds kWaking{500};
 
@@ -84,7 +83,7 @@ void runWatch(const WatchOptions& options) {
   const auto bus = makeLcmBus(options.url);
   ProcessWatch watch;
   const Subscription subscription = bus->subscribe<process_health_t>(
-      channel, kForegroundQueue,
+      channel, kListenerQueue,
       [&](const process_health_t& health) { watch.onHealth(health, ProcessWatch::Clock::now()); }, nullptr);
   const std::atomic<bool>& stop = stopOnSignals();
   auto wake_until = ProcessWatch::Clock::time_point::min();

@@ -21,7 +21,7 @@ cv::Mat1b ramp(double slope_x, double slope_y, double scale = 1) {
 }
 
 Symmetric2f inTheMiddle(const cv::Mat1b& image, double scale = 1) {
-  return flowCovariance(image, scale, kNoise)(image.rows / 2, image.cols / 4);
+  return FlowTexture(image, scale).covariance(kNoise)(image.rows / 2, image.cols / 4);
 }
 
 TEST(FlowCovariance, AcrossAnEdgeTheVarianceDoublesAtMinGradient) {
