@@ -2,7 +2,6 @@
 
 #include <Spectra/SymEigsSolver.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <opencv2/core/eigen.hpp>
 
@@ -27,6 +26,16 @@ std::vector<int> kMeans(const Eigen::MatrixXd& rows, int count) {
   return {labels.begin<int>(), labels.end<int>()};
 }
 
+/// Ascending. OpenCV's solver is compiled already: Eigen's takes a compiler seconds.
+Eigen::MatrixXd leadingOfAllEigenvectors(const Eigen::MatrixXd& M, int count) {
+  cv::Mat1d matrix, values, rows;
+  cv::eigen2cv(M, matrix);
+  cv::eigen(matrix, values, rows);
+  Eigen::MatrixXd vectors;
+  cv::cv2eigen(rows.rowRange(0, count).t(), vectors);
+  return vectors.rowwise().reverse();
+}
+
 /// Eigenvectors of the `count` largest eigenvalues; Lanczos, and all of them where that does not converge.
 Eigen::MatrixXd leadingEigenvectors(const Eigen::MatrixXd& M, int count) {
   Spectra::DenseSymMatProd<double> product(M);
@@ -35,7 +44,7 @@ Eigen::MatrixXd leadingEigenvectors(const Eigen::MatrixXd& M, int count) {
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge);
   if (solver.info() == Spectra::CompInfo::Successful) return solver.eigenvectors();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvectors().rightCols(count);
+  return leadingOfAllEigenvectors(M, count);
 }
 
 }  // namespace
