@@ -25,7 +25,7 @@ Eigen::Vector3d meanForce(const std::vector<ImuSample>& samples, const Eigen::Ve
   return sum / static_cast<double>(samples.size());
 }
 
-double square(double x) { return x * x; }
+double variance(double sigma) { return sigma * sigma; }
 
 void setVariance(ErrorCovariance& P, int index, const Eigen::Vector3d& sigma) {
   P.block<3, 3>(index, index) = sigma.cwiseAbs2().asDiagonal();
@@ -42,7 +42,7 @@ void setTilt(NavigationState& state, const Eigen::Vector3d& force, const Inertia
   state.R_GI = righting(up);
   const Eigen::Matrix3d by_force = skew(up) / parameters.gravity;
   const Eigen::Matrix3d bias = state.P.block<3, 3>(kAccelBias, kAccelBias);
-  const Eigen::Matrix3d own = square(parameters.gravity_sigma) * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d own = variance(parameters.gravity_sigma) * Eigen::Matrix3d::Identity();
   state.P.block<3, 3>(kAttitude, kAttitude) = by_force * (bias + own) * by_force.transpose();
   state.P.block<3, 3>(kAttitude, kAccelBias) = by_force * bias;
   state.P.block<3, 3>(kAccelBias, kAttitude) = bias * by_force.transpose();
@@ -85,7 +85,7 @@ void mergeTilt(NavigationState& state, const Eigen::Vector3d& force, const Filte
   setVariance(state.P, kAttitude, known.up_sigma);
   state.P.block<3, 3>(kAttitude, kAttitude) =
       across * state.P.block<3, 3>(kAttitude, kAttitude).eval() * across;
-  correctVertical(state, force, square(parameters.gravity_sigma), parameters);
+  correctVertical(state, force, variance(parameters.gravity_sigma), parameters);
 }
 
 Eigen::Vector3d sigmaOf(const Eigen::Matrix3d& covariance) {
@@ -111,7 +111,7 @@ NavigationState initialState(CameraTime time, const std::vector<ImuSample>& befo
   setVariance(state.P, kAccelBias, known.accel_bias_sigma);
   setVariance(state.P, kMounting, known.R_CI_sigma);
   setVariance(state.P, kVelocity, known.velocity_sigma);
-  state.P(kPosition + 2, kPosition + 2) = square(known.height_sigma_m);
+  state.P(kPosition + 2, kPosition + 2) = variance(known.height_sigma_m);
   const Eigen::Vector3d force = meanForce(before, state.gyro_bias, state.accel_bias);
   if (is_recent) {
     mergeTilt(state, force, known, parameters);
