@@ -31,6 +31,7 @@ std::vector<Setting> detectionSettings() {
       setting("detection.parallax.use_epipole", MEMBER(parallax.use_epipole), anything),
       setting("detection.parallax.noise_px", MEMBER(parallax.noise_px), positive),
       setting("detection.parallax.min_gradient", MEMBER(parallax.min_gradient), positive),
+      setting("detection.parallax.photometric_noise", MEMBER(parallax.photometric_noise), notNegative),
       setting("detection.parallax.direction_error", MEMBER(parallax.direction_error), notNegative),
       setting("detection.parallax.nearest_depth_fraction", MEMBER(parallax.nearest_depth_fraction), fraction),
       setting("detection.parallax.evidence_sigmas", MEMBER(parallax.evidence_sigmas), positive),

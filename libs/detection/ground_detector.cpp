@@ -55,7 +55,7 @@ DetectorOutput GroundDetector::step(const FrameInput& input) {
     output.status = DetectorStatus::kLearning;
   } else {
     output.status = DetectorStatus::kGood;
-    findObjects(std::move(probability), maps.unknown, output);
+    findObjects(std::move(probability), maps, output);
   }
   if (output.status != DetectorStatus::kGood) output.detections = tracker_.skip(size_);
   return output;
@@ -97,11 +97,11 @@ cv::Mat1b GroundDetector::refined(const cv::Mat1b& foreground, const FrameInput&
   return probability;
 }
 
-void GroundDetector::findObjects(cv::Mat1b probability, const cv::Mat1b& unknown, DetectorOutput& output) {
-  output.unknown = unknown;
-  probability.setTo(0, unknown);
+void GroundDetector::findObjects(cv::Mat1b probability, const ForegroundMaps& maps, DetectorOutput& output) {
+  output.unknown = maps.unknown;
+  probability.setTo(0, maps.unknown);
   cv::threshold(probability, output.probability, kNoise, 0, cv::THRESH_TOZERO);
-  ForegroundComponents found = findComponents(output.probability, unknown, objects_);
+  ForegroundComponents found = findComponents(output.probability, maps.unknown, objects_, maps.gain);
   TrackedObjects objects = tracker_.update(found);
   output.mask = found.mask(objects.components);
   output.detections = std::move(objects.detections);

@@ -33,7 +33,7 @@ class GroundDetector : public Detector {
   void propagate(const FrameInput& input);
   DetectorOutput emptyOutput(const FrameInput& input) const;
   cv::Mat1b refined(const cv::Mat1b& foreground, const FrameInput& input);
-  void findObjects(cv::Mat1b probability, const cv::Mat1b& unknown, DetectorOutput& output);
+  void findObjects(cv::Mat1b probability, const ForegroundMaps& maps, DetectorOutput& output);
 
   int learning_frames_;
   RefinementParameters refinement_;

@@ -22,6 +22,9 @@ struct ParallaxParameters {
   double noise_px = 0.5;     ///< px at full size, one sigma of the flow over good texture
   double min_gradient = 8;   ///< grey levels per px, in an image four times smaller: gradient at which the
                              ///< variance of the flow along it doubles
+  /// Grey levels: difference of two images of one surface. An object whose flow explains the image better
+  /// than static surfaces do, by more than this, is surer; 0: not compared.
+  double photometric_noise = 10;
   double direction_error = 0.05;  ///< rad, one sigma of the direction of travel; scales with the parallax
   double nearest_depth_fraction =
       0.15;                      ///< of the height: no static surface is nearer to the camera than this

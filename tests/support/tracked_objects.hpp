@@ -14,6 +14,7 @@ inline const Eigen::Matrix3d kStill = Eigen::Matrix3d::Identity();
 struct Region {
   cv::Rect box;              ///< px
   double probability = 0.8;  ///< P_FG
+  double gain = 1;           ///< ForegroundMaps::gain
 };
 using Regions = std::vector<Region>;
 
@@ -35,12 +36,15 @@ class TrackerFlight {
   }
   std::vector<Detection> update(const Regions& regions) {
     cv::Mat1b probability = cv::Mat1b::zeros(480, 640);
+    cv::Mat1f gain(probability.size(), 1);
     for (const Region& region : regions) {
       const cv::Rect inside = region.box & cv::Rect({}, probability.size());
-      if (!inside.empty()) probability(inside).setTo(255 * region.probability);
+      if (inside.empty()) continue;
+      probability(inside).setTo(255 * region.probability);
+      gain(inside).setTo(region.gain);
     }
     ForegroundComponents found =
-        findComponents(probability, cv::Mat1b::zeros(probability.size()), parameters_);
+        findComponents(probability, cv::Mat1b::zeros(probability.size()), parameters_, gain);
     TrackedObjects objects = tracker_.update(found);
     mask_ = found.mask(objects.components);
     return objects.detections;

@@ -45,14 +45,19 @@ BoxMeasurement measurementOf(const Component& component, cv::Size image) {
 
 Component joined(const std::vector<Component>& all, const std::vector<size_t>& parts) {
   Component whole;
+  double gain = 0;
   for (const size_t index : parts) {
     const Component& part = all[index];
     whole.box |= part.box;
     whole.area_px += part.area_px;
     whole.score += part.area_px * part.score;
     whole.peak = std::max(whole.peak, part.peak);
+    gain += part.area_px * part.gain;
   }
-  if (whole.area_px > 0) whole.score /= whole.area_px;
+  if (whole.area_px > 0) {
+    whole.score /= whole.area_px;
+    whole.gain = gain / whole.area_px;
+  }
   return whole;
 }
 

@@ -55,15 +55,31 @@ double peakOf(const cv::Mat1b& probability, const cv::Mat1b& pixels) {
   return peak;
 }
 
+/// Mean of a smaller map over the pixels of a box of an image of size `image`.
+double meanOf(const cv::Mat1f& smaller, cv::Size image, const cv::Rect& box, const cv::Mat1b& pixels) {
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < box.height; ++y) {
+    const float* row = smaller[(box.y + y) * smaller.rows / image.height];
+    for (int x = 0; x < box.width; ++x) {
+      if (pixels(y, x) == 0) continue;
+      sum += row[(box.x + x) * smaller.cols / image.width];
+      ++count;
+    }
+  }
+  return sum / std::max(count, 1);
+}
+
 /// Adds a region of `found.part`, if it is strong enough. `pixels`: of the region in its box.
 void add(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Rect& in_part, int area,
-         const cv::Mat1b& pixels, double weak_threshold) {
+         const cv::Mat1b& pixels, double weak_threshold, const cv::Mat1f& gain) {
   Component component;
   component.box = in_part + found.part.tl();
   component.area_px = area;
   component.score = cv::mean(probability(component.box), pixels)[0] / kFull;
   component.peak = peakOf(probability(component.box), pixels) / kFull;
   if (component.peak <= weak_threshold) return;
+  if (!gain.empty()) component.gain = meanOf(gain, probability.size(), component.box, pixels);
   found.components.push_back(component);
   found.labels(in_part).setTo(static_cast<double>(found.components.size()), pixels);
 }
@@ -86,7 +102,7 @@ size_t nearestBox(const std::vector<cv::Rect2d>& boxes, int x, int y) {
 }  // namespace
 
 ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                                    const ObjectParameters& parameters) {
+                                    const ObjectParameters& parameters, const cv::Mat1f& gain) {
   ForegroundComponents found;
   found.image = probability.size();
   const cv::Mat1b foreground = foregroundPart(probability, unknown, parameters, found.part);
@@ -100,7 +116,7 @@ ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1
     const double end = std::min(kExtentOfPeak * peak, kExtentOfThreshold * kFull * parameters.threshold);
     const cv::Mat1b extents = own & (values > end);
     forEachRegion(extents, min_area_px, [&](const cv::Rect& box, int area, const cv::Mat1b& pixels) {
-      add(found, probability, box + region.tl(), area, pixels, parameters.weak_threshold);
+      add(found, probability, box + region.tl(), area, pixels, parameters.weak_threshold, gain);
     });
   });
   return found;

@@ -15,6 +15,7 @@ struct Component {
   double area_px = 0;  ///< px^2
   double score = 0;    ///< mean P_FG, 0..1
   double peak = 0;     ///< highest P_FG, 0..1
+  double gain = 1;     ///< mean of ForegroundMaps::gain; 1 if it is not known
 };
 
 struct ForegroundComponents {
@@ -31,9 +32,9 @@ struct ForegroundComponents {
 /// Components that exceed `weak_threshold` somewhere. Each reaches as far as P_FG exceeds `extent_threshold`
 /// and the lower of 0.3 of the component's own peak and half of `threshold` (after opening, closing and a
 /// minimum area): what belongs to a weak object is a halo around a strong one. `probability`: P_FG * 255.
-/// `unknown`: not 0 where there is no statement.
+/// `unknown`: not 0 where there is no statement. `gain`: ForegroundMaps::gain.
 ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                                    const ObjectParameters& parameters);
+                                    const ObjectParameters& parameters, const cv::Mat1f& gain = {});
 
 /// Divides a component among objects that it covers: each pixel goes to the box whose centre is nearest in
 /// units of the box's sides. The part of the first box takes the component's place, the others are appended.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "redbee/detection/objects/association.hpp"
+#include "redbee/detection/objects/log_odds.hpp"
 #include "redbee/geometry/assignment.hpp"
 #include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/small_decompositions.hpp"
@@ -17,13 +18,8 @@ constexpr double kSeenVelocityDecay_s = 5;
 constexpr double kMissedVelocityDecay_s = 0.5;  // what is no longer found has probably stopped
 constexpr double kUnknownMotion_px = 100;       // per root s: the camera's, without a homography
 
-constexpr double kSurest = 0.95;         // P_FG beyond this, or below 1 minus this, is no better evidence
-constexpr double kMissedLogOdds = -1;    // of a frame without a component
-constexpr double kMostEvidence_s = 0.5;  // so that a track that has faded is soon no longer reported
-// What has not left its place, in roots of its box's area, sways or is static: evidence against an object.
-constexpr double kSettled_s = 0.5;  // age from which it counts
-constexpr double kLeftPlace = 2;
-constexpr double kStayedLogOdds = -1;      // at worst
+constexpr double kMissedLogOdds = -1;      // of a frame without a component
+constexpr double kMostEvidence_s = 0.5;    // so that a track that has faded is soon no longer reported
 constexpr double kLeastEvidence_s = -0.1;  // an unconfirmed track below this is deleted
 constexpr double kUnconfirmedMissed_s = 0.1;
 
@@ -35,11 +31,6 @@ constexpr double kApart_s = 1;             // tracks that have been two for as l
 constexpr double kDistinctVelocity = 2;    // squared Mahalanobis distance of two objects' velocities
 constexpr double kTimeTolerance_s = 1e-9;  // rounding of times that were added up
 
-double logOdds(double probability) {
-  const double p = std::clamp(probability, 1 - kSurest, kSurest);
-  return std::log(p / (1 - p));
-}
-
 cv::Rect pixelsOf(const cv::Rect2d& box) {
   const cv::Point low(cvRound(box.x), cvRound(box.y));
   return {low, cv::Point(cvRound(box.x + box.width), cvRound(box.y + box.height))};
@@ -47,11 +38,6 @@ cv::Rect pixelsOf(const cv::Rect2d& box) {
 
 bool isInside(const Eigen::Vector2d& point, cv::Size image) {
   return cv::Rect2d(cv::Point2d(), image).contains({point.x(), point.y()});
-}
-
-double stayedLogOdds(double age_s, double farthest) {
-  if (age_s < kSettled_s || farthest >= kLeftPlace) return 0;
-  return std::max(std::log(farthest / kLeftPlace), kStayedLogOdds);
 }
 
 bool movesApart(const BoxFilter& a, const BoxFilter& b) {
@@ -171,8 +157,9 @@ void ObjectTracker::observe(Track& track, const ForegroundComponents& found) con
   track.filter.update(measurementOf(track.last, found.image));
   const double moved_px = (track.filter.centre() - track.origin).norm();
   track.farthest = std::max(track.farthest, moved_px / track.filter.size());
-  track.evidence_s += elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_ +
-                                    stayedLogOdds(track.age_s, track.farthest));
+  track.evidence_s +=
+      elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_ + gainLogOdds(track.last.gain) +
+                    stayedLogOdds(track.age_s, track.farthest));
   track.evidence_s = std::min(track.evidence_s, std::max(kMostEvidence_s, parameters_.confirm_s));
   track.missed_s = 0;
   track.skipped_s = 0;

@@ -51,6 +51,7 @@ void ParallaxEvidence::reset() {
   fast_ = false;
   unknown_.release();
   speed_.release();
+  compared_.reset();
 }
 
 void ParallaxEvidence::propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
@@ -67,6 +68,7 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
   cv::Mat1b small;
   cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::Mat1f found;
+  compared_.reset();
   const EarlierFrame* frame = frames_.aged(time, fast_ ? 0 : parameters_.baseline_s);
   const EarlierFrame* newest = frames_.newest();
   if (frame != nullptr && newest != nullptr) {
@@ -90,13 +92,18 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   const cv::Mat1f variance = largestVariance(texture.covariance({parameters_.noise_px, kFitGradient}));
   ParallaxSegment segment(frame.motion, K, parameters_);
   HomographyFlow error = registration(flow, variance, segment);
+  bool direction_known = frame.motion && parameters_.use_epipolar;
   if (!frame.motion) {
     if (const auto estimated = segmentWithoutMotion(frame, K, flow, variance, error)) {
       segment = *estimated;
       error = registration(flow, variance, segment);
+      direction_known = true;
     }
   }
-  FrameEvidence now = frameEvidence(segment, error, covariance, flow, frames);
+  cv::Mat2f nearest(flow.size());
+  FrameEvidence now = frameEvidence(segment, error, covariance, flow, frames, nearest);
+  if (direction_known && parameters_.photometric_noise > 0)
+    compared_.emplace(ImagePair{grey, reference.grey, flow, nearest, error});
   fast_ = parameters_.use_short_baseline && hasFastMovers(flow, now.normalized_residual, frames);
   now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
   propagated_.update(now, last_step_, unknown_);
@@ -119,6 +126,11 @@ std::optional<ParallaxSegment> ParallaxEvidence::segmentWithoutMotion(const Earl
   }
   if (frame.front) return ParallaxSegment(frame.ground, *frame.front, parameters_);
   return std::nullopt;
+}
+
+cv::Mat1f ParallaxEvidence::photometricGain(const cv::Mat1b& where) const {
+  if (!compared_) return {};
+  return redbee::photometricGain(*compared_, where, parameters_.photometric_noise);
 }
 
 bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual,
@@ -157,7 +169,7 @@ HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const cv::M
 
 FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const HomographyFlow& error,
                                               const cv::Mat3f& covariance, const cv::Mat2f& flow,
-                                              double frames) {
+                                              double frames, cv::Mat2f& nearest) {
   FrameEvidence evidence{cv::Mat2f(flow.size()), flow * (1 / frames)};
   speed_.create(flow.size());
   for (int y = 0; y < flow.rows; ++y) {
@@ -165,10 +177,13 @@ FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, co
     const Symmetric2f* noise = covariance[y];
     cv::Vec2f* residual = evidence.normalized_residual[y];
     cv::Vec2f* speed = speed_[y];
+    cv::Vec2f* at = nearest[y];
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const cv::Vec2f forth = -back[x] - error.at(pixel[0], pixel[1]);
-      residual[x] = segment.residual(pixel + back[x], forth, noise[x]).normalized_residual;
+      const ParallaxSegment::Residual found = segment.residual(pixel + back[x], forth, noise[x]);
+      residual[x] = found.normalized_residual;
+      at[x] = found.nearest;
       speed[x] = {std::sqrt(forth.dot(forth)), largestVariance(noise[x])};
     }
   }

@@ -16,6 +16,7 @@
 #include "redbee/detection/parallax/earlier_frames.hpp"
 #include "redbee/detection/parallax/epipole.hpp"
 #include "redbee/detection/parallax/parallax_segment.hpp"
+#include "redbee/detection/parallax/photometric_gain.hpp"
 #include "redbee/detection/parallax/propagated_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/homography.hpp"
@@ -43,6 +44,9 @@ class ParallaxEvidence {
   const cv::Mat1b& unknown() const { return unknown_; }
   /// SurfaceSpeed of the last learn(), at work_downscale; empty if there was no earlier frame.
   const cv::Mat2f& speed() const { return speed_; }
+  /// photometricGain() of the last learn() where `where` is not 0; at
+  /// work_downscale. Empty if the direction of travel is not known: nothing is known of static surfaces then.
+  cv::Mat1f photometricGain(const cv::Mat1b& where) const;
 
  private:
   cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
@@ -54,7 +58,8 @@ class ParallaxEvidence {
   HomographyFlow registration(const cv::Mat2f& flow, const cv::Mat1f& variance,
                               const ParallaxSegment& segment) const;
   FrameEvidence frameEvidence(const ParallaxSegment& segment, const HomographyFlow& error,
-                              const cv::Mat3f& covariance, const cv::Mat2f& flow, double frames);
+                              const cv::Mat3f& covariance, const cv::Mat2f& flow, double frames,
+                              cv::Mat2f& nearest);
   /// True if much of the image moves so fast that the previous frame is a better reference than an earlier
   /// one.
   bool hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;
@@ -72,6 +77,7 @@ class ParallaxEvidence {
   bool fast_ = false;                                        ///< the last frame had fast movers
   cv::Mat1b unknown_;
   cv::Mat2f speed_;
+  std::optional<ImagePair> compared_;  ///< if the direction of travel is known
 };
 
 }  // namespace redbee

@@ -27,6 +27,17 @@ TEST(FindComponents, SmallAndUnknownRegionsAreNoObjects) {
   EXPECT_EQ(cv::countNonZero(found.mask()), found.components[0].area_px);
 }
 
+TEST(FindComponents, TheGainIsTheMeanOverItsPixelsOfASmallerMap) {
+  cv::Mat1b probability = cv::Mat1b::zeros(kImage);
+  probability(cv::Rect(100, 100, 20, 30)).setTo(204);
+  cv::Mat1f gain(kImage.height / 2, kImage.width / 2, 50.0F);
+  gain(cv::Rect(50, 50, 10, 15)).setTo(3);
+  gain(cv::Rect(50, 50, 5, 15)).setTo(0);
+  const cv::Mat1b unknown = cv::Mat1b::zeros(kImage);
+  EXPECT_NEAR(findComponents(probability, unknown, {}, gain).components.at(0).gain, 1.5, 1e-6);
+  EXPECT_EQ(findComponents(probability, unknown, {}).components.at(0).gain, 1) << "not known";
+}
+
 TEST(FindComponents, ThoseCountThatExceedTheWeakThresholdSomewhere) {
   cv::Mat1b probability = cv::Mat1b::zeros(kImage);
   probability(cv::Rect(100, 100, 20, 30)).setTo(90);  // 0.35

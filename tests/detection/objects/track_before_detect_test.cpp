@@ -20,10 +20,10 @@ ObjectParameters shipped() {
 cv::Rect walker(double time_s) { return {static_cast<int>(100 + 90 * time_s), 200, 20, 30}; }
 
 /// s until a walker of this P_FG is reported; 2 if it is not.
-double reportedAfter(double probability, double rate_hz) {
+double reportedAfter(double probability, double rate_hz, double gain = 1) {
   TrackerFlight flight(shipped(), rate_hz);
   for (double time_s = 0; time_s < 2; time_s += 1 / rate_hz) {
-    if (!flight.step({{walker(time_s), probability}}).empty()) return time_s;
+    if (!flight.step({{walker(time_s), probability, gain}}).empty()) return time_s;
   }
   return 2;
 }
@@ -32,6 +32,12 @@ TEST(TrackBeforeDetect, WeakEvidenceThatPersistsIsConfirmedAndStrongSooner) {
   EXPECT_LT(reportedAfter(kWeak, 24), 1.5);
   EXPECT_LT(reportedAfter(kStrong, 24), 0.7 * reportedAfter(kWeak, 24));
   EXPECT_GT(reportedAfter(kStrong, 24), 0) << "one frame is no track";
+}
+
+TEST(TrackBeforeDetect, WhatStaticSurfacesExplainAsWellIsConfirmedLaterOrNever) {
+  EXPECT_LT(reportedAfter(kWeak, 24, 4), 0.7 * reportedAfter(kWeak, 24));
+  EXPECT_GT(reportedAfter(kStrong, 24, 0.3), 1.5 * reportedAfter(kStrong, 24));
+  EXPECT_EQ(reportedAfter(kStrong, 24, 0), 2);
 }
 
 TEST(TrackBeforeDetect, StrongEvidenceThatDoesNotPersistIsNotConfirmed) {

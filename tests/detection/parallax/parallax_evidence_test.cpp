@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 namespace redbee {
 namespace {
@@ -58,6 +59,29 @@ TEST(MotionFlow, AFinerOneSeesAMoverThatAPatchOfACoarserOneHides) {
 TEST(MotionFlow, NoFinerThanTheImageThatItIsFor) {
   EXPECT_EQ(flowOfSmallMover(2, 1), flowOfSmallMover(2, 2));
   EXPECT_EQ(flowOfSmallMover(4, 1), flowOfSmallMover(4, 2));
+}
+
+/// The photometric gain after two frames; empty if it is not known.
+cv::Mat1f gainOfTwoFrames(const std::optional<PlaneMotion>& motion) {
+  cv::Mat1b texture(120, 160);
+  cv::RNG(3).fill(texture, cv::RNG::UNIFORM, 0, 255);
+  Eigen::Matrix3d K = kStill;
+  K(0, 0) = K(1, 1) = 300;
+  K(0, 2) = 160;
+  K(1, 2) = 120;
+  ParallaxParameters parameters;
+  parameters.border_stretch = 0;
+  ParallaxEvidence evidence(parameters);
+  evidence.learn(CameraTime(Duration(1'000'000)), texture, K, {320, 240});
+  evidence.propagate(kStill, std::nullopt, motion);
+  evidence.learn(CameraTime(Duration(1'083'000)), texture, K, {320, 240});
+  return evidence.photometricGain(cv::Mat1b(120, 160, 255));
+}
+
+TEST(ParallaxEvidence, TheGainIsKnownWithTheDirectionOfTravel) {
+  const PlaneMotion motion{kStill, {0.1, 0, 0}, {0, 0, 1}, 5};
+  EXPECT_EQ(gainOfTwoFrames(motion).size(), cv::Size(160, 120));
+  EXPECT_TRUE(gainOfTwoFrames(std::nullopt).empty()) << "static surfaces may be anywhere";
 }
 
 }  // namespace

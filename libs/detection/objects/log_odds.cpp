@@ -1,0 +1,31 @@
+#include "redbee/detection/objects/log_odds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace redbee {
+namespace {
+
+constexpr double kSurest = 0.95;    // what is surer than this, either way, is no better evidence
+constexpr double kSettled_s = 0.5;  // age from which it counts that a track stays
+constexpr double kLeftPlace = 2;
+constexpr double kStayedLogOdds = -1;  // at worst
+
+}  // namespace
+
+double logOdds(double probability) {
+  const double p = std::clamp(probability, 1 - kSurest, kSurest);
+  return std::log(p / (1 - p));
+}
+
+double gainLogOdds(double gain) {
+  constexpr double kMost = kSurest / (1 - kSurest);
+  return std::log(std::clamp(gain, 1 / kMost, kMost));
+}
+
+double stayedLogOdds(double age_s, double farthest) {
+  if (age_s < kSettled_s || farthest >= kLeftPlace) return 0;
+  return std::max(std::log(farthest / kLeftPlace), kStayedLogOdds);
+}
+
+}  // namespace redbee

@@ -1,0 +1,59 @@
+#include "redbee/detection/parallax/photometric_gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace redbee {
+namespace {
+
+constexpr int kWindow_px = 3;
+
+/// Bilinear; the border's pixels beyond the border.
+float sample(const cv::Mat1b& image, const cv::Vec2f& at) {
+  const float x = std::clamp(at[0], 0.0F, static_cast<float>(image.cols - 1));
+  const float y = std::clamp(at[1], 0.0F, static_cast<float>(image.rows - 1));
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const int right = std::min(left + 1, image.cols - 1);
+  const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(top);
+  const uint8_t* above = image[top];
+  const uint8_t* below = image[std::min(top + 1, image.rows - 1)];
+  const auto along = [&](const uint8_t* row) {
+    return static_cast<float>(row[left]) + fx * static_cast<float>(row[right] - row[left]);
+  };
+  return along(above) + fy * (along(below) - along(above));
+}
+
+}  // namespace
+
+cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, double noise) {
+  const cv::Size size = images.current.size();
+  cv::Mat3f squared = cv::Mat3f::zeros(size);  // by the flow, the segment's nearest point, the ground
+  cv::Mat1b needed;
+  cv::dilate(where, needed, cv::Mat1b::ones(kWindow_px, kWindow_px));
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      if (needed(y, x) == 0) continue;
+      const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
+      const cv::Vec2f ground = pixel - images.ground.at(pixel[0], pixel[1]);
+      const auto now = static_cast<float>(images.current(y, x));
+      const cv::Vec3f difference(now - sample(images.earlier, pixel + images.flow(y, x)),
+                                 now - sample(images.earlier, ground - images.nearest(y, x)),
+                                 now - sample(images.earlier, ground));
+      squared(y, x) = difference.mul(difference);
+    }
+  }
+  cv::blur(squared, squared, {kWindow_px, kWindow_px});
+  const auto noise2 = static_cast<float>(noise * noise);
+  cv::Mat1f gain = cv::Mat1f::zeros(size);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      if (where(y, x) == 0) continue;
+      const cv::Vec3f& mean = squared(y, x);
+      gain(y, x) = std::max(0.0F, std::min(mean[1], mean[2]) - mean[0]) / (noise2 + mean[0]);
+    }
+  }
+  return gain;
+}
+
+}  // namespace redbee
