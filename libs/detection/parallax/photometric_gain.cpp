@@ -9,10 +9,15 @@ namespace {
 
 constexpr int kWindow_px = 3;
 
+/// Within 0 and `last`; 0 for a NaN, which std::clamp() would keep.
+float inside(float coordinate, int last) {
+  return std::min(std::max(0.0F, coordinate), static_cast<float>(last));
+}
+
 /// Bilinear; the border's pixels beyond the border.
 float sample(const cv::Mat1b& image, const cv::Vec2f& at) {
-  const float x = std::clamp(at[0], 0.0F, static_cast<float>(image.cols - 1));
-  const float y = std::clamp(at[1], 0.0F, static_cast<float>(image.rows - 1));
+  const float x = inside(at[0], image.cols - 1);
+  const float y = inside(at[1], image.rows - 1);
   const int left = static_cast<int>(x), top = static_cast<int>(y);
   const int right = std::min(left + 1, image.cols - 1);
   const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(top);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace redbee {
 namespace {
 
@@ -79,6 +81,8 @@ TEST(PhotometricGain, IsComputedOnlyWhereAsked) {
 TEST(PhotometricGain, FlowOutOfTheImageIsHeldAtTheBorder) {
   ImagePair images = rampMovedBy(0);
   images.flow.setTo(cv::Scalar(-1000, 1e6));
+  EXPECT_EQ(cv::countNonZero(photometricGain(images, cv::Mat1b(kImage, 255), kNoise)), 0);
+  images.flow.setTo(cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(cv::countNonZero(photometricGain(images, cv::Mat1b(kImage, 255), kNoise)), 0);
 }
 
