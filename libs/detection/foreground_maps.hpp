@@ -4,12 +4,15 @@
 
 namespace redbee {
 
+/// Of ForegroundMaps::gain: a pixel that says nothing.
+constexpr float kNotCompared = -1;
+
 /// Classification of an image by a background model, at the full image size.
 struct ForegroundMaps {
   cv::Mat1b foreground;  ///< P_FG * 255: 255 where the pixel is known and not background
   cv::Mat1b unknown;     ///< 255 where too few earlier frames show the scene
-  /// By how much a moving surface explains the image better than static ones do, over the noise (squares);
-  /// 1 says nothing. Smaller than the image; empty if it is not known.
+  /// Photometric gain: by how much a moving surface explains the image better than static ones do, over the
+  /// noise (squares). kNotCompared where it is not computed. Of any size; empty if it is not known.
   cv::Mat1f gain{};
 };
 

@@ -22,8 +22,8 @@ struct ParallaxParameters {
   double noise_px = 0.5;     ///< px at full size, one sigma of the flow over good texture
   double min_gradient = 8;   ///< grey levels per px, in an image four times smaller: gradient at which the
                              ///< variance of the flow along it doubles
-  /// Grey levels: difference of two images of one surface. An object whose flow explains the image better
-  /// than static surfaces do, by more than this, is surer; 0: not compared.
+  /// Grey levels, noise of the difference of two images: components count more where their flow explains the
+  /// image better than static surfaces do, less where it does not; 0: off.
   double photometric_noise = 10;
   double direction_error = 0.05;  ///< rad, one sigma of the direction of travel; scales with the parallax
   double nearest_depth_fraction =
@@ -78,15 +78,15 @@ struct ObjectParameters {
   /// On P_FG: components that exceed this somewhere are strong, and are assigned to tracks first.
   double threshold = 0.6;
   /// On P_FG, at most `threshold`: components count that exceed this somewhere. Halfway between the two, in
-  /// log odds, a component is evidence neither for nor against its track.
+  /// log odds, a component with a photometric gain of 1 is evidence neither for nor against its track.
   double weak_threshold = 0.5;
   double extent_threshold = 0.12;  ///< on P_FG, at most `threshold`: components reach no further than this
   int opening_px = 3;              ///< px: diameter of the disc that removes specks; 0: none
   int closing_px = 7;              ///< px: diameter of the disc that closes holes; 0: none
   double min_area_px = 30;         ///< px^2: smaller components are discarded
   double max_missed_s = 2;  ///< s that a track survives without a component, and likewise of skipped frames
-  /// s: a track is confirmed by components whose log odds are above neutral by 1 for as long, surer ones
-  /// sooner; 0: at once.
+  /// s: a track is confirmed by components whose log odds (of P_FG and gain) are above neutral by 1 for as
+  /// long, surer ones sooner; 0: at once.
   double confirm_s = 0.15;
 };
 

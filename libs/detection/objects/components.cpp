@@ -4,6 +4,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/detection/foreground_maps.hpp"
+
 namespace redbee {
 namespace {
 
@@ -55,19 +57,20 @@ double peakOf(const cv::Mat1b& probability, const cv::Mat1b& pixels) {
   return peak;
 }
 
-/// Mean of a smaller map over the pixels of a box of an image of size `image`.
-double meanOf(const cv::Mat1f& smaller, cv::Size image, const cv::Rect& box, const cv::Mat1b& pixels) {
+/// Mean of a map, of any size, over the compared pixels of a box of an image of size `image`; 1 if none is.
+double meanGain(const cv::Mat1f& map, cv::Size image, const cv::Rect& box, const cv::Mat1b& pixels) {
   double sum = 0;
   int count = 0;
   for (int y = 0; y < box.height; ++y) {
-    const float* row = smaller[(box.y + y) * smaller.rows / image.height];
+    const float* row = map[(box.y + y) * map.rows / image.height];
     for (int x = 0; x < box.width; ++x) {
-      if (pixels(y, x) == 0) continue;
-      sum += row[(box.x + x) * smaller.cols / image.width];
+      const float gain = row[(box.x + x) * map.cols / image.width];
+      if (pixels(y, x) == 0 || gain == kNotCompared) continue;
+      sum += gain;
       ++count;
     }
   }
-  return sum / std::max(count, 1);
+  return count > 0 ? sum / count : 1;
 }
 
 /// Adds a region of `found.part`, if it is strong enough. `pixels`: of the region in its box.
@@ -79,7 +82,7 @@ void add(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Re
   component.score = cv::mean(probability(component.box), pixels)[0] / kFull;
   component.peak = peakOf(probability(component.box), pixels) / kFull;
   if (component.peak <= weak_threshold) return;
-  if (!gain.empty()) component.gain = meanOf(gain, probability.size(), component.box, pixels);
+  if (!gain.empty()) component.gain = meanGain(gain, probability.size(), component.box, pixels);
   found.components.push_back(component);
   found.labels(in_part).setTo(static_cast<double>(found.components.size()), pixels);
 }

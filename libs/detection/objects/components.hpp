@@ -15,7 +15,7 @@ struct Component {
   double area_px = 0;  ///< px^2
   double score = 0;    ///< mean P_FG, 0..1
   double peak = 0;     ///< highest P_FG, 0..1
-  double gain = 1;     ///< mean of ForegroundMaps::gain; 1 if it is not known
+  double gain = 1;     ///< mean of ForegroundMaps::gain; 1, no evidence, if it is not known
 };
 
 struct ForegroundComponents {

@@ -1,9 +1,9 @@
-// Evidence that what a track is found as is an object: the terms of (34), libs/README.md.
+// Evidence that a track's component is an object: the terms of (35), libs/README.md.
 #pragma once
 
 namespace redbee {
 
-/// Of P_FG, 0..1.
+/// Of P_FG, 0..1; bounded by those of 0.05 and 0.95, as the next.
 double logOdds(double probability);
 /// Of ForegroundMaps::gain: a ratio of two squares, as the odds of (29) are.
 double gainLogOdds(double gain);

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 #include "redbee/detection/objects/association.hpp"
 #include "redbee/detection/objects/log_odds.hpp"

@@ -44,8 +44,8 @@ class ParallaxEvidence {
   const cv::Mat1b& unknown() const { return unknown_; }
   /// SurfaceSpeed of the last learn(), at work_downscale; empty if there was no earlier frame.
   const cv::Mat2f& speed() const { return speed_; }
-  /// photometricGain() of the last learn() where `where` is not 0; at
-  /// work_downscale. Empty if the direction of travel is not known: nothing is known of static surfaces then.
+  /// photometricGain() of the last learn(), at work_downscale. Empty without an earlier frame, without a
+  /// direction of travel (static surfaces may be anywhere then), or if photometric_noise is 0.
   cv::Mat1f photometricGain(const cv::Mat1b& where) const;
 
  private:

@@ -1,13 +1,14 @@
 #include "redbee/detection/parallax/photometric_gain.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace redbee {
 namespace {
 
 constexpr int kWindow_px = 3;
+// Grey levels^2: not below the images' quantization, and within the range of float.
+constexpr double kLeastNoise2 = 1e-2, kMostNoise2 = 1e8;
 
 /// Within 0 and `last`; 0 for a NaN, which std::clamp() would keep.
 float inside(float coordinate, int last) {
@@ -49,13 +50,14 @@ cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, doubl
     }
   }
   cv::blur(squared, squared, {kWindow_px, kWindow_px});
-  const auto noise2 = static_cast<float>(noise * noise);
-  cv::Mat1f gain = cv::Mat1f::zeros(size);
+  const auto noise2 = static_cast<float>(std::clamp(noise * noise, kLeastNoise2, kMostNoise2));
+  cv::Mat1f gain(size, kNotCompared);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       if (where(y, x) == 0) continue;
       const cv::Vec3f& mean = squared(y, x);
-      gain(y, x) = std::max(0.0F, std::min(mean[1], mean[2]) - mean[0]) / (noise2 + mean[0]);
+      const float by_flow = std::max(0.0F, mean[0]);  // the blur's running sums round
+      gain(y, x) = std::max(0.0F, std::min(mean[1], mean[2]) - by_flow) / (noise2 + by_flow);
     }
   }
   return gain;

@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
 
 namespace redbee {
@@ -20,7 +21,7 @@ struct ImagePair {
 
 /// (E_s - E_u) / (noise^2 + E_u), at least 0: E is the squared difference of the images, mean of 3x3 pixels,
 /// by the better of the two static explanations (s: the ground and the segment's nearest point) and by the
-/// flow (u). `noise`: grey levels. 0 where `where` is 0.
+/// flow (u). `noise`: grey levels. kNotCompared where `where` is 0.
 cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, double noise);
 
 }  // namespace redbee

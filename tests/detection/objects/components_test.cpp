@@ -4,6 +4,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/detection/foreground_maps.hpp"
+
 namespace redbee {
 namespace {
 
@@ -33,9 +35,12 @@ TEST(FindComponents, TheGainIsTheMeanOverItsPixelsOfASmallerMap) {
   cv::Mat1f gain(kImage.height / 2, kImage.width / 2, 50.0F);
   gain(cv::Rect(50, 50, 10, 15)).setTo(3);
   gain(cv::Rect(50, 50, 5, 15)).setTo(0);
+  gain(cv::Rect(50, 64, 10, 1)).setTo(kNotCompared);
   const cv::Mat1b unknown = cv::Mat1b::zeros(kImage);
   EXPECT_NEAR(findComponents(probability, unknown, {}, gain).components.at(0).gain, 1.5, 1e-6);
   EXPECT_EQ(findComponents(probability, unknown, {}).components.at(0).gain, 1) << "not known";
+  gain.setTo(kNotCompared);
+  EXPECT_EQ(findComponents(probability, unknown, {}, gain).components.at(0).gain, 1);
 }
 
 TEST(FindComponents, ThoseCountThatExceedTheWeakThresholdSomewhere) {

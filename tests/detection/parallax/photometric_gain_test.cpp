@@ -40,9 +40,9 @@ TEST(PhotometricGain, IsTheSquaredDifferenceThatOnlyTheFlowExplains) {
 
 TEST(PhotometricGain, IsNoneWhereTheGroundExplainsTheImage) {
   ImagePair images = rampMovedBy(0);
-  images.flow.setTo(cv::Scalar(-4, 0));  // of a trunk beside the pixel
+  images.flow.setTo(cv::Scalar(0, 4));  // along the ramp, explains it as well
   images.nearest.setTo(cv::Scalar(2, 0));
-  EXPECT_EQ(gainInside(images), 0);
+  EXPECT_EQ(gainInside(images), 0) << "the segment's nearest point alone would have one of 1";
 }
 
 TEST(PhotometricGain, IsNoneWhereASurfaceWithParallaxDoes) {
@@ -73,17 +73,27 @@ TEST(PhotometricGain, IsComputedOnlyWhereAsked) {
   cv::Mat1b where = cv::Mat1b::zeros(kImage);
   where(kInside).setTo(255);
   const cv::Mat1f gain = photometricGain(images, where, kNoise);
-  EXPECT_EQ(cv::countNonZero(gain > 0), kInside.area());
+  EXPECT_EQ(cv::countNonZero(gain != kNotCompared), kInside.area());
   EXPECT_NEAR(gain(kInside.y, kInside.x), 4 * kSlope * 4 * kSlope / kNoise2, 1e-3)
       << "its window is whole at the edge";
 }
 
 TEST(PhotometricGain, FlowOutOfTheImageIsHeldAtTheBorder) {
   ImagePair images = rampMovedBy(0);
+  images.current.setTo(20);  // as the left border is
   images.flow.setTo(cv::Scalar(-1000, 1e6));
-  EXPECT_EQ(cv::countNonZero(photometricGain(images, cv::Mat1b(kImage, 255), kNoise)), 0);
-  images.flow.setTo(cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
-  EXPECT_EQ(cv::countNonZero(photometricGain(images, cv::Mat1b(kImage, 255), kNoise)), 0);
+  const cv::Mat1f gain = photometricGain(images, cv::Mat1b(kImage, 255), kNoise);
+  const int x = 20;
+  EXPECT_NEAR(gain(24, x), kSlope * kSlope * (x * x + 2.0 / 3) / kNoise2, 1e-3) << "mean of 3x3 pixels";
+}
+
+TEST(PhotometricGain, IsFiniteWhateverFlowAndNoise) {
+  ImagePair images = rampMovedBy(0, 0);
+  for (const double flow : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    images.flow.setTo(cv::Scalar::all(flow));
+    for (const double noise : {1e-30, 1e30})
+      EXPECT_TRUE(cv::checkRange(photometricGain(images, cv::Mat1b(kImage, 255), noise)));
+  }
 }
 
 }  // namespace
