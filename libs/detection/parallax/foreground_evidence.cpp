@@ -11,7 +11,6 @@
 namespace redbee {
 namespace {
 
-constexpr double kCompared = 0.1;         // P_FG from which the gain is computed: objects begin above
 constexpr float kUnknownVariance = 1e6F;  // px^2, of the speed where it is unknown
 
 }  // namespace
@@ -96,9 +95,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   }
   ForegroundMaps maps;
   if (motion.empty()) return maps;
-  cv::Mat1f at_motion;
-  cv::resize(foreground, at_motion, motion.size(), 0, 0, cv::INTER_LINEAR);
-  maps.gain = motion_.photometricGain(at_motion > kCompared);
+  maps.gain = motion_.photometricGain(foreground);
   cv::resize(motion_.unknown(), maps.unknown, full, 0, 0, cv::INTER_NEAREST);
   foreground.convertTo(maps.foreground, CV_8U, 255);
   cv::resize(maps.foreground, maps.foreground, full, 0, 0, cv::INTER_LINEAR);

@@ -128,9 +128,12 @@ std::optional<ParallaxSegment> ParallaxEvidence::segmentWithoutMotion(const Earl
   return std::nullopt;
 }
 
-cv::Mat1f ParallaxEvidence::photometricGain(const cv::Mat1b& where) const {
+cv::Mat1f ParallaxEvidence::photometricGain(const cv::Mat1f& foreground) const {
+  constexpr double kCompared = 0.1;  // objects begin above
   if (!compared_) return {};
-  return redbee::photometricGain(*compared_, where, parameters_.photometric_noise);
+  cv::Mat1f at_work;
+  cv::resize(foreground, at_work, unknown_.size(), 0, 0, cv::INTER_LINEAR);
+  return redbee::photometricGain(*compared_, at_work > kCompared, parameters_.photometric_noise);
 }
 
 bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual,

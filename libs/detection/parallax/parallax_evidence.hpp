@@ -44,9 +44,10 @@ class ParallaxEvidence {
   const cv::Mat1b& unknown() const { return unknown_; }
   /// SurfaceSpeed of the last learn(), at work_downscale; empty if there was no earlier frame.
   const cv::Mat2f& speed() const { return speed_; }
-  /// photometricGain() of the last learn(), at work_downscale. Empty without an earlier frame, without a
-  /// direction of travel (static surfaces may be anywhere then), or if photometric_noise is 0.
-  cv::Mat1f photometricGain(const cv::Mat1b& where) const;
+  /// photometricGain() of the last learn() where this P_FG, 0..1, may be an object's; at work_downscale.
+  /// Empty without an earlier frame, without a direction of travel (static surfaces may be anywhere then), or
+  /// if photometric_noise is 0.
+  cv::Mat1f photometricGain(const cv::Mat1f& foreground) const;
 
  private:
   cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,

@@ -34,6 +34,8 @@ float sample(const cv::Mat1b& image, const cv::Vec2f& at) {
 
 cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, double noise) {
   const cv::Size size = images.current.size();
+  cv::Mat1f gain(size, kNotCompared);
+  if (cv::countNonZero(where) == 0) return gain;
   cv::Mat3f squared = cv::Mat3f::zeros(size);  // by the flow, the segment's nearest point, the ground
   cv::Mat1b needed;
   cv::dilate(where, needed, cv::Mat1b::ones(kWindow_px, kWindow_px));
@@ -51,7 +53,6 @@ cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, doubl
   }
   cv::blur(squared, squared, {kWindow_px, kWindow_px});
   const auto noise2 = static_cast<float>(std::clamp(noise * noise, kLeastNoise2, kMostNoise2));
-  cv::Mat1f gain(size, kNotCompared);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       if (where(y, x) == 0) continue;

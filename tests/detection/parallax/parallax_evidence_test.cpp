@@ -75,7 +75,7 @@ cv::Mat1f gainOfTwoFrames(const std::optional<PlaneMotion>& motion) {
   evidence.learn(CameraTime(Duration(1'000'000)), texture, K, {320, 240});
   evidence.propagate(kStill, std::nullopt, motion);
   evidence.learn(CameraTime(Duration(1'083'000)), texture, K, {320, 240});
-  return evidence.photometricGain(cv::Mat1b(120, 160, 255));
+  return evidence.photometricGain(cv::Mat1f(240, 320, 1));
 }
 
 TEST(ParallaxEvidence, TheGainIsKnownWithTheDirectionOfTravel) {
