@@ -29,6 +29,7 @@ static_assert(is(VisualStatus::kGood, visual_homography_t::GOOD));
 static_assert(is(VisualStatus::kFirstFrame, visual_homography_t::FIRST_FRAME));
 static_assert(is(VisualStatus::kNoTexture, visual_homography_t::NO_TEXTURE));
 static_assert(is(VisualStatus::kNoPlane, visual_homography_t::NO_PLANE));
+static_assert(is(VisualStatus::kRepeated, visual_homography_t::REPEATED));
 
 static_assert(is(FusionSource::kNone, fused_homography_t::NONE));
 static_assert(is(FusionSource::kInertial, fused_homography_t::INERTIAL));

@@ -48,7 +48,7 @@ enum class DetectorStatus {
   kGood,
   kLearning,      ///< the background is not known yet: all pixels are unknown, the mask is empty
   kNoHomography,  ///< the camera's motion is unknown: the background restarts
-  kBadImage,      ///< damaged, black, blank or frozen: not learned, the mask is empty
+  kBadImage,      ///< damaged, black, blank or frozen for long: not learned, the mask is empty
 };
 const char* toString(DetectorStatus status);
 
@@ -67,8 +67,8 @@ class Detector {
   virtual ~Detector() = default;
 
   virtual DetectorNeeds needs() const = 0;
-  /// Processes the next frame. A gap in time, a repeated or earlier frame, or a change of size restarts the
-  /// background (see the status); identities are kept if possible.
+  /// Processes the next frame. A gap in time, a frame that comes again or late, or a change of size restarts
+  /// the background (see the status); identities are kept if possible.
   virtual DetectorOutput step(const FrameInput& input) = 0;
 };
 

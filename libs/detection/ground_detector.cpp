@@ -1,5 +1,6 @@
 #include "redbee/detection/ground_detector.hpp"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -11,6 +12,7 @@ namespace {
 
 // P_FG * 255 below this is noise, and would be most of the encoded map's bytes.
 constexpr double kNoise = 6;
+constexpr int kComparedPx = 16;  // full-size px: side of the blocks that tell a repeated image
 
 }  // namespace
 
@@ -22,16 +24,32 @@ GroundDetector::GroundDetector(const DetectionParameters& parameters)
       probability_(parameters.refinement),
       tracker_(parameters.objects) {}
 
-DetectorOutput GroundDetector::step(const FrameInput& input) {
-  const bool continues = isConsecutive(input);
-  const bool is_first = !last_time_;
-  const Duration elapsed = is_first ? Duration(0) : input.time - *last_time_;
-  if (!input.fullSize().empty() && input.fullSize() != size_) {
+DetectorOutput GroundDetector::step(const FrameInput& frame) {
+  const bool continues = isConsecutive(frame);
+  if (!frame.fullSize().empty() && frame.fullSize() != size_) {
     tracker_.reset();
     image_check_.reset();
-    size_ = input.fullSize();
+    size_ = frame.fullSize();
   }
-  last_time_ = input.time;
+  last_time_ = frame.time;
+  const int scale = frame.grey.empty() ? 1 : std::max(1, size_.width / frame.grey.cols);
+  const ImageContent content = image_check_.classify(frame.grey, kComparedPx / scale);
+  const bool is_repeated = content == ImageContent::kRepeated || content == ImageContent::kFrozen;
+  if (is_repeated && continues && held_.covers(frame.time)) return held_.hold(frame);
+  image_check_.setReference(frame.grey);
+  DetectorOutput output = process(continues ? held_.sinceImage(frame) : frame, continues, content);
+  processed_time_ = frame.time;
+  if (output.status == DetectorStatus::kBadImage) {
+    held_.reset();
+  } else {
+    held_.begin(output);
+  }
+  return output;
+}
+
+DetectorOutput GroundDetector::process(const FrameInput& input, bool continues, ImageContent content) {
+  const bool is_first = !processed_time_;
+  const Duration elapsed = is_first ? Duration(0) : input.time - *processed_time_;
   if (continues) {
     propagate(input);
   } else {
@@ -39,7 +57,7 @@ DetectorOutput GroundDetector::step(const FrameInput& input) {
   }
   tracker_.propagate(elapsed, continues ? input.ground : std::nullopt);
   DetectorOutput output = emptyOutput(input);
-  if (!image_check_.accepts(input.grey)) {
+  if (content == ImageContent::kUnusable || content == ImageContent::kFrozen) {
     output.status = DetectorStatus::kBadImage;
     output.detections = tracker_.skip(size_);
     return output;

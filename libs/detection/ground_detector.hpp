@@ -7,6 +7,7 @@
 
 #include "redbee/detection/detector.hpp"
 #include "redbee/detection/foreground_maps.hpp"
+#include "redbee/detection/held_frames.hpp"
 #include "redbee/detection/image_check.hpp"
 #include "redbee/detection/refinement/foreground_probability.hpp"
 #include "redbee/geometry/time.hpp"
@@ -28,6 +29,7 @@ class GroundDetector : public Detector {
   /// frame.
   virtual ForegroundMaps learn(const FrameInput& input) = 0;
 
+  DetectorOutput process(const FrameInput& input, bool continues, ImageContent content);
   bool isConsecutive(const FrameInput& input) const;
   void reset();
   void propagate(const FrameInput& input);
@@ -43,6 +45,8 @@ class GroundDetector : public Detector {
   ObjectTracker tracker_;
   cv::Size size_;
   std::optional<CameraTime> last_time_;
+  std::optional<CameraTime> processed_time_;  ///< of the last frame that did not repeat an image
+  HeldFrames held_;
   int learned_ = 0;
 };
 

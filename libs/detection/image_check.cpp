@@ -1,5 +1,7 @@
 #include "redbee/detection/image_check.hpp"
 
+#include "redbee/imaging/repeated_image.hpp"
+
 namespace redbee {
 namespace {
 
@@ -17,17 +19,17 @@ double roughness(const cv::Mat1b& grey, double deviation) {
 
 }  // namespace
 
-bool ImageCheck::accepts(const cv::Mat1b& grey) {
-  if (grey.empty()) {
-    previous_.release();
-    return false;
-  }
-  const bool frozen = previous_.size() == grey.size() && cv::norm(previous_, grey, cv::NORM_INF) == 0;
-  previous_ = grey.clone();
+ImageContent ImageCheck::classify(const cv::Mat1b& grey, int block_px) const {
+  if (grey.empty()) return ImageContent::kUnusable;
   cv::Scalar mean, deviation;
   cv::meanStdDev(grey, mean, deviation);
-  if (frozen || deviation[0] < min_contrast_) return false;
-  return grey.cols < 2 || deviation[0] == 0 || roughness(grey, deviation[0]) < kMaxRoughness;
+  if (deviation[0] < min_contrast_) return ImageContent::kUnusable;
+  if (repeats(grey, reference_, block_px)) {
+    const bool is_same = cv::norm(reference_, grey, cv::NORM_INF) == 0;
+    return is_same ? ImageContent::kFrozen : ImageContent::kRepeated;
+  }
+  const bool is_noise = grey.cols >= 2 && deviation[0] > 0 && roughness(grey, deviation[0]) >= kMaxRoughness;
+  return is_noise ? ImageContent::kUnusable : ImageContent::kNew;
 }
 
 }  // namespace redbee

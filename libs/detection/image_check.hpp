@@ -1,23 +1,31 @@
-// Rejects images that must not be learned: black, blank, frozen, pure noise.
+// What an image is good for: black, blank and noisy ones must not be learned, repeated ones have nothing new.
 #pragma once
 
 #include <opencv2/core.hpp>
 
 namespace redbee {
 
+enum class ImageContent {
+  kNew,
+  kRepeated,  ///< shows the same moment as the reference
+  kFrozen,    ///< the same as the reference to the bit, which sensor noise rules out
+  kUnusable,  ///< empty, of too little contrast, or pure noise
+};
+
 class ImageCheck {
  public:
   /// `min_contrast`: standard deviation [grey levels] below which an image is black or blank.
   explicit ImageCheck(double min_contrast) : min_contrast_(min_contrast) {}
 
-  void reset() { previous_.release(); }
-  /// Returns false for an image that is empty, has too little contrast, is pure noise, or is identical to the
-  /// previous one, which sensor noise rules out.
-  bool accepts(const cv::Mat1b& grey);
+  void reset() { reference_.release(); }
+  /// `block_px`: side of the blocks that are compared.
+  ImageContent classify(const cv::Mat1b& grey, int block_px) const;
+  /// The image that later ones are compared with.
+  void setReference(const cv::Mat1b& grey) { reference_ = grey.clone(); }
 
  private:
   double min_contrast_;
-  cv::Mat1b previous_;
+  cv::Mat1b reference_;
 };
 
 }  // namespace redbee

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/time.hpp"
@@ -11,6 +12,12 @@ namespace redbee {
 
 enum class FusionSource { kNone, kInertial, kVisual, kFused };
 const char* toString(FusionSource source);
+
+/// Frame k-1 to k, ideal pixels, h33 = 1.
+struct MeasuredStep {
+  Eigen::Matrix3d H;
+  Matrix8d covariance;  ///< scaled
+};
 
 struct FusedHomography {
   CameraTime time_previous{};
@@ -27,6 +34,9 @@ struct FusedHomography {
   Matrix8d innovation_covariance = Matrix8d::Zero();
   double test_ratio = 0;         ///< squared Mahalanobis distance over the gate; above 1 vision is rejected
   bool visual_accepted = false;  ///< vision contributes to the estimate
+  /// Vision's homography, accepted or not; where it starts at an earlier frame, what remains of it after the
+  /// steps until k-1.
+  std::optional<MeasuredStep> visual_step;
 };
 
 }  // namespace redbee

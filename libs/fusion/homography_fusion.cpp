@@ -44,6 +44,7 @@ FusedHomography HomographyFusion::step(CameraTime time, const std::optional<Iner
   if (!sources.inertial && !sources.visual) return beginChain(time);
 
   FusedHomography out;
+  out.visual_step = measuredStep(visual);
   out.time_previous = chain_.newest();
   out.time = time;
   const Estimate step = advance(sources, out);
@@ -51,7 +52,11 @@ FusedHomography HomographyFusion::step(CameraTime time, const std::optional<Iner
   // The paper's constant noise is not an estimate of this step's error.
   const bool knows_its_error = parameters_.noise == FusionNoise::kPropagated;
   if (knows_its_error && transferSigma(step.H, step.P, width_, height_) > kMaxStepSigma_px) {
-    return beginChain(time);
+    // The chain goes on, so that a homography of vision across this frame still measures the next step.
+    FusedHomography none = beginEpoch(time);
+    none.visual_step = out.visual_step;
+    chain_.append(time, step);
+    return none;
   }
   chain_.append(time, step);
   if (overlap(units_.unscale(anchor_.H), width_, height_) < parameters_.min_overlap) anchorAt(time);
@@ -181,7 +186,22 @@ void HomographyFusion::anchorAt(CameraTime time) {
   anchor_ = identityEstimate();
 }
 
+std::optional<MeasuredStep> HomographyFusion::measuredStep(const std::optional<VisualInput>& visual) const {
+  if (!visual || visual->inliers <= 0) return std::nullopt;
+  const Matrix8d covariance = measurementCovariance(*visual, parameters_);
+  const std::optional<Estimate> step = stepFrom(visual->time_previous, visual->H, covariance);
+  if (!step) return std::nullopt;
+  if (visual->time_previous == chain_.newest()) return MeasuredStep{visual->H, covariance};
+  return MeasuredStep{units_.unscale(step->H), toScaled(*step)};
+}
+
 FusedHomography HomographyFusion::beginChain(CameraTime time) {
+  FusedHomography out = beginEpoch(time);
+  chain_.beginAt(time);
+  return out;
+}
+
+FusedHomography HomographyFusion::beginEpoch(CameraTime time) {
   FusedHomography out;
   out.time_previous = time;
   if (!chain_.empty()) {
@@ -191,7 +211,6 @@ FusedHomography HomographyFusion::beginChain(CameraTime time) {
   time_anchor_ = time;
   anchor_ = identityEstimate();
   gated_in_a_row_ = 0;
-  chain_.beginAt(time);
 
   out.time = time;
   out.epoch = epoch_;

@@ -51,6 +51,9 @@ class HomographyFusion {
   Estimate accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,
                   const Matrix8d& covariance_anchor);
   void anchorAt(CameraTime time);
+  std::optional<MeasuredStep> measuredStep(const std::optional<VisualInput>& visual) const;
+  /// No estimate for this step.
+  FusedHomography beginEpoch(CameraTime time);
   FusedHomography beginChain(CameraTime time);
 
   FusionParameters parameters_;

@@ -6,6 +6,7 @@
 
 #include "redbee/geometry/products.hpp"
 #include "redbee/geometry/small_decompositions.hpp"
+#include "redbee/imaging/repeated_image.hpp"
 
 namespace redbee {
 namespace {
@@ -17,9 +18,8 @@ constexpr double kOverwhelming = 2.0;
 
 /// Mean squared gradient [grey levels^2] of the half-size image in the direction with the smallest: noise has
 /// little effect at half size, and motion blur affects one direction only.
-double sharpnessOf(const Pyramid& pyramid) {
-  if (pyramid.size() < 2) return 0;
-  const cv::Mat half = pyramid[1].image();
+double sharpnessOf(const cv::Mat1b& half) {
+  if (half.empty()) return 0;
   int64_t xx = 0, xy = 0, yy = 0;
   for (int y = 1; y + 1 < half.rows; ++y) {
     const uint8_t* above = half.ptr(y - 1);
@@ -58,6 +58,8 @@ const char* toString(VisualStatus status) {
       return "no texture";
     case VisualStatus::kNoPlane:
       return "no plane";
+    case VisualStatus::kRepeated:
+      return "the image repeats the one before";
   }
   return "unknown";
 }
@@ -76,13 +78,26 @@ VisualHomographyEstimator::VisualHomographyEstimator(const VisualParameters& par
 void VisualHomographyEstimator::resetReference() {
   tracker_.reset();
   previous_time_.reset();
+  reference_half_.release();
   reference_sharpness_ = 0;
 }
 
-void VisualHomographyEstimator::setReference(CameraTime time, cv::Size size, double sharpness) {
+void VisualHomographyEstimator::setReference(CameraTime time, const cv::Mat1b& half, cv::Size size,
+                                             double sharpness) {
   previous_time_ = time;
+  reference_half_ = half;
   size_ = size;
   reference_sharpness_ = sharpness;
+}
+
+/// Without a prediction an image that does not move is as good as any: its homography is the identity.
+bool VisualHomographyEstimator::isRepeated(CameraTime time, const cv::Mat1b& half,
+                                           const std::optional<Eigen::Matrix3d>& predicted) const {
+  constexpr double kMoved_px = 0.5;
+  constexpr int kBlock_px = 8;  // at half size
+  if (!predicted || time - *previous_time_ > kMaxRepetition) return false;
+  const double moved = meanTransferError(*predicted, Eigen::Matrix3d::Identity(), size_.width, size_.height);
+  return moved > kMoved_px && repeats(half, reference_half_, kBlock_px);
 }
 
 bool VisualHomographyEstimator::lacksTexture(const Pyramid& image, double sharpness) const {
@@ -119,15 +134,20 @@ VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat1
   result.time_previous = previous_time_.value_or(time);
 
   Pyramid image = tracker_.pyramidOf(grey);
-  const double sharpness = sharpnessOf(image);
+  const cv::Mat1b half = image.size() > 1 ? image[1].image() : cv::Mat1b();
+  const double sharpness = sharpnessOf(half);
   if (lacksTexture(image, sharpness)) {
     result.status = VisualStatus::kNoTexture;
     return result;
   }
   const std::optional<Eigen::Matrix3d> guess =
       prediction && prediction->H.allFinite() ? std::optional(prediction->H) : std::nullopt;
+  if (connected && isRepeated(time, half, guess)) {
+    result.status = VisualStatus::kRepeated;
+    return result;
+  }
   result.tracks = tracker_.advance(std::move(image), guess);
-  setReference(time, grey.size(), sharpness);
+  setReference(time, half, grey.size(), sharpness);
   if (!connected) return result;
 
   if (static_cast<int>(result.tracks.previous.size()) < parameters_.ransac.min_inliers) {

@@ -22,10 +22,11 @@ struct VisualParameters {
 
 enum class VisualStatus {
   kGood,
-  kFirstFrame,  ///< no reference frame: at the first frame, after a gap, a repeated or earlier time, or a
-                ///< change of size
-  kNoTexture,   ///< blank, black or blurred: too few points can be tracked
-  kNoPlane,     ///< points were tracked, but no plane explains enough of them
+  kFirstFrame,    ///< no reference frame: at the first frame, after a gap, a repeated or earlier time, or a
+                  ///< change of size
+  kNoTexture,     ///< blank, black or blurred: too few points can be tracked
+  kNoPlane,       ///< points were tracked, but no plane explains enough of them
+  kRepeated = 5,  ///< the reference frame's image, although the prediction has it moved
 };
 const char* toString(VisualStatus status);
 
@@ -56,15 +57,17 @@ class VisualHomographyEstimator {
   std::optional<CameraTime> previousTime() const { return previous_time_; }
 
   /// `grey`: undistorted; throws std::invalid_argument if it is empty. A blank or blurred frame
-  /// (kNoTexture) does not become the reference: the next one is tracked from the last good frame, unless
-  /// that is older than max_frame_gap_s, so `prediction` starts at previousTime(). A time that does not
-  /// increase restarts from this frame.
+  /// (kNoTexture) or a repeated one does not become the reference: the next one is tracked from the last good
+  /// frame, unless that is older than max_frame_gap_s, so `prediction` starts at previousTime(). A time that
+  /// does not increase restarts from this frame.
   VisualHomography step(CameraTime time, const cv::Mat1b& grey,
                         const std::optional<HomographyPrediction>& prediction);
 
  private:
   void resetReference();
-  void setReference(CameraTime time, cv::Size size, double sharpness);
+  void setReference(CameraTime time, const cv::Mat1b& half, cv::Size size, double sharpness);
+  bool isRepeated(CameraTime time, const cv::Mat1b& half,
+                  const std::optional<Eigen::Matrix3d>& predicted) const;
   bool lacksTexture(const Pyramid& image, double sharpness) const;
   std::optional<HomographyEstimate> estimateGround(
       const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const;
@@ -73,6 +76,7 @@ class VisualHomographyEstimator {
   PointTracker tracker_;
   std::optional<CameraTime> previous_time_;
   cv::Size size_;
+  cv::Mat1b reference_half_;        ///< the reference frame at half size
   double reference_sharpness_ = 0;  ///< of the reference frame; 0 if there is none
 };
 

@@ -135,7 +135,10 @@ void HomographyFusionNode::fuse(CameraTime time) {
     message.motion = inertial->motion;
   }
   fill(message.tracks, tracks);
-  if (same_step && visual_input) addObservation(message, *visual_input);
+  if (fused.visual_step) {
+    message.has_observation = 1;
+    fill(message.observed, fused.visual_step->H, fused.visual_step->covariance);
+  }
   if (front) addFrontPlane(message, *front);
   noteResultReady();
   publish(configuration_.channels.fused_homography, message);
@@ -172,11 +175,6 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
     message.test_ratio = fused.test_ratio;
   }
   return message;
-}
-
-void HomographyFusionNode::addObservation(fused_homography_t& message, const VisualInput& visual) const {
-  message.has_observation = 1;
-  fill(message.observed, visual.H, measurementCovariance(visual, configuration_.fusion));
 }
 
 void HomographyFusionNode::addFrontPlane(fused_homography_t& message, const HomographyEstimate& front) {

@@ -38,7 +38,6 @@ class HomographyFusionNode : public Stage {
                            const VisualInput& visual);
   /// Adds vision's own homography, whether the fusion rejected it or not: the inertial filter has its own
   /// gate, and a diverged filter could otherwise never be corrected.
-  void addObservation(fused_homography_t& message, const VisualInput& visual) const;
   static void addFrontPlane(fused_homography_t& message, const HomographyEstimate& front);
   /// Offers the snapshot to an inertial process at its first frame, which may have been restarted and
   /// validates the snapshot itself.

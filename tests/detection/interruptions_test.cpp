@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "redbee/detection/detector.hpp"
+#include "redbee/geometry/compose_motion.hpp"
+#include "redbee/imaging/repeated_image.hpp"
 #include "tests/support/detector_flight.hpp"
 
 namespace redbee::test {
@@ -23,6 +25,11 @@ class Interruptions : public testing::TestWithParam<const char*> {
   static FrameInput input(int k) {
     static const DetectorFlight flight(halfSize(simulation::walkers(3)), kFrames);
     return flight.inputs[static_cast<size_t>(k)];
+  }
+  static FrameInput withImageOf(FrameInput frame, const FrameInput& other) {
+    frame.grey = other.grey.clone();
+    frame.colour = other.colour.clone();
+    return frame;
   }
   DetectorOutput flyTo(int k) {
     DetectorOutput output;
@@ -63,12 +70,46 @@ TEST_P(Interruptions, ABlackImageIsNeitherLearnedNorClassified) {
   EXPECT_EQ(flyTo(next_).status, DetectorStatus::kGood) << "its homography was known: nothing is lost";
 }
 
-TEST_P(Interruptions, AFrozenImageIsReported) {
-  const cv::Mat frozen = input(9).grey.clone();
+TEST_P(Interruptions, AnImageThatIsFrozenForLongIsReported) {
+  const FrameInput frozen = input(9);
   flyTo(9);
-  FrameInput changed = input(next_++);
-  changed.grey = frozen;
-  expectNothingClaimed(detector_->step(changed), DetectorStatus::kBadImage);
+  for (; input(next_).time - frozen.time <= kMaxRepetition; ++next_) {
+    EXPECT_EQ(detector_->step(withImageOf(input(next_), frozen)).status, DetectorStatus::kGood);
+  }
+  expectNothingClaimed(detector_->step(withImageOf(input(next_), frozen)), DetectorStatus::kBadImage);
+}
+
+TEST_P(Interruptions, MaskAndBoxesStayWhereAnImageIsRepeated) {
+  const DetectorOutput last = flyTo(20);
+  ASSERT_FALSE(last.detections.empty());
+  const DetectorOutput repeated = detector_->step(withImageOf(input(21), input(20)));
+  EXPECT_EQ(repeated.status, DetectorStatus::kGood);
+  EXPECT_EQ(repeated.time, input(21).time);
+  EXPECT_EQ(cv::norm(repeated.mask, last.mask, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(repeated.probability, last.probability, cv::NORM_INF), 0);
+  ASSERT_EQ(repeated.detections.size(), last.detections.size());
+  for (size_t i = 0; i < last.detections.size(); ++i) {
+    EXPECT_EQ(repeated.detections[i].id, last.detections[i].id);
+    EXPECT_EQ(repeated.detections[i].box, last.detections[i].box);
+    EXPECT_EQ(repeated.detections[i].seen, last.detections[i].seen);
+  }
+}
+
+TEST_P(Interruptions, ARepeatedImageIsTheSameAsAMissingFrame) {
+  flyTo(12);
+  detector_->step(withImageOf(input(13), input(12)));
+  const DetectorOutput after = detector_->step(input(14));
+  const auto other = makeDetector(parameters());
+  for (int k = 0; k <= 12; ++k) other->step(input(k));
+  FrameInput both = input(14);
+  both.time_previous = input(12).time;
+  both.ground = normaliseHomography(*input(14).ground * *input(13).ground);
+  if (both.front) both.front = normaliseHomography(*input(14).front * *input(13).front);
+  if (both.motion) both.motion = compose(*input(14).motion, *input(13).motion);
+  const DetectorOutput expected = other->step(both);
+  EXPECT_EQ(after.status, DetectorStatus::kGood);
+  EXPECT_EQ(cv::norm(after.probability, expected.probability, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(after.mask, expected.mask, cv::NORM_INF), 0);
 }
 
 TEST_P(Interruptions, AnEmptyImageIsReported) {

@@ -64,6 +64,36 @@ TEST(HomographyFusion, AnInertialStepOfUnknownVelocityIsNotUsedAlone) {
   EXPECT_EQ(known.source, FusionSource::kInertial);
 }
 
+TEST(HomographyFusion, VisionAcrossAFrameThatItDoesNotKnowMeasuresTheStepAfterIt) {
+  constexpr double kQuiet = 1e-4;
+  FusionInputs inputs(6);
+  HomographyFusion fusion(kWidth, kHeight, {});
+  fusion.step(frameTime(0), std::nullopt, std::nullopt);
+  EXPECT_FALSE(fusion.step(frameTime(1), inputs.inertial(0, 1, kQuiet, kQuiet), std::nullopt).visual_step);
+  const VisualInput across = inputs.visual(0, 2, 0.1);
+  const FusedHomography second = fusion.step(frameTime(2), inputs.inertial(1, 2), across);
+  ASSERT_TRUE(second.visual_step);
+  EXPECT_LT(inputs.error(second.visual_step->H, 1, 2), 1);
+  EXPECT_GT(second.visual_step->covariance.trace(), measurementCovariance(across, {}).trace())
+      << "the first step's error adds to it";
+  const VisualInput direct = inputs.visual(2, 3);
+  const FusedHomography third = fusion.step(frameTime(3), inputs.inertial(2, 3), direct);
+  ASSERT_TRUE(third.visual_step);
+  EXPECT_EQ(third.visual_step->H, direct.H);
+}
+
+TEST(HomographyFusion, AStepTooUncertainToUseStillConnectsVisionAcrossIt) {
+  FusionInputs inputs(7);
+  HomographyFusion fusion(kWidth, kHeight, {});
+  const double unknown_velocity = 3.0 / kFrameRate;
+  fusion.step(frameTime(0), std::nullopt, std::nullopt);
+  const auto unused = fusion.step(frameTime(1), inputs.inertial(0, 1, 4e-4, unknown_velocity), std::nullopt);
+  ASSERT_EQ(unused.source, FusionSource::kNone);
+  const auto across =
+      fusion.step(frameTime(2), inputs.inertial(1, 2, 4e-4, unknown_velocity), inputs.visual(0, 2));
+  EXPECT_TRUE(across.visual_step) << "so that the inertial filter learns the velocity";
+}
+
 TEST(HomographyFusion, BothLostBreaksTheChainAndStartsANewEpoch) {
   FusionInputs inputs(5);
   HomographyFusion fusion = makeFusion();

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <random>
+#include <utility>
 
 #include "redbee/bus/image.hpp"
 #include "tests/support/fault_trial.hpp"
@@ -128,6 +130,21 @@ TEST(SensorFault, CameraFrozen) {
     grey = held->clone();
   });
   expectRecovery("camera frozen", StackRun(flight).run(), flight, 30);
+}
+
+TEST(SensorFault, CameraRepeatsEverySecondImage) {
+  std::optional<cv::Mat> held;
+  const StackFlight flight = withChangedImages([&](cv::Mat& grey) {
+    if (held) {
+      grey = *std::exchange(held, std::nullopt);
+    } else {
+      held = grey.clone();
+    }
+  });
+  const Damage damage = expectRecovery("every second image repeated", StackRun(flight).run(), flight, 6);
+  EXPECT_EQ(damage.without_homography, 0);
+  EXPECT_EQ(damage.without_mask, 0);
+  EXPECT_LT(damage.worst_px, 0.3) << "the repeated image is no measurement of the camera's motion";
 }
 
 TEST(SensorFault, ExposureJump) {

@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "redbee/imaging/repeated_image.hpp"
 #include "redbee/simulation/scenarios.hpp"
 #include "redbee/visual/front_plane_estimator.hpp"
 #include "tests/support/textured_images.hpp"
@@ -91,6 +92,46 @@ TEST(VisualHomography, BlankBlackAndBlurredFramesAreNoHomography) {
     EXPECT_EQ(next.status, VisualStatus::kGood);
     EXPECT_EQ(next.time_previous, frameTime(1));
   }
+}
+
+TEST(VisualHomography, AnImageThatIsRepeatedIsNoMeasurementOfAFlightThatGoesOn) {
+  const Canvas canvas(8);
+  const Eigen::Matrix3d step = groundHomography({3, 2, 3}, {0.4, 0.2, 1});
+  const HomographyPrediction one{step, 1e-6 * Matrix8d::Identity()};
+  const HomographyPrediction two{normaliseHomography(step * step), 1e-6 * Matrix8d::Identity()};
+  const cv::Mat first = canvas.view(Eigen::Matrix3d::Identity(), 1.5, 1);
+  VisualHomographyEstimator estimator({});
+  estimator.step(frameTime(1), first, {});
+  const VisualHomography repeated = estimator.step(frameTime(2), first, one);
+  EXPECT_EQ(repeated.status, VisualStatus::kRepeated);
+  EXPECT_FALSE(repeated.ground);
+  const VisualHomography next = estimator.step(frameTime(3), canvas.view(two.H, 1.5, 2), two);
+  ASSERT_EQ(next.status, VisualStatus::kGood);
+  EXPECT_EQ(next.time_previous, frameTime(1));
+  EXPECT_LT(meanTransferError(next.ground->H, two.H, kWidth, kHeight), 0.1);
+}
+
+TEST(VisualHomography, AStillSceneIsNoRepetition) {
+  const HomographyPrediction still_camera{Eigen::Matrix3d::Identity(), 1e-6 * Matrix8d::Identity()};
+  const HomographyPrediction moving{groundHomography({3, 2, 3}, {0.4, 0.2, 1}), 1e-6 * Matrix8d::Identity()};
+  VisualHomographyEstimator estimator({});
+  estimator.step(frameTime(1), still(1), {});
+  EXPECT_EQ(estimator.step(frameTime(2), still(1), {}).status, VisualStatus::kGood)
+      << "nothing else is known";
+  EXPECT_EQ(estimator.step(frameTime(3), still(1), still_camera).status, VisualStatus::kGood);
+  const VisualHomography other = estimator.step(frameTime(4), still(2), moving);
+  EXPECT_NE(other.status, VisualStatus::kRepeated) << "the sensor's noise is another";
+}
+
+TEST(VisualHomography, WhatIsRepeatedForLongIsTheScene) {
+  const HomographyPrediction moving{groundHomography({3, 2, 3}, {0.4, 0.2, 1}), 1e-6 * Matrix8d::Identity()};
+  VisualHomographyEstimator estimator({});
+  estimator.step(frameTime(1), still(1), {});
+  int k = 2;
+  for (; frameTime(k) - frameTime(1) <= kMaxRepetition; ++k) {
+    EXPECT_EQ(estimator.step(frameTime(k), still(1), moving).status, VisualStatus::kRepeated);
+  }
+  EXPECT_NE(estimator.step(frameTime(k), still(1), moving).status, VisualStatus::kRepeated);
 }
 
 TEST(VisualHomography, AModeratelyBlurredFrameStillServes) {

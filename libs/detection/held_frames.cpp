@@ -1,0 +1,45 @@
+#include "redbee/detection/held_frames.hpp"
+
+#include "redbee/geometry/compose_motion.hpp"
+#include "redbee/imaging/repeated_image.hpp"
+
+namespace redbee {
+namespace {
+
+/// The images of an output belong to the caller.
+DetectorOutput copyOf(const DetectorOutput& output) {
+  DetectorOutput copy = output;
+  copy.probability = output.probability.clone();
+  copy.mask = output.mask.clone();
+  copy.unknown = output.unknown.clone();
+  return copy;
+}
+
+}  // namespace
+
+void HeldFrames::begin(const DetectorOutput& output) {
+  output_ = copyOf(output);
+  since_.reset();
+}
+
+bool HeldFrames::covers(CameraTime time) const { return output_ && time - output_->time <= kMaxRepetition; }
+
+DetectorOutput HeldFrames::hold(const FrameInput& repeated) {
+  const FrameInput whole = sinceImage(repeated);
+  since_ = Motion{*whole.ground, whole.front, whole.motion};
+  DetectorOutput held = copyOf(*output_);
+  held.time = repeated.time;
+  return held;
+}
+
+FrameInput HeldFrames::sinceImage(FrameInput next) const {
+  if (!since_ || !next.ground) return next;
+  next.ground = normaliseHomography(*next.ground * since_->ground);
+  next.front = next.front && since_->front ? std::optional(normaliseHomography(*next.front * *since_->front))
+                                           : std::nullopt;
+  next.motion =
+      next.motion && since_->motion ? std::optional(compose(*next.motion, *since_->motion)) : std::nullopt;
+  return next;
+}
+
+}  // namespace redbee
