@@ -4,7 +4,7 @@
 
 namespace redbee {
 
-/// Of ForegroundMaps::gain: a pixel that says nothing.
+/// Of ForegroundMaps::gain and residual: a pixel that says nothing.
 constexpr float kNotCompared = -1;
 
 /// Classification of an image by a background model, at the full image size.
@@ -14,6 +14,8 @@ struct ForegroundMaps {
   /// Photometric gain: by how much a moving surface explains the image better than static ones do, over the
   /// noise (squares). kNotCompared where it is not computed. Of any size; empty if it is not known.
   cv::Mat1f gain{};
+  /// Squared length of the flow's normalized residual. Of any size; empty if there is no flow.
+  cv::Mat1f residual{};
 };
 
 }  // namespace redbee

@@ -119,7 +119,8 @@ void GroundDetector::findObjects(cv::Mat1b probability, const ForegroundMaps& ma
   output.unknown = maps.unknown;
   probability.setTo(0, maps.unknown);
   cv::threshold(probability, output.probability, kNoise, 0, cv::THRESH_TOZERO);
-  ForegroundComponents found = findComponents(output.probability, maps.unknown, objects_, maps.gain);
+  ForegroundComponents found =
+      findComponents(output.probability, maps.unknown, objects_, {maps.gain, maps.residual});
   TrackedObjects objects = tracker_.update(found);
   output.mask = found.mask(objects.components);
   output.detections = std::move(objects.detections);

@@ -34,9 +34,12 @@ class TrackerFlight {
   void propagate(double elapsed_s, const std::optional<Eigen::Matrix3d>& ground) {
     tracker_.propagate(fromSeconds(elapsed_s), ground);
   }
+  /// ForegroundMaps::residual of all pixels, from the next update() on.
+  void setResidual(double squared) { residual_ = squared; }
   std::vector<Detection> update(const Regions& regions) {
     cv::Mat1b probability = cv::Mat1b::zeros(480, 640);
     cv::Mat1f gain(probability.size(), 1);
+    const cv::Mat1f residual(probability.size(), static_cast<float>(residual_));
     for (const Region& region : regions) {
       const cv::Rect inside = region.box & cv::Rect({}, probability.size());
       if (inside.empty()) continue;
@@ -44,7 +47,7 @@ class TrackerFlight {
       gain(inside).setTo(region.gain);
     }
     ForegroundComponents found =
-        findComponents(probability, cv::Mat1b::zeros(probability.size()), parameters_, gain);
+        findComponents(probability, cv::Mat1b::zeros(probability.size()), parameters_, {gain, residual});
     TrackedObjects objects = tracker_.update(found);
     mask_ = found.mask(objects.components);
     return objects.detections;
@@ -61,6 +64,7 @@ class TrackerFlight {
   const cv::Mat1b& mask() const { return mask_; }
 
  private:
+  double residual_ = 1;
   ObjectParameters parameters_;
   ObjectTracker tracker_;
   double period_s_;

@@ -45,7 +45,7 @@ BoxMeasurement measurementOf(const Component& component, cv::Size image) {
 
 Component joined(const std::vector<Component>& all, const std::vector<size_t>& parts) {
   Component whole;
-  double gain = 0;
+  double gain = 0, residual_around = 0;
   for (const size_t index : parts) {
     const Component& part = all[index];
     whole.box |= part.box;
@@ -53,10 +53,12 @@ Component joined(const std::vector<Component>& all, const std::vector<size_t>& p
     whole.score += part.area_px * part.score;
     whole.peak = std::max(whole.peak, part.peak);
     gain += part.area_px * part.gain;
+    residual_around += part.area_px * part.residual_around;
   }
   if (whole.area_px > 0) {
     whole.score /= whole.area_px;
     whole.gain = gain / whole.area_px;
+    whole.residual_around = residual_around / whole.area_px;
   }
   return whole;
 }

@@ -73,16 +73,43 @@ double meanGain(const cv::Mat1f& map, cv::Size image, const cv::Rect& box, const
   return count > 0 ? sum / count : 1;
 }
 
+/// Mean of a map, of any size, around a box of an image of size `image`: as far as the box's longer side,
+/// beyond what the object's own flow reaches. 1 if nothing is known there.
+double meanAround(const cv::Mat1f& map, cv::Size image, const cv::Rect& box) {
+  constexpr double kPatch_px = 8;  // half a patch of the flow
+  constexpr double kLeastReach_px = 16;
+  const double scale = static_cast<double>(map.cols) / image.width;
+  const auto grown = [&](double by) {
+    const cv::Point low(cvRound(scale * (box.x - by)), cvRound(scale * (box.y - by)));
+    const cv::Point high(cvRound(scale * (box.br().x + by)), cvRound(scale * (box.br().y + by)));
+    return cv::Rect(low, high) & cv::Rect({}, map.size());
+  };
+  const cv::Rect inner = grown(kPatch_px);
+  const cv::Rect outer = grown(kPatch_px + std::max<double>(kLeastReach_px, std::max(box.width, box.height)));
+  double sum = 0;
+  int count = 0;
+  for (int y = outer.y; y < outer.br().y; ++y) {
+    for (int x = outer.x; x < outer.br().x; ++x) {
+      if (inner.contains({x, y}) || map(y, x) == kNotCompared) continue;
+      sum += map(y, x);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 1;
+}
+
 /// Adds a region of `found.part`, if it is strong enough. `pixels`: of the region in its box.
 void add(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Rect& in_part, int area,
-         const cv::Mat1b& pixels, double weak_threshold, const cv::Mat1f& gain) {
+         const cv::Mat1b& pixels, double weak_threshold, const ComponentMaps& maps) {
   Component component;
   component.box = in_part + found.part.tl();
   component.area_px = area;
   component.score = cv::mean(probability(component.box), pixels)[0] / kFull;
   component.peak = peakOf(probability(component.box), pixels) / kFull;
   if (component.peak <= weak_threshold) return;
-  if (!gain.empty()) component.gain = meanGain(gain, probability.size(), component.box, pixels);
+  if (!maps.gain.empty()) component.gain = meanGain(maps.gain, probability.size(), component.box, pixels);
+  if (!maps.residual.empty())
+    component.residual_around = meanAround(maps.residual, probability.size(), component.box);
   found.components.push_back(component);
   found.labels(in_part).setTo(static_cast<double>(found.components.size()), pixels);
 }
@@ -105,7 +132,7 @@ size_t nearestBox(const std::vector<cv::Rect2d>& boxes, int x, int y) {
 }  // namespace
 
 ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                                    const ObjectParameters& parameters, const cv::Mat1f& gain) {
+                                    const ObjectParameters& parameters, const ComponentMaps& maps) {
   ForegroundComponents found;
   found.image = probability.size();
   const cv::Mat1b foreground = foregroundPart(probability, unknown, parameters, found.part);
@@ -119,7 +146,7 @@ ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1
     const double end = std::min(kExtentOfPeak * peak, kExtentOfThreshold * kFull * parameters.threshold);
     const cv::Mat1b extents = own & (values > end);
     forEachRegion(extents, min_area_px, [&](const cv::Rect& box, int area, const cv::Mat1b& pixels) {
-      add(found, probability, box + region.tl(), area, pixels, parameters.weak_threshold, gain);
+      add(found, probability, box + region.tl(), area, pixels, parameters.weak_threshold, maps);
     });
   });
   return found;

@@ -15,7 +15,9 @@ struct Component {
   double area_px = 0;  ///< px^2
   double score = 0;    ///< mean P_FG, 0..1
   double peak = 0;     ///< highest P_FG, 0..1
-  double gain = 1;     ///< mean of ForegroundMaps::gain; 1, no evidence, if it is not known
+  /// Mean of ForegroundMaps::residual around it; 1, as of a static scene, if it is not known.
+  double residual_around = 1;
+  double gain = 1;  ///< mean of ForegroundMaps::gain; 1, no evidence, if it is not known
 };
 
 struct ForegroundComponents {
@@ -29,12 +31,18 @@ struct ForegroundComponents {
   cv::Mat1b mask(const std::vector<size_t>& kept) const;
 };
 
+/// Those of ForegroundMaps that components are asked about; each may be empty.
+struct ComponentMaps {
+  cv::Mat1f gain{};
+  cv::Mat1f residual{};
+};
+
 /// Components that exceed `weak_threshold` somewhere. Each reaches as far as P_FG exceeds `extent_threshold`
 /// and the lower of 0.3 of the component's own peak and half of `threshold` (after opening, closing and a
 /// minimum area): what belongs to a weak object is a halo around a strong one. `probability`: P_FG * 255.
-/// `unknown`: not 0 where there is no statement. `gain`: ForegroundMaps::gain.
+/// `unknown`: not 0 where there is no statement.
 ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                                    const ObjectParameters& parameters, const cv::Mat1f& gain = {});
+                                    const ObjectParameters& parameters, const ComponentMaps& maps = {});
 
 /// Divides a component among objects that it covers: each pixel goes to the box whose centre is nearest in
 /// units of the box's sides. The part of the first box takes the component's place, the others are appended.

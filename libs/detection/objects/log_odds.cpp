@@ -23,6 +23,8 @@ double gainLogOdds(double gain) {
   return std::log(std::clamp(gain, 1 / kMost, kMost));
 }
 
+double restlessLogOdds(double squared_residual) { return -0.5 * std::log(std::max(1.0, squared_residual)); }
+
 double stayedLogOdds(double age_s, double farthest) {
   if (age_s < kSettled_s || farthest >= kLeftPlace) return 0;
   return std::max(std::log(farthest / kLeftPlace), kStayedLogOdds);

@@ -7,6 +7,9 @@ namespace redbee {
 double logOdds(double probability);
 /// Of ForegroundMaps::gain: a ratio of two squares, as the odds of (29) are.
 double gainLogOdds(double gain);
+/// Of Component::residual_around: where all that surrounds it moves unlike a static surface, as water does,
+/// so may the component. The residual's length counts, in units of its sigma; at most 0.
+double restlessLogOdds(double squared_residual);
 /// Of a track of this age [s] that has moved `farthest` from its origin, in roots of its box's area. What has
 /// not left its place sways or is static: at most 0.
 double stayedLogOdds(double age_s, double farthest);

@@ -158,7 +158,7 @@ void ObjectTracker::observe(Track& track, const ForegroundComponents& found) con
   track.farthest = std::max(track.farthest, moved_px / track.filter.size());
   track.evidence_s +=
       elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_ + gainLogOdds(track.last.gain) +
-                    stayedLogOdds(track.age_s, track.farthest));
+                    restlessLogOdds(track.last.residual_around) + stayedLogOdds(track.age_s, track.farthest));
   track.evidence_s = std::min(track.evidence_s, std::max(kMostEvidence_s, parameters_.confirm_s));
   track.missed_s = 0;
   track.skipped_s = 0;

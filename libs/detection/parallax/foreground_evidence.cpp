@@ -96,6 +96,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   ForegroundMaps maps;
   if (motion.empty()) return maps;
   maps.gain = motion_.photometricGain(foreground);
+  maps.residual = motion_.residual();
   cv::resize(motion_.unknown(), maps.unknown, full, 0, 0, cv::INTER_NEAREST);
   foreground.convertTo(maps.foreground, CV_8U, 255);
   cv::resize(maps.foreground, maps.foreground, full, 0, 0, cv::INTER_LINEAR);

@@ -17,12 +17,23 @@ constexpr double kExpectedErrorPx = 0.5;  // full-size px, of the registration o
 // As min_gradient, but of the flow that the registration and the epipole are fitted to: they average over
 // the image, and look for outliers.
 constexpr double kFitGradient = 1.6;
-constexpr double kMarginPx = 16;  // full-size px: the flow so close to unknown pixels is extrapolated
 
 int halvings(int from_downscale, int to_downscale) {
   int times = 0;
   for (int downscale = std::max(from_downscale, 1); downscale < to_downscale; downscale *= 2) ++times;
   return times;
+}
+
+/// Bounded, so that few pixels of a wild flow do not make the mean of many.
+cv::Mat1f squaredLength(const cv::Mat2f& vectors) {
+  constexpr float kMost = 100;
+  cv::Mat1f squared(vectors.size());
+  for (int y = 0; y < vectors.rows; ++y) {
+    for (int x = 0; x < vectors.cols; ++x) {
+      squared(y, x) = std::min(vectors(y, x).dot(vectors(y, x)), kMost);
+    }
+  }
+  return squared;
 }
 
 }  // namespace
@@ -51,6 +62,7 @@ void ParallaxEvidence::reset() {
   fast_ = false;
   unknown_.release();
   speed_.release();
+  residual_.release();
   compared_.reset();
 }
 
@@ -69,6 +81,7 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
   cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::Mat1f found;
   compared_.reset();
+  residual_.release();
   const EarlierFrame* frame = frames_.aged(time, fast_ ? 0 : parameters_.baseline_s);
   const EarlierFrame* newest = frames_.newest();
   if (frame != nullptr && newest != nullptr) {
@@ -82,7 +95,8 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
 
 cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b& grey,
                                      const Eigen::Matrix3d& K, double frames) {
-  const int margin = static_cast<int>(std::lround(kMarginPx / scale_));
+  // Within half a patch of unknown pixels the flow is extrapolated.
+  const int margin = (dis_->getPatchSize() / 2) << dis_->getFinestScale();
   const AlignedImage reference = alignImage(frame, K, margin);
   unknown_ = reference.unknown;
   cv::Mat2f flow;
@@ -105,6 +119,8 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
   if (direction_known && parameters_.photometric_noise > 0)
     compared_.emplace(ImagePair{grey, reference.grey, flow, nearest, error});
   fast_ = parameters_.use_short_baseline && hasFastMovers(flow, now.normalized_residual, frames);
+  residual_ = squaredLength(now.normalized_residual);
+  residual_.setTo(kNotCompared, unknown_);
   now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
   propagated_.update(now, last_step_, unknown_);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));

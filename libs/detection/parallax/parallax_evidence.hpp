@@ -44,6 +44,8 @@ class ParallaxEvidence {
   const cv::Mat1b& unknown() const { return unknown_; }
   /// SurfaceSpeed of the last learn(), at work_downscale; empty if there was no earlier frame.
   const cv::Mat2f& speed() const { return speed_; }
+  /// ForegroundMaps::residual of the last learn(), at work_downscale; empty if there was no earlier frame.
+  const cv::Mat1f& residual() const { return residual_; }
   /// photometricGain() of the last learn() where this P_FG, 0..1, may be an object's; at work_downscale.
   /// Empty without an earlier frame, without a direction of travel (static surfaces may be anywhere then), or
   /// if photometric_noise is 0.
@@ -78,6 +80,7 @@ class ParallaxEvidence {
   bool fast_ = false;                                        ///< the last frame had fast movers
   cv::Mat1b unknown_;
   cv::Mat2f speed_;
+  cv::Mat1f residual_;
   std::optional<ImagePair> compared_;  ///< if the direction of travel is known
 };
 

@@ -29,6 +29,25 @@ TEST(FindComponents, SmallAndUnknownRegionsAreNoObjects) {
   EXPECT_EQ(cv::countNonZero(found.mask()), found.components[0].area_px);
 }
 
+TEST(FindComponents, TheResidualAroundItIsTheMeanBeyondItsOwnFlow) {
+  cv::Mat1b probability = cv::Mat1b::zeros(kImage);
+  probability(cv::Rect(100, 100, 20, 30)).setTo(204);
+  const cv::Mat1b unknown = cv::Mat1b::zeros(kImage);
+  const auto around = [&](const cv::Mat1f& residual) {
+    return findComponents(probability, unknown, {}, {{}, residual}).components.at(0).residual_around;
+  };
+  // At half size its box begins at (50, 50) and is 10 x 15; its flow reaches 4 further, the surroundings 15.
+  cv::Mat1f residual(kImage.height / 2, kImage.width / 2, 100.0F);
+  residual(cv::Rect(31, 31, 48, 53)).setTo(2);
+  residual(cv::Rect(46, 46, 18, 23)).setTo(50);
+  EXPECT_NEAR(around(residual), 2, 1e-6);
+  residual(cv::Rect(31, 31, 48, 15)).setTo(kNotCompared);
+  EXPECT_NEAR(around(residual), 2, 1e-6);
+  residual.setTo(kNotCompared);
+  EXPECT_EQ(around(residual), 1) << "nothing is known";
+  EXPECT_EQ(findComponents(probability, unknown, {}).components.at(0).residual_around, 1);
+}
+
 TEST(FindComponents, TheGainIsTheMeanOverItsPixelsOfASmallerMap) {
   cv::Mat1b probability = cv::Mat1b::zeros(kImage);
   probability(cv::Rect(100, 100, 20, 30)).setTo(204);
@@ -37,10 +56,10 @@ TEST(FindComponents, TheGainIsTheMeanOverItsPixelsOfASmallerMap) {
   gain(cv::Rect(50, 50, 5, 15)).setTo(0);
   gain(cv::Rect(50, 64, 10, 1)).setTo(kNotCompared);
   const cv::Mat1b unknown = cv::Mat1b::zeros(kImage);
-  EXPECT_NEAR(findComponents(probability, unknown, {}, gain).components.at(0).gain, 1.5, 1e-6);
+  EXPECT_NEAR(findComponents(probability, unknown, {}, {gain, {}}).components.at(0).gain, 1.5, 1e-6);
   EXPECT_EQ(findComponents(probability, unknown, {}).components.at(0).gain, 1) << "not known";
   gain.setTo(kNotCompared);
-  EXPECT_EQ(findComponents(probability, unknown, {}, gain).components.at(0).gain, 1);
+  EXPECT_EQ(findComponents(probability, unknown, {}, {gain, {}}).components.at(0).gain, 1);
 }
 
 TEST(FindComponents, ThoseCountThatExceedTheWeakThresholdSomewhere) {

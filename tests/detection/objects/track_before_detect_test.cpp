@@ -20,8 +20,9 @@ ObjectParameters shipped() {
 cv::Rect walker(double time_s) { return {static_cast<int>(100 + 90 * time_s), 200, 20, 30}; }
 
 /// s until a walker of this P_FG is reported; 2 if it is not.
-double reportedAfter(double probability, double rate_hz, double gain = 1) {
+double reportedAfter(double probability, double rate_hz, double gain = 1, double residual = 1) {
   TrackerFlight flight(shipped(), rate_hz);
+  flight.setResidual(residual);
   for (double time_s = 0; time_s < 2; time_s += 1 / rate_hz) {
     if (!flight.step({{walker(time_s), probability, gain}}).empty()) return time_s;
   }
@@ -38,6 +39,13 @@ TEST(TrackBeforeDetect, WhatStaticSurfacesExplainAsWellIsConfirmedLaterOrNever) 
   EXPECT_LT(reportedAfter(kWeak, 24, 4), 0.7 * reportedAfter(kWeak, 24));
   EXPECT_GT(reportedAfter(kStrong, 24, 0.3), 1.5 * reportedAfter(kStrong, 24));
   EXPECT_EQ(reportedAfter(kStrong, 24, 0), 2);
+}
+
+TEST(TrackBeforeDetect, WhereAllMovesUnlikeAStaticSurfaceMoreEvidenceIsNeeded) {
+  EXPECT_EQ(reportedAfter(kStrong, 24, 1, 0.3), reportedAfter(kStrong, 24)) << "a static scene";
+  EXPECT_GT(reportedAfter(kStrong, 24, 1, 7.4), 1.4 * reportedAfter(kStrong, 24)) << "surf: e^2, minus 1";
+  EXPECT_EQ(reportedAfter(kStrong, 24, 1, 60), 2) << "minus 2.05, and its odds are 2.20 - 0.20";
+  EXPECT_LT(reportedAfter(kStrong, 24, 4, 7.4), 2) << "unless its flow explains the image well";
 }
 
 TEST(TrackBeforeDetect, StrongEvidenceThatDoesNotPersistIsNotConfirmed) {
