@@ -62,8 +62,9 @@ void SequenceCounter::noteHoles(int32_t sequence) {
 }
 
 void MessageRate::note(Duration time) {
-  if (!times_.empty() && time < times_.back()) times_.clear();
-  times_.push_back(time);
+  constexpr Duration kReordering = std::chrono::milliseconds(500);
+  if (!times_.empty() && time + kReordering < times_.back()) times_.clear();
+  times_.insert(std::upper_bound(times_.begin(), times_.end(), time), time);
   if (times_.size() > kWindow) times_.pop_front();
 }
 
@@ -135,6 +136,16 @@ void HealthMonitor::setInputSilence(double seconds) {
   changed_ = changed_ || isInputTimedOut() != was_timed_out;
 }
 
+void HealthMonitor::noteSecondSource(const std::string& channel) {
+  const auto known = second_sources_.find(channel);
+  changed_ = changed_ || known == second_sources_.end() || !isReported(known->second);
+  second_sources_[channel] = newest_time_;
+}
+
+bool HealthMonitor::isReported(Duration second_source) const {
+  return newest_time_ - second_source < kSecondSourceReported;
+}
+
 bool HealthMonitor::consumeChange() { return std::exchange(changed_, false); }
 
 int64_t HealthMonitor::lost() const {
@@ -153,6 +164,12 @@ void HealthMonitor::describeState(process_health_t& message) const {
   message.message = state_message_;
   message.rate_in = rate_in_.hertz();
   message.rate_out = rate_out_.hertz();
+  for (const auto& [channel, last] : second_sources_) {
+    if (!isReported(last) || state_ == HealthState::kStopping) continue;
+    if (state_ == HealthState::kGood) message.state = static_cast<int8_t>(HealthState::kDegraded);
+    message.message +=
+        (message.message.empty() ? "" : "; ") + std::string("a second source on ") + channel + " is ignored";
+  }
   if (!isInputTimedOut()) return;
   message.rate_in = message.rate_out = 0;
   if (state_ == HealthState::kStopping) return;

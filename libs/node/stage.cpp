@@ -11,22 +11,4 @@ void Stage::finish() {
   finishing_ = false;
 }
 
-bool Stage::acceptFrame(CameraTime time) {
-  if (!isPlausibleTime(time)) {
-    health_.noteDamaged();
-    return false;
-  }
-  health_.noteInput(time.time_since_epoch());
-  const FrameDecision decision = order_.classify(time);
-  if (decision == FrameDecision::kDiscard) {
-    health_.noteSkipped();
-    return false;
-  }
-  if (decision == FrameDecision::kRestart) {
-    restart();
-    health_.setState(HealthState::kDegraded, "the camera's clock was set back: restarted");
-  }
-  return true;
-}
-
 }  // namespace redbee

@@ -17,13 +17,17 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
   on<inertial_homography_t>(configuration_.channels.inertial_homography,
                             [this](const inertial_homography_t& m) {
                               const bool plausible = plausibleTimes(m) && isFinite(m.ground);
-                              if (plausible) companions().put(timeOf(m), m);
-                              return plausible;
+                              if (!plausible) return false;
+                              companions().put(timeOf(m), m, now());
+                              const auto restored = restoredInertial(m);
+                              if (restored) companions().putRestored(timeOf(*restored), *restored);
+                              return true;
                             });
 }
 
-void VisualHomographyNode::reset() {
+void VisualHomographyNode::reset(CameraTime) {
   estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unknown());
+  earlier_ = {};
 }
 
 std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime time) const {
@@ -93,7 +97,14 @@ void VisualHomographyNode::publishResult(const VisualHomography& result) {
     message.outliers = result.ground->outliers;
     message.rms = result.ground->rms_px;
   }
+  message.earlier = earlier_;
   publish(configuration_.channels.visual_homography, message);
+  earlier_.valid = result.ground && result.status == VisualStatus::kGood ? 1 : 0;
+  earlier_.utime = toUtime(result.time);
+  earlier_.utime_previous = message.utime_previous;
+  earlier_.ground = message.ground;
+  earlier_.inliers = message.inliers;
+  earlier_.outliers = message.outliers;
   const bool good = result.status == VisualStatus::kGood;
   health().setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(result.status));
 }

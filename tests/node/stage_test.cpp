@@ -21,7 +21,7 @@ class EchoStage : public ImageStage<altimeter_t> {
       : ImageStage(bus, "echo", "hash", "CAMERA", 3, {std::chrono::milliseconds(100), true}) {
     on<altimeter_t>("ALTIMETER", [this](const altimeter_t& m) {
       if (m.height < 0) return false;
-      companions().put(timeOf(m), m);
+      companions().put(timeOf(m), m, now());
       return true;
     });
   }
@@ -36,7 +36,7 @@ class EchoStage : public ImageStage<altimeter_t> {
     publish("DETECTIONS", detections_t{});
     companions().eraseThrough(timeOf(image));
   }
-  void reset() override { ++resets; }
+  void reset(CameraTime) override { ++resets; }
 };
 
 class StageTest : public testing::Test {
@@ -83,7 +83,7 @@ TEST_F(StageTest, WaitsForACompanionUntilTheLastMessage) {
   EXPECT_TRUE(published_.empty());
   for (int k = 1; k <= 3; ++k) publishImage(k);
   settle();
-  EXPECT_EQ(stage_->health().skipped(), 1) << "of more than three images the oldest is skipped";
+  EXPECT_EQ(stage_->health().skipped(), 1) << "of more than three images one is skipped";
   stage_->finish();
   EXPECT_EQ(stage_->heights, (std::vector<double>{-1, -1, -1}))
       << "after the last message nothing is pending";
@@ -100,11 +100,35 @@ TEST_F(StageTest, CountsWhatIsDamagedOrImplausible) {
 TEST_F(StageTest, ForgetsWhatWaitsWhereTheCamerasClockWasSetBack) {
   publishImage(500);
   settle();
-  publishImage(0);
-  publishAltitude(0, 7);
+  for (int k = 0; k < 5; ++k) publishImage(k);
+  settle();
+  for (int k = 2; k < 5; ++k) publishAltitude(k, 7);
   settle();
   EXPECT_EQ(stage_->resets, 1);
-  EXPECT_EQ(stage_->heights, std::vector<double>{7});
+  EXPECT_EQ(stage_->heights, (std::vector<double>{7, 7, 7}));
+}
+
+TEST_F(StageTest, PutsImagesInOrder) {
+  for (const int k : {0, 1, 2, 3, 4, 5, 6, 8, 7, 10, 9, 11}) {
+    publishAltitude(k, k);
+    publishImage(k);
+    settle();
+  }
+  EXPECT_EQ(stage_->heights, (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+  EXPECT_EQ(stage_->health().skipped(), 0);
+}
+
+TEST_F(StageTest, NamesASecondSourceOnAChannel) {
+  for (int k = 0; k < 12; ++k) {
+    publishAltitude(k, k);
+    publishImage(k);
+    publishImage(k - 900);
+    settle();
+  }
+  EXPECT_EQ(stage_->heights.size(), 12U);
+  EXPECT_EQ(stage_->resets, 0);
+  const process_health_t health = stage_->health().nextMessage();
+  EXPECT_EQ(health.message, "a second source on CAMERA is ignored");
 }
 
 TEST_F(StageTest, ReceivesNothingAfterItsEnd) {
