@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "redbee/geometry/time.hpp"
+#include "redbee/node/frame_rhythm.hpp"
 
 namespace redbee {
 
@@ -23,9 +24,11 @@ enum class FrameArrival {
   kRestarted  ///< the same, earlier than the frames before: the clock was set back
 };
 
-/// A frame is *ordinary* if it follows the last frame taken, by at most a pause; anything else is held. Held
-/// frames are believed, and none of them is lost, once five in a row agree and no ordinary frame has come
-/// between them for that long; a single frame of another time changes nothing.
+/// A frame is *ordinary* if it follows the last frame taken, by at most a pause, and keeps the rhythm, where
+/// there is one; anything else is held. Held frames are believed, and none of them is lost, once five in a
+/// row agree and no ordinary frame has come between them for that long, or where the ordinary frames have
+/// missed beats meanwhile: the rhythm has changed. A single frame of another time, or those of a second
+/// camera, change nothing.
 ///
 /// A gap in the rhythm of the frames may be a frame that was overtaken: the frame behind it is not in order
 /// until the window for reordering has passed. Where the rhythm is kept, nothing waits.
@@ -44,7 +47,11 @@ class FrameQueue {
   FrameArrival put(CameraTime time, Content content) {
     if (isKnown(time)) return FrameArrival::kRepeated;
     if (isOrdinary(time)) {
-      discardHeld();
+      if (hasMissedBeats(time)) {
+        queueHeld();
+      } else {
+        discardHeld();
+      }
       queue_.emplace(time, std::move(content));
       return FrameArrival::kQueued;
     }
@@ -57,7 +64,7 @@ class FrameQueue {
   CameraTime frontTime() const { return queue_.begin()->first; }
   /// Whether no earlier frame may still arrive. `now`: the latest message time of the node.
   bool isInOrder(CameraTime now) const {
-    const auto period = this->period();
+    const auto period = rhythm_.period();
     if (!last_ || !period) return true;
     const bool has_gap = 2 * (frontTime() - *last_) > 3 * *period;
     return !has_gap || now >= *last_ + *period + kReordering;
@@ -84,14 +91,6 @@ class FrameQueue {
   /// The newest frame taken or queued.
   std::optional<CameraTime> newest() const { return queue_.empty() ? last_ : queue_.rbegin()->first; }
   std::optional<CameraTime> last() const { return last_; }
-  /// Median distance of the latest frames; std::nullopt before the sixth.
-  std::optional<Duration> period() const {
-    if (gaps_.size() < kBelieveAfter) return std::nullopt;
-    std::vector<Duration> sorted(gaps_.begin(), gaps_.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
-  }
   /// Held frames that were given up since the last call: late ones, and those of another time.
   struct Discarded {
     int64_t late = 0;
@@ -100,59 +99,72 @@ class FrameQueue {
   Discarded takeDiscarded() { return std::exchange(discarded_, {}); }
 
  private:
-  static constexpr size_t kGaps = 15;
   static constexpr size_t kMostHeld = 16;
   static constexpr size_t kMostTaken = 64;
-  using Held = std::pair<CameraTime, Content>;
+  /// Beats at which a second source was held, after which missed beats are taken for lost frames.
+  static constexpr int kKnownSource = 3;
+  struct Held {
+    CameraTime time;
+    Content content;
+    bool is_late;  ///< otherwise of another time
+  };
 
   Duration longestPause() const {
-    const auto period = this->period();
+    const auto period = rhythm_.period();
     return period ? std::max(kShortPause, kPauseFrames * *period) : kLongPause;
   }
   bool isKnown(CameraTime time) const {
     const bool is_held =
-        std::any_of(held_.begin(), held_.end(), [&](const Held& held) { return held.first == time; });
+        std::any_of(held_.begin(), held_.end(), [&](const Held& held) { return held.time == time; });
     return is_held || queue_.count(time) > 0 || std::count(taken_.begin(), taken_.end(), time) > 0;
   }
   bool isOrdinary(CameraTime time) const {
     if (last_ && time <= *last_) return false;
     const auto newest = this->newest();
-    return !newest || (time - *newest <= longestPause() && *newest - time <= longestPause());
+    return !newest || (isNear(time, *newest) && !rhythm_.isBrokenBy(time - *newest));
+  }
+  bool isNear(CameraTime time, CameraTime newest) const {
+    return time - newest <= longestPause() && newest - time <= longestPause();
+  }
+  bool hasMissedBeats(CameraTime time) const {
+    const auto period = rhythm_.period();
+    if (held_.empty() || !period || held_.back().is_late || !isNear(held_.back().time, time)) return false;
+    return 2 * (time - *newest()) > (held_beats_ < kKnownSource ? 3 : 7) * *period;
   }
 
   FrameArrival hold(CameraTime time, Content content) {
-    const bool agrees =
-        held_.empty() || (time > held_.back().first && time - held_.back().first <= kLongPause);
+    const bool agrees = held_.empty() || (time > held_.back().time && time - held_.back().time <= kLongPause);
     if (!agrees || held_.size() >= kMostHeld) discardHeld();
-    held_.emplace_back(time, std::move(content));
-    const auto period = this->period();
+    const bool keeps_rhythm = !rhythm_.isBrokenBy(time - *newest());
+    held_.push_back({time, std::move(content), keeps_rhythm && time <= *newest() && isNear(time, *newest())});
+    const auto period = rhythm_.period();
     // A faster source sends five between two ordinary frames.
-    const bool is_long_enough = !period || 2 * (time - held_.front().first) >= 7 * *period;
+    const bool is_long_enough = !period || 2 * (time - held_.front().time) >= 7 * *period;
     return held_.size() >= kBelieveAfter && is_long_enough ? believe() : FrameArrival::kHeld;
   }
   FrameArrival believe() {
-    const bool is_set_back = newest() && held_.front().first <= *newest();
+    const bool is_set_back = newest() && held_.front().time <= *newest();
     if (is_set_back) {
       queue_.clear();
       taken_.clear();
-      gaps_.clear();
+      rhythm_.clear();
       last_.reset();
     }
-    for (Held& held : std::exchange(held_, {})) queue_.emplace(held.first, std::move(held.second));
+    queueHeld();
     return is_set_back ? FrameArrival::kRestarted : FrameArrival::kResumed;
   }
+  void queueHeld() {
+    for (Held& held : std::exchange(held_, {})) queue_.emplace(held.time, std::move(held.content));
+    held_beats_ = 0;
+  }
   void discardHeld() {
-    const auto newest = this->newest();
-    for (const Held& held : held_) {
-      const bool is_late = held.first <= *newest && *newest - held.first <= longestPause();
-      ++(is_late ? discarded_.late : discarded_.of_another_time);
-    }
+    for (const Held& held : held_) ++(held.is_late ? discarded_.late : discarded_.of_another_time);
+    held_beats_ = held_.empty() ? 0 : held_beats_ + 1;
     held_.clear();
   }
 
   void advanceTo(CameraTime time) {
-    if (last_) gaps_.push_back(time - *last_);
-    if (gaps_.size() > kGaps) gaps_.pop_front();
+    if (last_) rhythm_.note(time - *last_);
     last_ = time;
     noteTaken(time);
   }
@@ -179,7 +191,8 @@ class FrameQueue {
   std::vector<Held> held_;
   std::optional<CameraTime> last_;  ///< the last frame taken
   std::deque<CameraTime> taken_;    ///< the latest frames taken or skipped
-  std::deque<Duration> gaps_;       ///< between the latest frames taken
+  FrameRhythm rhythm_;              ///< of the frames taken
+  int held_beats_ = 0;              ///< beats in a row between which frames were held
   Discarded discarded_;
 };
 

@@ -136,14 +136,10 @@ void HealthMonitor::setInputSilence(double seconds) {
   changed_ = changed_ || isInputTimedOut() != was_timed_out;
 }
 
-void HealthMonitor::noteSecondSource(const std::string& channel) {
-  const auto known = second_sources_.find(channel);
-  changed_ = changed_ || known == second_sources_.end() || !isReported(known->second);
-  second_sources_[channel] = newest_time_;
-}
-
-bool HealthMonitor::isReported(Duration second_source) const {
-  return newest_time_ - second_source < kSecondSourceReported;
+void HealthMonitor::noteIgnored(const std::string& channel, const std::string& what) {
+  const auto known = ignored_.find(channel);
+  changed_ = changed_ || known == ignored_.end() || !isReported(known->second);
+  ignored_[channel] = {what, newest_time_};
 }
 
 bool HealthMonitor::consumeChange() { return std::exchange(changed_, false); }
@@ -164,17 +160,22 @@ void HealthMonitor::describeState(process_health_t& message) const {
   message.message = state_message_;
   message.rate_in = rate_in_.hertz();
   message.rate_out = rate_out_.hertz();
-  for (const auto& [channel, last] : second_sources_) {
-    if (!isReported(last) || state_ == HealthState::kStopping) continue;
+  if (state_ != HealthState::kStopping) describeInput(message);
+}
+
+void HealthMonitor::describeInput(process_health_t& message) const {
+  const auto degrade = [&](const std::string& reason) {
     if (state_ == HealthState::kGood) message.state = static_cast<int8_t>(HealthState::kDegraded);
-    message.message +=
-        (message.message.empty() ? "" : "; ") + std::string("a second source on ") + channel + " is ignored";
+    message.message += (message.message.empty() ? "" : "; ") + reason;
+  };
+  if (isInputTimedOut()) {
+    message.rate_in = message.rate_out = 0;
+    message.message.clear();
+    degrade("no input for " + std::to_string(static_cast<int64_t>(input_silence_s_)) + " s");
   }
-  if (!isInputTimedOut()) return;
-  message.rate_in = message.rate_out = 0;
-  if (state_ == HealthState::kStopping) return;
-  if (state_ == HealthState::kGood) message.state = static_cast<int8_t>(HealthState::kDegraded);
-  message.message = "no input for " + std::to_string(static_cast<int64_t>(input_silence_s_)) + " s";
+  for (const auto& [channel, ignored] : ignored_) {
+    if (isReported(ignored)) degrade(channel + ": " + ignored.what);
+  }
 }
 
 process_health_t HealthMonitor::nextMessage() {

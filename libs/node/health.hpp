@@ -104,10 +104,10 @@ class HealthMonitor {
   void noteSequence(const std::string& channel, int32_t sequence) { sequences_[channel].note(sequence); }
   /// The messages on `channel` come from another publisher from now on.
   void restartSequence(const std::string& channel) { sequences_[channel].restart(); }
-  /// A message of a second source on `channel` was ignored. For kSecondSourceReported after each the
-  /// state is degraded and names the channel.
-  void noteSecondSource(const std::string& channel);
-  static constexpr Duration kSecondSourceReported = std::chrono::seconds(5);
+  /// Something on `channel` was ignored, such as a second source. For kIgnoredReported after each the state
+  /// is degraded and the message says so.
+  void noteIgnored(const std::string& channel, const std::string& what);
+  static constexpr Duration kIgnoredReported = std::chrono::seconds(5);
   /// From receiving the driving input to publishing the result [ms].
   void noteLatency(double milliseconds) { latency_.note(milliseconds); }
   /// Wall time of processing one frame, without waiting [ms].
@@ -151,7 +151,15 @@ class HealthMonitor {
  private:
   bool isInputTimedOut() const { return input_silence_s_ >= kInputTimeout_s; }
   void describeState(process_health_t& message) const;
-  bool isReported(Duration second_source) const;
+  /// Adds what is missing or ignored.
+  void describeInput(process_health_t& message) const;
+  struct Ignored {
+    std::string what;
+    Duration newest_time{};  ///< the newest message time then
+  };
+  bool isReported(const Ignored& ignored) const {
+    return newest_time_ - ignored.newest_time < kIgnoredReported;
+  }
 
   std::string process_;
   std::string configuration_hash_;
@@ -170,7 +178,7 @@ class HealthMonitor {
   int64_t late_ = 0;
   int64_t lost_otherwise_ = 0;
   std::map<std::string, SequenceCounter> sequences_;
-  std::map<std::string, Duration> second_sources_;  ///< by channel: the newest message time then
+  std::map<std::string, Ignored> ignored_;  ///< by channel
   MessageRate rate_in_;
   MessageRate rate_out_;
   LatencyWindow latency_;

@@ -26,11 +26,13 @@ class ImageStage : public Stage {
 
  protected:
   ImageStage(Bus& bus, const std::string& process, const std::string& configuration_hash,
-             const std::string& camera_channel, int max_backlog, MessageSynchronizer<Companion> companions)
+             const std::string& camera_channel, cv::Size camera_size, int max_backlog,
+             MessageSynchronizer<Companion> companions)
       : Stage(bus, process, configuration_hash),
         max_backlog_(static_cast<size_t>(std::max(1, max_backlog))),
         companions_(std::move(companions)) {
-    on<image_t>(camera_channel, [this, camera_channel](const image_t& image) {
+    on<image_t>(camera_channel, [this, camera_channel, camera_size](const image_t& image) {
+      if (!isOfCamera(image, camera_size, camera_channel)) return;
       queueFrame(images_, camera_channel, timeOf(image), Arrived<image_t>{image, {}});
       health().noteSkipped(images_.limitTo(max_backlog_));
     });

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <opencv2/core/types.hpp>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "redbee/altimeter_t.hpp"
+#include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
 #include "redbee/node/frame_queue.hpp"
 #include "redbee/node/frame_time.hpp"
@@ -45,6 +47,9 @@ class Stage : public Node {
   template <typename Message, typename Handler>
   void on(const std::string& channel, Handler handler);
 
+  /// Whether an image is of the camera's size; one that is not is ignored, before anything is decoded, and
+  /// the health says so.
+  bool isOfCamera(const image_t& image, cv::Size camera, const std::string& channel);
   /// Queues a frame, which a message of `channel` is about, unless it has come before. Calls restart() first
   /// if the camera's clock was set back.
   template <typename Content>
@@ -80,6 +85,8 @@ class Stage : public Node {
   Publisher& publisher() { return publisher_; }
 
  private:
+  static constexpr const char* kSecondSource = "a second source is ignored";
+
   /// The publishers that `message` comes from are told apart, and those not listened to are reported.
   template <typename Message>
   std::vector<Message> chosen(PublisherChoice<Message>& choice, const std::string& channel,
@@ -120,7 +127,7 @@ template <typename Message>
 std::vector<Message> Stage::chosen(PublisherChoice<Message>& choice, const std::string& channel,
                                    const Message& message) {
   std::vector<Message> messages = choice.admit(message, now());
-  if (choice.takeIgnored() > 0) health_.noteSecondSource(channel);
+  if (choice.takeIgnored() > 0) health_.noteIgnored(channel, kSecondSource);
   if (choice.takeChange()) health_.restartSequence(channel);
   return messages;
 }
@@ -142,7 +149,7 @@ void Stage::queueFrame(FrameQueue<Content>& frames, const std::string& channel, 
   const FrameArrival arrival = frames.put(time, std::move(content));
   const auto discarded = frames.takeDiscarded();
   health_.noteSkipped(discarded.late);
-  if (discarded.of_another_time > 0) health_.noteSecondSource(channel);
+  if (discarded.of_another_time > 0) health_.noteIgnored(channel, kSecondSource);
   if (arrival == FrameArrival::kRepeated || arrival == FrameArrival::kHeld) return;
   if (arrival == FrameArrival::kRestarted) {
     restart(time);

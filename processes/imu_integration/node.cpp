@@ -40,6 +40,8 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
 }
 
 void ImuIntegrationNode::onFrame(const image_t& message) {
+  const CameraIntrinsics& camera = configuration_.camera;
+  if (!isOfCamera(message, {camera.width, camera.height}, configuration_.channels.camera)) return;
   queueFrame(pending_, configuration_.channels.camera, timeOf(message), WorkTimer());
   health().noteSkipped(pending_.limitTo(kMaxPendingFrames));
   if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);

@@ -28,7 +28,8 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
 MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration,
                                                std::unique_ptr<Detector> detector)
     : ImageStage(bus, programName(kMotionSegmentation), configurationHash(configuration),
-                 configuration.channels.camera, configuration.waits.max_backlog,
+                 configuration.channels.camera, {configuration.camera.width, configuration.camera.height},
+                 configuration.waits.max_backlog,
                  {fromSeconds(configuration.waits.segmentation_s), detector->needs().camera_motion}),
       configuration_(configuration),
       detector_(std::move(detector)),

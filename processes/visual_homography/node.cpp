@@ -8,7 +8,8 @@
 namespace redbee {
 VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& configuration)
     : ImageStage(bus, programName(kVisualHomography), configurationHash(configuration),
-                 configuration.channels.camera, configuration.waits.max_backlog,
+                 configuration.channels.camera, {configuration.camera.width, configuration.camera.height},
+                 configuration.waits.max_backlog,
                  {fromSeconds(configuration.waits.visual_s), configuration.has_imu}),
       configuration_(configuration),
       camera_(configuration.camera),
@@ -55,8 +56,8 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime 
 
 void VisualHomographyNode::work(const image_t& message) {
   const auto grey = decodeGrey(message);
-  if (!grey || grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
-    if (!grey) health().noteDamaged();
+  if (!grey) {
+    health().noteDamaged();
     return refuse(message);
   }
   const CameraTime time = timeOf(message);
@@ -70,17 +71,13 @@ void VisualHomographyNode::work(const image_t& message) {
 }
 
 void VisualHomographyNode::refuse(const image_t& image) {
-  const CameraIntrinsics& camera = configuration_.camera;
   visual_homography_t message{};
   message.utime_previous = toUtime(estimator_->previousTime().value_or(timeOf(image)));
   message.status = visual_homography_t::IMAGE_DOES_NOT_FIT;
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
   publish(configuration_.channels.visual_homography, message);
-  health().setState(HealthState::kDegraded,
-                    "image is " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                        " or damaged; configured are " + std::to_string(camera.width) + "x" +
-                        std::to_string(camera.height));
+  health().setState(HealthState::kDegraded, "the image is damaged");
 }
 
 void VisualHomographyNode::publishResult(const VisualHomography& result) {

@@ -106,6 +106,48 @@ TEST(FrameQueue, FollowsTheSecondSourceWhenTheFirstHasGone) {
   EXPECT_EQ(queue.put(at(23) - kHour, -1), FrameArrival::kRestarted);
 }
 
+TEST(FrameQueue, ASecondCameraInBetweenIsHeldAndDiscarded) {
+  for (const Duration offset : {Duration(6'000), Duration(17'000), Duration(30'000)}) {
+    Queue queue;
+    run(queue, 0, 20);
+    for (int k = 20; k < 60; ++k) {
+      EXPECT_EQ(queue.put(at(k - 1) + offset, -1), FrameArrival::kHeld);
+      if (k % 20 == 5) continue;  // lost
+      EXPECT_EQ(queue.put(at(k), k), FrameArrival::kQueued);
+      EXPECT_EQ(queue.pop(), k);
+    }
+    EXPECT_GT(queue.takeDiscarded().of_another_time, 30);
+  }
+}
+
+/// Frames per second of the first and of the second camera, or of the camera before and after.
+TEST(FrameQueue, FollowsACameraWhoseRateChangesWithFewFramesLost) {
+  for (const double factor : {0.4, 0.55, 2.0 / 3, 0.8, 0.97, 1.03, 1.25, 1.5, 2.0, 3.7}) {
+    Queue queue;
+    run(queue, 0, 20);
+    int taken = 0;
+    CameraTime time = at(19);
+    for (int k = 0; k < 100; ++k) {
+      time += Duration(std::llround(factor * kPeriod.count()));
+      queue.put(time, k);
+      while (!queue.empty() && queue.isInOrder(time)) taken += queue.pop() >= 0 ? 1 : 0;
+    }
+    EXPECT_GE(taken, 94) << factor;
+  }
+}
+
+TEST(FrameQueue, AnIrregularCameraLosesNothing) {
+  Queue queue;
+  CameraTime time = at(0);
+  int taken = 0;
+  for (int k = 0; k < 200; ++k) {
+    time += kPeriod + Duration(k * 7919 % 20'000) - Duration(10'000);
+    EXPECT_EQ(queue.put(time, k), FrameArrival::kQueued) << k;
+    for (; !queue.empty() && queue.isInOrder(time); ++taken) queue.pop();
+  }
+  EXPECT_GE(taken, 198);
+}
+
 TEST(FrameQueue, SkipsEvenly) {
   Queue queue;
   run(queue, 0, 10);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/node/image_stage.hpp"
@@ -18,7 +19,7 @@ constexpr int64_t kPeriod = 40'000;
 class EchoStage : public ImageStage<altimeter_t> {
  public:
   explicit EchoStage(Bus& bus)
-      : ImageStage(bus, "echo", "hash", "CAMERA", 3, {std::chrono::milliseconds(100), true}) {
+      : ImageStage(bus, "echo", "hash", "CAMERA", {64, 48}, 3, {std::chrono::milliseconds(100), true}) {
     on<altimeter_t>("ALTIMETER", [this](const altimeter_t& m) {
       if (m.height < 0) return false;
       companions().put(timeOf(m), m, now());
@@ -44,6 +45,8 @@ class StageTest : public testing::Test {
   void publishImage(int64_t k) {
     image_t image{};
     image.utime = (k + 1000) * kPeriod;
+    image.width = 64;
+    image.height = 48;
     bus_->publish("CAMERA", image);
   }
   void publishAltitude(int64_t k, double height) {
@@ -128,7 +131,22 @@ TEST_F(StageTest, NamesASecondSourceOnAChannel) {
   EXPECT_EQ(stage_->heights.size(), 12U);
   EXPECT_EQ(stage_->resets, 0);
   const process_health_t health = stage_->health().nextMessage();
-  EXPECT_EQ(health.message, "a second source on CAMERA is ignored");
+  EXPECT_EQ(health.message, "CAMERA: a second source is ignored");
+}
+
+TEST_F(StageTest, IgnoresImagesThatAreNotOfTheCamerasSizeByMessageOrHeader) {
+  for (int k = 0; k < 8; ++k) {
+    publishAltitude(k, k);
+    publishImage(k);
+    image_t large = jpegMessage((k + 1000) * kPeriod + 20'000, cv::Mat1b(480, 640, uchar{7}), 80);
+    if (k % 2 == 0) large.width = 64;
+    if (k % 2 == 0) large.height = 48;
+    bus_->publish("CAMERA", large);
+    settle();
+  }
+  EXPECT_EQ(stage_->heights, (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(stage_->health().nextMessage().message,
+            "CAMERA: an image of 640x480 is ignored, configured are 64x48");
 }
 
 TEST_F(StageTest, ReceivesNothingAfterItsEnd) {
