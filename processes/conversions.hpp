@@ -4,19 +4,23 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "redbee/earlier_step_t.hpp"
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/row_major.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/homography_t.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
+#include "redbee/inertial_homography_t.hpp"
 #include "redbee/node/frame_time.hpp"
 #include "redbee/plane_motion_t.hpp"
 #include "redbee/tracks_t.hpp"
 #include "redbee/visual/point_tracker.hpp"
+#include "redbee/visual_homography_t.hpp"
 
 namespace redbee {
 
@@ -145,6 +149,36 @@ bool plausibleTimes(const Message& message) {
 /// True if all entries are finite and h33 is not 0.
 inline bool isFinite(const homography_t& message) {
   return matrix3(message.H).allFinite() && matrix8(message.covariance).allFinite() && message.H[8] != 0;
+}
+
+/// The message about the frame before, as far as `message` repeats it; only if it is valid and plausible.
+template <typename Message>
+std::optional<Message> restoredFrom(const Message& message) {
+  const earlier_step_t& earlier = message.earlier;
+  const bool is_before = earlier.utime_previous < earlier.utime && earlier.utime < message.utime;
+  if (earlier.valid == 0 || !is_before || !plausibleTimes(earlier) || !isFinite(earlier.ground)) {
+    return std::nullopt;
+  }
+  Message restored{};
+  restored.utime = earlier.utime;
+  restored.utime_previous = earlier.utime_previous;
+  restored.width = message.width;
+  restored.height = message.height;
+  restored.ground = earlier.ground;
+  return restored;
+}
+inline std::optional<visual_homography_t> restoredVisual(const visual_homography_t& message) {
+  auto restored = restoredFrom(message);
+  if (!restored) return std::nullopt;
+  restored->status = visual_homography_t::GOOD;
+  restored->inliers = message.earlier.inliers;
+  restored->outliers = message.earlier.outliers;
+  return restored;
+}
+inline std::optional<inertial_homography_t> restoredInertial(const inertial_homography_t& message) {
+  auto restored = restoredFrom(message);
+  if (restored) restored->valid = 1;
+  return restored;
 }
 
 }  // namespace redbee

@@ -1,8 +1,14 @@
 #include "processes/exit_code.hpp"
 
+#include <errno.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <new>
 #include <string>
 
 #include "redbee/files/user_error.hpp"
@@ -18,13 +24,28 @@ int fail(int code, const std::string& line) {
   return code;
 }
 
+/// Writes one line and ends the process, without memory: destructors and handlers of its exit would need
+/// some, and wait for threads that had none.
+[[noreturn]] void endWithoutMemory() {
+  constexpr const char* kWhat = ": out of memory\n";
+  const char* name = program_invocation_short_name;
+  const bool written = write(STDERR_FILENO, name, std::strlen(name)) >= 0 &&
+                       write(STDERR_FILENO, kWhat, std::strlen(kWhat)) >= 0;
+  static_cast<void>(written);  // there is no other place to say it
+  std::_Exit(kFailure);
+}
+
 }  // namespace
+
+void endWhereMemoryIsShort() { std::set_new_handler(endWithoutMemory); }
 
 int exitCodeOf(const CLI::App& app, const std::function<void()>& work) {
   const std::string& program = app.get_name();
   try {
     work();
     return 0;
+  } catch (const std::bad_alloc&) {
+    endWithoutMemory();
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code();
   } catch (const CLI::ParseError& error) {

@@ -9,6 +9,10 @@ class App;
 
 namespace redbee {
 
+/// From now on a failed allocation ends the process, with one line on stderr and exit code 1, rather than
+/// throw: code of C libraries and of handlers cannot go on from there, and would abort.
+void endWhereMemoryIsShort();
+
 /// Runs `work`, which may parse the command line with `app`. Returns 0 on success; otherwise prints one line
 /// on stderr and returns 2 for bad use or bad input, 1 for any other failure. For a CLI::RuntimeError it
 /// returns its code and prints nothing.

@@ -99,6 +99,12 @@ std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size) {
   return cv::Size(big16(data + *header + 7), big16(data + *header + 5));
 }
 
+cv::Size declaredSize(const image_t& message) {
+  const cv::Size declared(message.width, message.height);
+  if (message.pixelformat != image_t::MJPEG) return declared;
+  return jpegSize(message.data.data(), message.data.size()).value_or(declared);
+}
+
 std::optional<cv::Mat1b> decodeGrey(const image_t& message) { return decodeGrey(message, 1); }
 std::optional<cv::Mat3b> decodeColour(const image_t& message) { return decodeColour(message, 1); }
 

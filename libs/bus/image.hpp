@@ -13,6 +13,10 @@ namespace redbee {
 /// Width and height that a JPEG's header declares; std::nullopt if there is no such header. Decodes nothing.
 std::optional<cv::Size> jpegSize(const uint8_t* data, size_t size);
 
+/// Width and height of the image, by the message or, where they differ, by the header of its JPEG, which is
+/// what decoding would allocate. Decodes nothing.
+cv::Size declaredSize(const image_t& message);
+
 /// The image in grey, or in BGR. std::nullopt if the message's size or format is wrong or the data is
 /// truncated; sizes are compared with the header's before anything is decoded.
 std::optional<cv::Mat1b> decodeGrey(const image_t& message);

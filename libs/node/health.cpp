@@ -62,8 +62,9 @@ void SequenceCounter::noteHoles(int32_t sequence) {
 }
 
 void MessageRate::note(Duration time) {
-  if (!times_.empty() && time < times_.back()) times_.clear();
-  times_.push_back(time);
+  constexpr Duration kReordering = std::chrono::milliseconds(500);
+  if (!times_.empty() && time + kReordering < times_.back()) times_.clear();
+  times_.insert(std::upper_bound(times_.begin(), times_.end(), time), time);
   if (times_.size() > kWindow) times_.pop_front();
 }
 
@@ -135,6 +136,12 @@ void HealthMonitor::setInputSilence(double seconds) {
   changed_ = changed_ || isInputTimedOut() != was_timed_out;
 }
 
+void HealthMonitor::noteIgnored(const std::string& channel, const std::string& what) {
+  const auto known = ignored_.find(channel);
+  changed_ = changed_ || known == ignored_.end() || !isReported(known->second);
+  ignored_[channel] = {what, newest_time_};
+}
+
 bool HealthMonitor::consumeChange() { return std::exchange(changed_, false); }
 
 int64_t HealthMonitor::lost() const {
@@ -153,11 +160,22 @@ void HealthMonitor::describeState(process_health_t& message) const {
   message.message = state_message_;
   message.rate_in = rate_in_.hertz();
   message.rate_out = rate_out_.hertz();
-  if (!isInputTimedOut()) return;
-  message.rate_in = message.rate_out = 0;
-  if (state_ == HealthState::kStopping) return;
-  if (state_ == HealthState::kGood) message.state = static_cast<int8_t>(HealthState::kDegraded);
-  message.message = "no input for " + std::to_string(static_cast<int64_t>(input_silence_s_)) + " s";
+  if (state_ != HealthState::kStopping) describeInput(message);
+}
+
+void HealthMonitor::describeInput(process_health_t& message) const {
+  const auto degrade = [&](const std::string& reason) {
+    if (state_ == HealthState::kGood) message.state = static_cast<int8_t>(HealthState::kDegraded);
+    message.message += (message.message.empty() ? "" : "; ") + reason;
+  };
+  if (isInputTimedOut()) {
+    message.rate_in = message.rate_out = 0;
+    message.message.clear();
+    degrade("no input for " + std::to_string(static_cast<int64_t>(input_silence_s_)) + " s");
+  }
+  for (const auto& [channel, ignored] : ignored_) {
+    if (isReported(ignored)) degrade(channel + ": " + ignored.what);
+  }
 }
 
 process_health_t HealthMonitor::nextMessage() {

@@ -22,6 +22,8 @@ class SequenceCounter {
   static constexpr int32_t kReordering = 32;
 
   void note(int32_t sequence);
+  /// Another publisher: its next number is not compared with the last.
+  void restart() { started_ = false; }
   int64_t lost() const { return lost_; }
 
  private:
@@ -39,7 +41,7 @@ class MessageRate {
  public:
   static constexpr size_t kWindow = 120;
 
-  /// A time that runs backwards restarts the window.
+  /// A time that was set back, by more than messages are reordered, restarts the window.
   void note(Duration time);
   /// Hz; 0 before the second message.
   double hertz() const;
@@ -100,6 +102,12 @@ class HealthMonitor {
   void noteLost(int64_t messages) { lost_otherwise_ += messages; }
   /// `sequence` of a message on `channel`; missing numbers count as lost messages.
   void noteSequence(const std::string& channel, int32_t sequence) { sequences_[channel].note(sequence); }
+  /// The messages on `channel` come from another publisher from now on.
+  void restartSequence(const std::string& channel) { sequences_[channel].restart(); }
+  /// Something on `channel` was ignored, such as a second source. For kIgnoredReported after each the state
+  /// is degraded and the message says so.
+  void noteIgnored(const std::string& channel, const std::string& what);
+  static constexpr Duration kIgnoredReported = std::chrono::seconds(5);
   /// From receiving the driving input to publishing the result [ms].
   void noteLatency(double milliseconds) { latency_.note(milliseconds); }
   /// Wall time of processing one frame, without waiting [ms].
@@ -143,6 +151,15 @@ class HealthMonitor {
  private:
   bool isInputTimedOut() const { return input_silence_s_ >= kInputTimeout_s; }
   void describeState(process_health_t& message) const;
+  /// Adds what is missing or ignored.
+  void describeInput(process_health_t& message) const;
+  struct Ignored {
+    std::string what;
+    Duration newest_time{};  ///< the newest message time then
+  };
+  bool isReported(const Ignored& ignored) const {
+    return newest_time_ - ignored.newest_time < kIgnoredReported;
+  }
 
   std::string process_;
   std::string configuration_hash_;
@@ -161,6 +178,7 @@ class HealthMonitor {
   int64_t late_ = 0;
   int64_t lost_otherwise_ = 0;
   std::map<std::string, SequenceCounter> sequences_;
+  std::map<std::string, Ignored> ignored_;  ///< by channel
   MessageRate rate_in_;
   MessageRate rate_out_;
   LatencyWindow latency_;

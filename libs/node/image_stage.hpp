@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <deque>
 #include <string>
 #include <utility>
 
@@ -12,56 +11,52 @@
 
 namespace redbee {
 
-/// Queues at most `max_backlog` images; beyond this the oldest are skipped, so that a slow process does not
+/// Queues at most `max_backlog` images; beyond this some are skipped, evenly, so that a slow process does not
 /// fall behind.
 template <typename Companion>
 class ImageStage : public Stage {
  public:
-  /// Processes the images in order, up to the first whose companion is pending.
+  /// Processes the images in order, up to the first that is not in order or whose companion is pending.
   void process() final {
-    while (!images_.empty() && !isPending(companions_, timeOf(images_.front().content), newest_)) {
-      const Arrived<image_t> image = std::move(images_.front());
-      images_.pop_front();
+    while (!images_.empty() && isInOrder(images_) && !isWaiting(images_.frontTime())) {
+      const Arrived<image_t> image = images_.pop();
       workOn(timeOf(image.content), image.since, [&] { work(image.content); });
     }
   }
 
  protected:
   ImageStage(Bus& bus, const std::string& process, const std::string& configuration_hash,
-             const std::string& camera_channel, int max_backlog, MessageSynchronizer<Companion> companions)
+             const std::string& camera_channel, cv::Size camera_size, int max_backlog,
+             MessageSynchronizer<Companion> companions)
       : Stage(bus, process, configuration_hash),
         max_backlog_(static_cast<size_t>(std::max(1, max_backlog))),
         companions_(std::move(companions)) {
-    on<image_t>(camera_channel, [this](const image_t& image) { onImage(image); });
+    on<image_t>(camera_channel, [this, camera_channel, camera_size](const image_t& image) {
+      if (!isOfCamera(image, camera_size, camera_channel)) return;
+      queueFrame(images_, camera_channel, timeOf(image), Arrived<image_t>{image, {}});
+      health().noteSkipped(images_.limitTo(max_backlog_));
+    });
   }
 
   virtual void work(const image_t& image) = 0;
-  /// Discards the state; called when the camera's clock was set back.
-  virtual void reset() = 0;
+  /// Whether the frame's messages are pending.
+  virtual bool isWaiting(CameraTime frame) { return isPending(companions_, frame); }
+  /// Discards the state, and messages of frames after `newest`; called when the camera's clock was set back.
+  virtual void reset(CameraTime newest) = 0;
   MessageSynchronizer<Companion>& companions() { return companions_; }
   const MessageSynchronizer<Companion>& companions() const { return companions_; }
+  /// The newest frame received.
+  CameraTime now() const final { return images_.newest().value_or(CameraTime::min()); }
 
  private:
-  void onImage(const image_t& image) {
-    if (!acceptFrame(timeOf(image))) return;
-    newest_ = std::max(newest_, timeOf(image));
-    images_.push_back({image, {}});
-    while (images_.size() > max_backlog_) {
-      images_.pop_front();
-      health().noteSkipped();
-    }
-  }
-  void restart() final {
-    images_.clear();
-    newest_ = CameraTime::min();
-    companions_.clear();
-    reset();
+  void restart(CameraTime newest) final {
+    companions_.eraseAfter(newest);
+    reset(newest);
   }
 
   size_t max_backlog_;
   MessageSynchronizer<Companion> companions_;
-  std::deque<Arrived<image_t>> images_;
-  CameraTime newest_{};
+  FrameQueue<Arrived<image_t>> images_;
 };
 
 }  // namespace redbee

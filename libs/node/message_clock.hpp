@@ -9,7 +9,7 @@
 
 namespace redbee {
 
-/// The latest time in any message. Frames are trusted (FrameOrder has checked them); times of other sensors
+/// The latest time in any message. Frames are trusted (FrameQueue has checked them); times of other sensors
 /// are used only if they are close to the frames', so that a damaged time, or a clock that is off by hours,
 /// does not make every later wait time out.
 class MessageClock {

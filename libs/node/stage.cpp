@@ -1,32 +1,25 @@
 #include "redbee/node/stage.hpp"
 
+#include "redbee/bus/image.hpp"
+
 namespace redbee {
 
 Stage::Stage(Bus& bus, const std::string& process, const std::string& configuration_hash)
     : bus_(bus), health_(process, configuration_hash), publisher_(bus) {}
 
+bool Stage::isOfCamera(const image_t& image, cv::Size camera, const std::string& channel) {
+  const cv::Size size = declaredSize(image);
+  if (size == camera) return true;
+  const auto text = [](cv::Size of) { return std::to_string(of.width) + "x" + std::to_string(of.height); };
+  health_.noteSkipped();
+  health_.noteIgnored(channel, "an image of " + text(size) + " is ignored, configured are " + text(camera));
+  return false;
+}
+
 void Stage::finish() {
   finishing_ = true;
   process();
   finishing_ = false;
-}
-
-bool Stage::acceptFrame(CameraTime time) {
-  if (!isPlausibleTime(time)) {
-    health_.noteDamaged();
-    return false;
-  }
-  health_.noteInput(time.time_since_epoch());
-  const FrameDecision decision = order_.classify(time);
-  if (decision == FrameDecision::kDiscard) {
-    health_.noteSkipped();
-    return false;
-  }
-  if (decision == FrameDecision::kRestart) {
-    restart();
-    health_.setState(HealthState::kDegraded, "the camera's clock was set back: restarted");
-  }
-  return true;
 }
 
 }  // namespace redbee

@@ -3,18 +3,22 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <opencv2/core/types.hpp>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "redbee/altimeter_t.hpp"
+#include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
-#include "redbee/node/frame_order.hpp"
+#include "redbee/node/frame_queue.hpp"
 #include "redbee/node/frame_time.hpp"
 #include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/node/publisher.hpp"
+#include "redbee/node/publisher_choice.hpp"
 #include "redbee/node/work_timer.hpp"
 
 namespace redbee {
@@ -39,21 +43,31 @@ class Stage : public Node {
 
   /// `handler` is called for each message that decodes, and may return whether the message is plausible. A
   /// message that does not decode or is not plausible is counted as damaged; a missing sequence number, if
-  /// the type has them, as lost.
+  /// the type has them, as lost. Of several publishers, where the type names them, one is listened to.
   template <typename Message, typename Handler>
   void on(const std::string& channel, Handler handler);
 
-  /// Whether to process a frame with this time; late and duplicate frames are skipped. Calls restart() first
+  /// Whether an image is of the camera's size; one that is not is ignored, before anything is decoded, and
+  /// the health says so.
+  bool isOfCamera(const image_t& image, cv::Size camera, const std::string& channel);
+  /// Queues a frame, which a message of `channel` is about, unless it has come before. Calls restart() first
   /// if the camera's clock was set back.
-  bool acceptFrame(CameraTime time);
-  FrameOrder& frameOrder() { return order_; }
-  /// Discards queued messages and state; called when the camera's clock was set back.
-  virtual void restart() = 0;
+  template <typename Content>
+  void queueFrame(FrameQueue<Content>& frames, const std::string& channel, CameraTime time, Content content);
+  /// Discards the state, and queued messages of frames after `newest`; called when the camera's clock was set
+  /// back, `newest` being the newest frame since.
+  virtual void restart(CameraTime newest) = 0;
+  /// The latest message time that the node has seen.
+  virtual CameraTime now() const = 0;
 
   /// Whether the message for the frame at `time` is pending; never after the last message. Counts timeouts.
-  /// `newest`: the latest message time that the node has seen on any channel.
   template <typename Message>
-  bool isPending(MessageSynchronizer<Message>& messages, CameraTime time, CameraTime newest);
+  bool isPending(MessageSynchronizer<Message>& messages, CameraTime time);
+  /// Whether a frame may be processed: no earlier one may still arrive. Precondition: not empty.
+  template <typename Content>
+  bool isInOrder(const FrameQueue<Content>& frames) const {
+    return finishing_ || frames.isInOrder(now());
+  }
   /// No more messages will arrive: process() handles what is left.
   bool isFinishing() const { return finishing_; }
 
@@ -71,10 +85,18 @@ class Stage : public Node {
   Publisher& publisher() { return publisher_; }
 
  private:
+  static constexpr const char* kSecondSource = "a second source is ignored";
+
+  /// The publishers that `message` comes from are told apart, and those not listened to are reported.
+  template <typename Message>
+  std::vector<Message> chosen(PublisherChoice<Message>& choice, const std::string& channel,
+                              const Message& message);
+  template <typename Message, typename Handler>
+  void deliver(const std::string& channel, const Handler& handler, const Message& message);
+
   Bus& bus_;
   HealthMonitor health_;
   Publisher publisher_;
-  FrameOrder order_;
   FrameTimers timers_;
   bool finishing_ = false;
   std::vector<Subscription> subscriptions_;
@@ -82,24 +104,65 @@ class Stage : public Node {
 
 template <typename Message, typename Handler>
 void Stage::on(const std::string& channel, Handler handler) {
-  subscriptions_.push_back(bus_.subscribe<Message>(
-      channel, kQueueLength<Message>,
-      [this, channel, handler = std::move(handler)](const Message& message) {
-        if constexpr (HasSequence<Message>::value) health_.noteSequence(channel, message.sequence);
-        if constexpr (std::is_same_v<std::invoke_result_t<const Handler&, const Message&>, bool>) {
-          if (!handler(message)) health_.noteDamaged();
-        } else {
-          handler(message);
-        }
-      },
-      [this] { health_.noteDamaged(); }));
+  const auto damaged = [this] { health_.noteDamaged(); };
+  if constexpr (HasPublisher<Message>::value) {
+    const auto choice = std::make_shared<PublisherChoice<Message>>();
+    subscriptions_.push_back(bus_.subscribe<Message>(
+        channel, kQueueLength<Message>,
+        [this, channel, choice, handler = std::move(handler)](const Message& message) {
+          for (const Message& each : chosen(*choice, channel, message)) deliver(channel, handler, each);
+        },
+        damaged));
+  } else {
+    subscriptions_.push_back(bus_.subscribe<Message>(
+        channel, kQueueLength<Message>,
+        [this, channel, handler = std::move(handler)](const Message& message) {
+          deliver(channel, handler, message);
+        },
+        damaged));
+  }
 }
 
 template <typename Message>
-bool Stage::isPending(MessageSynchronizer<Message>& messages, CameraTime time, CameraTime newest) {
+std::vector<Message> Stage::chosen(PublisherChoice<Message>& choice, const std::string& channel,
+                                   const Message& message) {
+  std::vector<Message> messages = choice.admit(message, now());
+  if (choice.takeIgnored() > 0) health_.noteIgnored(channel, kSecondSource);
+  if (choice.takeChange()) health_.restartSequence(channel);
+  return messages;
+}
+
+template <typename Message, typename Handler>
+void Stage::deliver(const std::string& channel, const Handler& handler, const Message& message) {
+  if constexpr (HasSequence<Message>::value) health_.noteSequence(channel, message.sequence);
+  if constexpr (std::is_same_v<std::invoke_result_t<const Handler&, const Message&>, bool>) {
+    if (!handler(message)) health_.noteDamaged();
+  } else {
+    handler(message);
+  }
+}
+
+template <typename Content>
+void Stage::queueFrame(FrameQueue<Content>& frames, const std::string& channel, CameraTime time,
+                       Content content) {
+  if (!isPlausibleTime(time)) return health_.noteDamaged();
+  const FrameArrival arrival = frames.put(time, std::move(content));
+  const auto discarded = frames.takeDiscarded();
+  health_.noteSkipped(discarded.late);
+  if (discarded.of_another_time > 0) health_.noteIgnored(channel, kSecondSource);
+  if (arrival == FrameArrival::kRepeated || arrival == FrameArrival::kHeld) return;
+  if (arrival == FrameArrival::kRestarted) {
+    restart(time);
+    health_.setState(HealthState::kDegraded, "the camera's clock was set back: restarted");
+  }
+  health_.noteInput(time.time_since_epoch());
+}
+
+template <typename Message>
+bool Stage::isPending(MessageSynchronizer<Message>& messages, CameraTime time) {
   if (finishing_) return false;
   const int64_t before = messages.timedOut();
-  const auto status = messages.status(time, newest);
+  const auto status = messages.status(time, now());
   health_.noteLate(messages.timedOut() - before);
   return status == MessageSynchronizer<Message>::Status::kPending;
 }

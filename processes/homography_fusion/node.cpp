@@ -43,41 +43,39 @@ bool HomographyFusionNode::onInertial(const inertial_homography_t& message) {
   if (message.valid == 0 && message.status == inertial_homography_t::INITIALISING) {
     inertial_at_first_frame_ = true;
   }
-  expect(timeOf(message));
-  inertial_.put(timeOf(message), message);
+  if (const auto restored = restoredInertial(message); restored && isStillToCome(timeOf(*restored))) {
+    expect(configuration_.channels.inertial_homography, timeOf(*restored));
+    inertial_.putRestored(timeOf(*restored), *restored);
+  }
+  expect(configuration_.channels.inertial_homography, timeOf(message));
+  inertial_.put(timeOf(message), message, newestFrame());
   return true;
 }
 
 bool HomographyFusionNode::onVisual(const visual_homography_t& message) {
   const bool is_good = message.status == visual_homography_t::GOOD;
   if (!plausibleTimes(message) || (!isFinite(message.ground) && is_good)) return false;
-  expect(timeOf(message));
-  visual_.put(timeOf(message), message);
+  if (const auto restored = restoredVisual(message); restored && isStillToCome(timeOf(*restored))) {
+    expect(configuration_.channels.visual_homography, timeOf(*restored));
+    visual_.putRestored(timeOf(*restored), *restored);
+  }
+  expect(configuration_.channels.visual_homography, timeOf(message));
+  visual_.put(timeOf(message), message, newestFrame());
   return true;
 }
 
-void HomographyFusionNode::expect(CameraTime time) {
-  if (pending_.count(time) > 0) return;
-  const bool is_companion_of_last = frameOrder().last() == time;
-  if (is_companion_of_last) return;  // late: its frame has timed out
-  const CameraTime newest_frame =
-      pending_.empty() ? frameOrder().last().value_or(time) : pending_.rbegin()->first;
-  if (newest_frame - time > FrameOrder::kSetBack) restart();
-  clock_.noteFrame(time);
-  health().noteInput(time.time_since_epoch());
-  pending_.emplace(time, WorkTimer());
-  if (pending_.size() > kMaxPending) {
-    pending_.erase(pending_.begin());
-    health().noteSkipped();
-  }
+void HomographyFusionNode::expect(const std::string& channel, CameraTime time) {
+  queueFrame(pending_, channel, time, WorkTimer());
+  health().noteSkipped(pending_.limitTo(kMaxPending));
+  if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
 }
 
-void HomographyFusionNode::restart() {
-  pending_.clear();
-  inertial_.clear();
-  visual_.clear();
+void HomographyFusionNode::restart(CameraTime newest) {
+  inertial_.eraseAfter(newest);
+  visual_.eraseAfter(newest);
   snapshot_.reset();
   clock_.restart();
+  fusion_ = HomographyFusion(camera_.width, camera_.height, configuration_.fusion);
 }
 
 void HomographyFusionNode::publishWarmStart() {
@@ -88,25 +86,17 @@ void HomographyFusionNode::publishWarmStart() {
 }
 
 bool HomographyFusionNode::isReadyFor(CameraTime time) {
-  const bool waits_for_inertial = isPending(inertial_, time, clock_.now());
-  const bool waits_for_visual = isPending(visual_, time, clock_.now());
+  const bool waits_for_inertial = isPending(inertial_, time);
+  const bool waits_for_visual = isPending(visual_, time);
   return !waits_for_inertial && !waits_for_visual;
 }
 
 void HomographyFusionNode::process() {
   publishWarmStart();  // before the fused message of its first frame, which it waits for
-  while (!pending_.empty() && isReadyFor(pending_.begin()->first)) {
-    const auto [time, arrival] = *pending_.begin();
-    pending_.erase(pending_.begin());
-    const FrameDecision decision = frameOrder().classify(time);
-    if (decision == FrameDecision::kDiscard) {
-      health().noteSkipped();
-      continue;
-    }
-    if (decision == FrameDecision::kRestart) {
-      fusion_ = HomographyFusion(camera_.width, camera_.height, configuration_.fusion);
-    }
-    workOn(time, arrival, [this, at = time] { fuse(at); });
+  while (!pending_.empty() && isInOrder(pending_) && isReadyFor(pending_.frontTime())) {
+    const CameraTime frame = pending_.frontTime();
+    const WorkTimer arrival = pending_.pop();
+    workOn(frame, arrival, [&] { fuse(frame); });
   }
 }
 
@@ -130,7 +120,8 @@ void HomographyFusionNode::fuse(CameraTime time) {
   if (same_step && fused.source != FusionSource::kNone) front = front_plane_.estimate(tracks, fused.H_step);
 
   fused_homography_t message = messageOf(fused);
-  if (inertial_input && inertial_input->time_previous == fused.time_previous) {
+  const bool has_motion = inertial_input && inertial->motion.distance > 0;  // a restored message has none
+  if (has_motion && inertial_input->time_previous == fused.time_previous) {
     message.has_motion = 1;
     message.motion = inertial->motion;
   }

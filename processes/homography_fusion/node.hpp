@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <string>
 
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/filter_snapshot_t.hpp"
@@ -29,7 +29,10 @@ class HomographyFusionNode : public Stage {
  private:
   bool onInertial(const inertial_homography_t& message);
   bool onVisual(const visual_homography_t& message);
-  void expect(CameraTime time);
+  void expect(const std::string& channel, CameraTime time);
+  /// Whether the frame follows the last one fused; without one, what came before is of no use.
+  bool isStillToCome(CameraTime frame) const { return pending_.last() && frame > *pending_.last(); }
+  CameraTime newestFrame() const { return pending_.newest().value_or(CameraTime::min()); }
   bool isReadyFor(CameraTime time);
   void fuse(CameraTime time);
   fused_homography_t messageOf(const FusedHomography& fused) const;
@@ -42,14 +45,15 @@ class HomographyFusionNode : public Stage {
   /// Offers the snapshot to an inertial process at its first frame, which may have been restarted and
   /// validates the snapshot itself.
   void publishWarmStart();
-  void restart() override;
+  void restart(CameraTime newest) override;
+  CameraTime now() const override { return clock_.now(); }
 
   Configuration configuration_;
   CameraIntrinsics camera_;  ///< ideal
   HomographyFusion fusion_;
   FrontPlaneEstimator front_plane_;
   CalibrationMonitor calibration_;
-  std::map<CameraTime, WorkTimer> pending_;  ///< by frame time; timers since the first message of the frame
+  FrameQueue<WorkTimer> pending_;  ///< timers since the first message of the frame
   MessageSynchronizer<inertial_homography_t> inertial_;
   MessageSynchronizer<visual_homography_t> visual_;
   std::optional<filter_snapshot_t> snapshot_;  ///< the latest one received

@@ -40,13 +40,11 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
 }
 
 void ImuIntegrationNode::onFrame(const image_t& message) {
-  if (!acceptFrame(timeOf(message))) return;
-  clock_.noteFrame(timeOf(message));
-  pending_.push_back({timeOf(message), {}});
-  if (pending_.size() > kMaxPendingFrames) {
-    pending_.pop_front();
-    health().noteSkipped();
-  }
+  const CameraIntrinsics& camera = configuration_.camera;
+  if (!isOfCamera(message, {camera.width, camera.height}, configuration_.channels.camera)) return;
+  queueFrame(pending_, configuration_.channels.camera, timeOf(message), WorkTimer());
+  health().noteSkipped(pending_.limitTo(kMaxPendingFrames));
+  if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
 }
 
 bool ImuIntegrationNode::onImu(const ins_t& message) {
@@ -60,16 +58,16 @@ bool ImuIntegrationNode::onImu(const ins_t& message) {
 bool ImuIntegrationNode::onFused(const fused_homography_t& message) {
   if (!plausibleTimes(message)) return false;
   health().setCalibration(message.calibration);
-  feedback_.put(timeOf(message), message);
+  feedback_.put(timeOf(message), message, pending_.newest().value_or(CameraTime::min()));
   return true;
 }
 
-void ImuIntegrationNode::restart() {
-  pending_.clear();
-  feedback_.clear();
+void ImuIntegrationNode::restart(CameraTime newest) {
+  feedback_.eraseAfter(newest);
   filter_ = InertialFilter(camera_, configuration_.inertial);
   clock_.restart();
   last_frame_.reset();
+  earlier_ = {};
 }
 
 bool ImuIntegrationNode::isReadyFor(CameraTime frame) {
@@ -79,7 +77,7 @@ bool ImuIntegrationNode::isReadyFor(CameraTime frame) {
     if (clock_.now() - frame <= timeout) return false;
     imu_alive_ = false;
   }
-  return !last_frame_ || !isPending(feedback_, *last_frame_, clock_.now());
+  return !last_frame_ || !isPending(feedback_, *last_frame_);
 }
 
 void ImuIntegrationNode::warmStart() {
@@ -118,10 +116,10 @@ void ImuIntegrationNode::publishSnapshot() {
 }
 
 void ImuIntegrationNode::process() {
-  while (!pending_.empty() && isReadyFor(pending_.front().content)) {
-    const Arrived<CameraTime> frame = pending_.front();
-    pending_.pop_front();
-    workOn(frame.content, frame.since, [&] { integrate(frame.content); });
+  while (!pending_.empty() && isInOrder(pending_) && isReadyFor(pending_.frontTime())) {
+    const CameraTime frame = pending_.frontTime();
+    const WorkTimer arrival = pending_.pop();
+    workOn(frame, arrival, [&] { integrate(frame); });
   }
 }
 
@@ -150,7 +148,12 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
     fill(message.accel_bias, state->accel_bias);
   }
   message.feedback_test_ratio = feedback_report_.test_ratio;
+  message.earlier = earlier_;
   publish(configuration_.channels.inertial_homography, message);
+  earlier_.valid = message.valid;
+  earlier_.utime = toUtime(frame);
+  earlier_.utime_previous = message.utime_previous;
+  earlier_.ground = message.ground;
   if (result.valid && agreed_in_a_row_ >= kAgreedFrames) publishSnapshot();
   if (result.valid && result.status == InertialStatus::kGood) {
     health().setState(HealthState::kGood, "");

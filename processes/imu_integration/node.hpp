@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 
 #include "redbee/altimeter_t.hpp"
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/earlier_step_t.hpp"
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
@@ -39,13 +39,14 @@ class ImuIntegrationNode : public Stage {
   void applyFeedback();
   void publishSnapshot();
   void integrate(CameraTime frame);
-  void restart() override;
+  void restart(CameraTime newest) override;
+  CameraTime now() const override { return clock_.now(); }
 
   Configuration configuration_;
   std::string configuration_hash_;
   Camera camera_;
   InertialFilter filter_;
-  std::deque<Arrived<CameraTime>> pending_;  ///< times of frames
+  FrameQueue<WorkTimer> pending_;  ///< timers since the frame's arrival
   MessageSynchronizer<fused_homography_t> feedback_;
   MessageClock clock_;
   std::optional<CameraTime> last_frame_;
@@ -53,6 +54,7 @@ class ImuIntegrationNode : public Stage {
   CorrectionReport feedback_report_;             ///< of the last frame
   int agreed_in_a_row_ = 0;                      ///< consecutive frames with an accepted correction by vision
   bool imu_alive_ = true;
+  earlier_step_t earlier_{};  ///< of the message before
 };
 
 }  // namespace redbee

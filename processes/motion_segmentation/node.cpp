@@ -12,8 +12,6 @@
 namespace redbee {
 namespace {
 
-CameraTime anchorTimeOf(const fused_homography_t& fused) { return CameraTime(fromUtime(fused.utime_anchor)); }
-
 /// How much smaller an image may be decoded.
 int imageDownscale(const DetectorNeeds& needs, const CameraIntrinsics& camera) {
   const auto divides = [&](const CameraIntrinsics& of) {
@@ -30,68 +28,81 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
 MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& configuration,
                                                std::unique_ptr<Detector> detector)
     : ImageStage(bus, programName(kMotionSegmentation), configurationHash(configuration),
-                 configuration.channels.camera, configuration.waits.max_backlog,
+                 configuration.channels.camera, {configuration.camera.width, configuration.camera.height},
+                 configuration.waits.max_backlog,
                  {fromSeconds(configuration.waits.segmentation_s), detector->needs().camera_motion}),
       configuration_(configuration),
       detector_(std::move(detector)),
       needs_(detector_->needs()),
       camera_(configuration.camera, imageDownscale(needs_, configuration.camera)),
       foreground_(publisher(), configuration_, camera_),
-      visual_(Duration(0), false) {
+      visual_(fromSeconds(configuration.waits.segmentation_s), needs_.camera_motion) {
   const auto& channels = configuration_.channels;
   if (!needs_.camera_motion) return;
   on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) {
-    if (!isFinite(m.step)) return false;
-    companions().put(timeOf(m), m);
+    if (!plausibleTimes(m) || !isFinite(m.step) || !isFinite(m.anchor)) return false;
+    companions().put(timeOf(m), m, now());
     health().setCalibration(m.calibration);
     return true;
   });
   on<visual_homography_t>(channels.visual_homography, [this](const visual_homography_t& m) {
-    if (isFinite(m.ground)) visual_.put(timeOf(m), m);
+    if (!plausibleTimes(m) || (!isFinite(m.ground) && m.status == visual_homography_t::GOOD)) return false;
+    visual_.put(timeOf(m), m, now());
+    if (const auto restored = restoredVisual(m)) visual_.putRestored(timeOf(*restored), *restored);
+    return true;
   });
 }
 
-void MotionSegmentationNode::reset() {
-  visual_.clear();
+void MotionSegmentationNode::reset(CameraTime newest) {
+  visual_.eraseAfter(newest);
   last_.reset();
+}
+
+bool MotionSegmentationNode::isWaiting(CameraTime frame) {
+  if (ImageStage::isWaiting(frame)) return true;
+  return needs_.camera_motion && last_ && !fusedPathTo(frame) && isPending(visual_, frame);
 }
 
 FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_homography_t* fused) const {
   FrameInput input;
   input.time = timeOf(message);
-  input.time_previous = last_ ? last_->time : input.time;
+  input.time_previous = last_.value_or(input.time);
   input.K = camera_.camera().K();
   input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
   input.sample_grid_px = configuration_.visual.tracker.grid_px;
   if (!last_) return input;
-  if (fused == nullptr || fused->source == fused_homography_t::NONE) {
-    addVisual(input);
-    return input;
-  }
-  if (previousTimeOf(*fused) == last_->time) {
+  const bool is_step =
+      fused != nullptr && fused->source != fused_homography_t::NONE && previousTimeOf(*fused) == *last_;
+  if (is_step) {
     input.ground = matrix3(fused->step.H);
     input.tracks = tracksOf(fused->tracks);
     if (fused->has_front != 0) input.front = matrix3(fused->H_front);
     if (fused->has_motion != 0) {
       input.motion = motionOf(fused->motion);
     }
-  } else if (fused->epoch == last_->epoch && anchorTimeOf(*fused) == last_->time_anchor) {
-    // Frames in between were missed: the anchor homographies bridge them (libs/README.md, equation 25). A
-    // restarted fusion counts epochs from 0 again, so the anchor's time is compared as well.
-    input.ground = normaliseHomography(matrix3(fused->anchor.H) * last_->H_anchor.inverse());
+  } else {
+    input.ground = fusedPathTo(input.time);
+    if (!input.ground && !addVisual(input)) {
+      std::vector<HomographyLink> links = linksOf(companions());
+      for (const HomographyLink& link : linksOf(visual_)) links.push_back(link);
+      input.ground = homographyAlong(links, *last_, input.time);
+    }
   }
   return input;
 }
 
-/// While the fusion is not running or has no estimate yet after a restart, vision's own homography preserves
-/// background and identities.
-void MotionSegmentationNode::addVisual(FrameInput& input) const {
+std::optional<Eigen::Matrix3d> MotionSegmentationNode::fusedPathTo(CameraTime frame) const {
+  return homographyAlong(linksOf(companions()), *last_, frame);
+}
+
+bool MotionSegmentationNode::addVisual(FrameInput& input) const {
   const visual_homography_t* visual = visual_.find(input.time);
-  if (visual == nullptr || visual->status != visual_homography_t::GOOD ||
-      previousTimeOf(*visual) != last_->time)
-    return;
+  if (visual == nullptr || visual->status != visual_homography_t::GOOD || previousTimeOf(*visual) != *last_) {
+    return false;
+  }
   input.ground = matrix3(visual->ground.H);
   input.tracks = tracksOf(visual->tracks);
+  return true;
 }
 
 void MotionSegmentationNode::work(const image_t& message) {
@@ -102,13 +113,10 @@ void MotionSegmentationNode::work(const image_t& message) {
   noteResultReady();
   publishOutput(message, input, output);
   updateState(output.status, fused != nullptr);
-  if (fused != nullptr) {
-    last_ = Last{input.time, fused->epoch, anchorTimeOf(*fused), matrix3(fused->anchor.H)};
-  } else {
-    last_ = Last{input.time, -1, {}, Eigen::Matrix3d::Identity()};
-  }
-  companions().eraseThrough(timeOf(message));
-  visual_.eraseThrough(timeOf(message));
+  last_ = input.time;
+  // This frame's messages link the next one.
+  companions().eraseBefore(timeOf(message));
+  visual_.eraseBefore(timeOf(message));
 }
 
 void MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "processes/foreground_publisher.hpp"
+#include "processes/motion_segmentation/homography_path.hpp"
 #include "processes/motion_segmentation/track_id_store.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/detection/detector.hpp"
@@ -26,24 +27,22 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   }
 
  private:
-  /// The last processed frame and its anchor homography.
-  struct Last {
-    CameraTime time;
-    int32_t epoch;
-    CameraTime time_anchor;
-    Eigen::Matrix3d H_anchor;
-  };
-
   MotionSegmentationNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Detector> detector);
   void work(const image_t& message) override;
+  /// Vision's homography is waited for as well where the fused ones say nothing about the frame.
+  bool isWaiting(CameraTime frame) override;
   /// `fused`: of this frame, or nullptr.
   FrameInput inputFor(const image_t& message, const fused_homography_t* fused) const;
-  void addVisual(FrameInput& input) const;
+  /// While the fusion is not running or has no estimate yet after a restart, vision's own homography
+  /// preserves background and identities. False if there is none.
+  bool addVisual(FrameInput& input) const;
+  /// The homography from the last processed frame, by the fused homographies alone.
+  std::optional<Eigen::Matrix3d> fusedPathTo(CameraTime frame) const;
   /// Leaves the images empty if the message cannot be decoded to the camera's size.
   void decodeInto(FrameInput& input, const image_t& message);
   void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output);
   void updateState(DetectorStatus status, bool has_fused);
-  void reset() override;
+  void reset(CameraTime newest) override;
 
   Configuration configuration_;
   std::unique_ptr<Detector> detector_;
@@ -51,7 +50,7 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   RectifiedCamera camera_;
   ForegroundPublisher foreground_;
   MessageSynchronizer<visual_homography_t> visual_;
-  std::optional<Last> last_;
+  std::optional<CameraTime> last_;  ///< the last processed frame
   TrackIdStore identities_;
 };
 

@@ -8,7 +8,8 @@
 namespace redbee {
 VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& configuration)
     : ImageStage(bus, programName(kVisualHomography), configurationHash(configuration),
-                 configuration.channels.camera, configuration.waits.max_backlog,
+                 configuration.channels.camera, {configuration.camera.width, configuration.camera.height},
+                 configuration.waits.max_backlog,
                  {fromSeconds(configuration.waits.visual_s), configuration.has_imu}),
       configuration_(configuration),
       camera_(configuration.camera),
@@ -17,13 +18,17 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
   on<inertial_homography_t>(configuration_.channels.inertial_homography,
                             [this](const inertial_homography_t& m) {
                               const bool plausible = plausibleTimes(m) && isFinite(m.ground);
-                              if (plausible) companions().put(timeOf(m), m);
-                              return plausible;
+                              if (!plausible) return false;
+                              companions().put(timeOf(m), m, now());
+                              const auto restored = restoredInertial(m);
+                              if (restored) companions().putRestored(timeOf(*restored), *restored);
+                              return true;
                             });
 }
 
-void VisualHomographyNode::reset() {
+void VisualHomographyNode::reset(CameraTime) {
   estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unknown());
+  earlier_ = {};
 }
 
 std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime time) const {
@@ -51,8 +56,8 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime 
 
 void VisualHomographyNode::work(const image_t& message) {
   const auto grey = decodeGrey(message);
-  if (!grey || grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {
-    if (!grey) health().noteDamaged();
+  if (!grey) {
+    health().noteDamaged();
     return refuse(message);
   }
   const CameraTime time = timeOf(message);
@@ -66,17 +71,13 @@ void VisualHomographyNode::work(const image_t& message) {
 }
 
 void VisualHomographyNode::refuse(const image_t& image) {
-  const CameraIntrinsics& camera = configuration_.camera;
   visual_homography_t message{};
   message.utime_previous = toUtime(estimator_->previousTime().value_or(timeOf(image)));
   message.status = visual_homography_t::IMAGE_DOES_NOT_FIT;
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
   publish(configuration_.channels.visual_homography, message);
-  health().setState(HealthState::kDegraded,
-                    "image is " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                        " or damaged; configured are " + std::to_string(camera.width) + "x" +
-                        std::to_string(camera.height));
+  health().setState(HealthState::kDegraded, "the image is damaged");
 }
 
 void VisualHomographyNode::publishResult(const VisualHomography& result) {
@@ -93,7 +94,14 @@ void VisualHomographyNode::publishResult(const VisualHomography& result) {
     message.outliers = result.ground->outliers;
     message.rms = result.ground->rms_px;
   }
+  message.earlier = earlier_;
   publish(configuration_.channels.visual_homography, message);
+  earlier_.valid = result.ground && result.status == VisualStatus::kGood ? 1 : 0;
+  earlier_.utime = toUtime(result.time);
+  earlier_.utime_previous = message.utime_previous;
+  earlier_.ground = message.ground;
+  earlier_.inliers = message.inliers;
+  earlier_.outliers = message.outliers;
   const bool good = result.status == VisualStatus::kGood;
   health().setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(result.status));
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/earlier_step_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/imaging/rectifier.hpp"
 #include "redbee/inertial_homography_t.hpp"
@@ -25,14 +26,16 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
   /// The composed inertial homographies from the reference frame to this one; std::nullopt if one is missing.
   std::optional<HomographyPrediction> prediction(CameraTime time) const;
   void work(const image_t& message) override;
+  /// For an image that cannot be decoded.
   void refuse(const image_t& image);
   void publishResult(const VisualHomography& result);
-  void reset() override;
+  void reset(CameraTime newest) override;
 
   Configuration configuration_;
   Camera camera_;
   Rectifier rectifier_;
   std::unique_ptr<VisualHomographyEstimator> estimator_;
+  earlier_step_t earlier_{};  ///< of the message before
 };
 
 }  // namespace redbee

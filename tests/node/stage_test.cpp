@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/node/image_stage.hpp"
@@ -18,10 +19,10 @@ constexpr int64_t kPeriod = 40'000;
 class EchoStage : public ImageStage<altimeter_t> {
  public:
   explicit EchoStage(Bus& bus)
-      : ImageStage(bus, "echo", "hash", "CAMERA", 3, {std::chrono::milliseconds(100), true}) {
+      : ImageStage(bus, "echo", "hash", "CAMERA", {64, 48}, 3, {std::chrono::milliseconds(100), true}) {
     on<altimeter_t>("ALTIMETER", [this](const altimeter_t& m) {
       if (m.height < 0) return false;
-      companions().put(timeOf(m), m);
+      companions().put(timeOf(m), m, now());
       return true;
     });
   }
@@ -36,7 +37,7 @@ class EchoStage : public ImageStage<altimeter_t> {
     publish("DETECTIONS", detections_t{});
     companions().eraseThrough(timeOf(image));
   }
-  void reset() override { ++resets; }
+  void reset(CameraTime) override { ++resets; }
 };
 
 class StageTest : public testing::Test {
@@ -44,6 +45,8 @@ class StageTest : public testing::Test {
   void publishImage(int64_t k) {
     image_t image{};
     image.utime = (k + 1000) * kPeriod;
+    image.width = 64;
+    image.height = 48;
     bus_->publish("CAMERA", image);
   }
   void publishAltitude(int64_t k, double height) {
@@ -83,7 +86,7 @@ TEST_F(StageTest, WaitsForACompanionUntilTheLastMessage) {
   EXPECT_TRUE(published_.empty());
   for (int k = 1; k <= 3; ++k) publishImage(k);
   settle();
-  EXPECT_EQ(stage_->health().skipped(), 1) << "of more than three images the oldest is skipped";
+  EXPECT_EQ(stage_->health().skipped(), 1) << "of more than three images one is skipped";
   stage_->finish();
   EXPECT_EQ(stage_->heights, (std::vector<double>{-1, -1, -1}))
       << "after the last message nothing is pending";
@@ -100,11 +103,50 @@ TEST_F(StageTest, CountsWhatIsDamagedOrImplausible) {
 TEST_F(StageTest, ForgetsWhatWaitsWhereTheCamerasClockWasSetBack) {
   publishImage(500);
   settle();
-  publishImage(0);
-  publishAltitude(0, 7);
+  for (int k = 0; k < 5; ++k) publishImage(k);
+  settle();
+  for (int k = 2; k < 5; ++k) publishAltitude(k, 7);
   settle();
   EXPECT_EQ(stage_->resets, 1);
-  EXPECT_EQ(stage_->heights, std::vector<double>{7});
+  EXPECT_EQ(stage_->heights, (std::vector<double>{7, 7, 7}));
+}
+
+TEST_F(StageTest, PutsImagesInOrder) {
+  for (const int k : {0, 1, 2, 3, 4, 5, 6, 8, 7, 10, 9, 11}) {
+    publishAltitude(k, k);
+    publishImage(k);
+    settle();
+  }
+  EXPECT_EQ(stage_->heights, (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+  EXPECT_EQ(stage_->health().skipped(), 0);
+}
+
+TEST_F(StageTest, NamesASecondSourceOnAChannel) {
+  for (int k = 0; k < 12; ++k) {
+    publishAltitude(k, k);
+    publishImage(k);
+    publishImage(k - 900);
+    settle();
+  }
+  EXPECT_EQ(stage_->heights.size(), 12U);
+  EXPECT_EQ(stage_->resets, 0);
+  const process_health_t health = stage_->health().nextMessage();
+  EXPECT_EQ(health.message, "CAMERA: a second source is ignored");
+}
+
+TEST_F(StageTest, IgnoresImagesThatAreNotOfTheCamerasSizeByMessageOrHeader) {
+  for (int k = 0; k < 8; ++k) {
+    publishAltitude(k, k);
+    publishImage(k);
+    image_t large = jpegMessage((k + 1000) * kPeriod + 20'000, cv::Mat1b(480, 640, uchar{7}), 80);
+    if (k % 2 == 0) large.width = 64;
+    if (k % 2 == 0) large.height = 48;
+    bus_->publish("CAMERA", large);
+    settle();
+  }
+  EXPECT_EQ(stage_->heights, (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(stage_->health().nextMessage().message,
+            "CAMERA: an image of 640x480 is ignored, configured are 64x48");
 }
 
 TEST_F(StageTest, ReceivesNothingAfterItsEnd) {

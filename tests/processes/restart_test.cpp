@@ -197,6 +197,8 @@ TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
   for (int k = 1; k < 15; ++k) publish(k, utimeOf(k - 1), utimeOf(0));
   EXPECT_EQ(status.at(utimeOf(14)), 0);
   publish(17, utimeOf(16), utimeOf(16));  // frames were lost, and the fusion counts its epochs from the start
+  node.finish();
+  bus->handle(std::chrono::milliseconds(0));
   EXPECT_NE(status.at(utimeOf(17)), 0) << "the homographies to two different anchors do not compose";
 }
 

@@ -14,6 +14,12 @@ struct Corruption {
   const char* error_message;
 };
 
+/// The publisher's number is random.
+std::vector<uint8_t> contentOf(inertial_homography_t message) {
+  message.publisher = 0;
+  return encodeMessage(message);
+}
+
 class CorruptSnapshot : public testing::TestWithParam<Corruption> {};
 
 TEST_P(CorruptSnapshot, ChangesNothingAndIsReported) {
@@ -28,7 +34,7 @@ TEST_P(CorruptSnapshot, ChangesNothingAndIsReported) {
   const RunResult result = run(flight, faults);
   EXPECT_NE(result.log.find(GetParam().error_message), std::string::npos) << result.log;
   for (int k = kBackAt; k < kFrames; ++k) {
-    EXPECT_EQ(encodeMessage(result.homographies.at(k)), encodeMessage(without.homographies.at(k))) << k;
+    EXPECT_EQ(contentOf(result.homographies.at(k)), contentOf(without.homographies.at(k))) << k;
   }
 }
 

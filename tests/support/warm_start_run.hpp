@@ -127,6 +127,8 @@ class WarmStartRun {
     }
     image_t image{};
     image.utime = toUtime(time);
+    image.width = kWidth;
+    image.height = kHeight;
     bus_->publish("CAMERA", image);
     settle();
     bus_->publish("VISUAL_HOMOGRAPHY", vision());
