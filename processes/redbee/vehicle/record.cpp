@@ -17,6 +17,7 @@
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/split_log.hpp"
 #include "redbee/node/health.hpp"
+#include "redbee/node/heartbeat.hpp"
 #include "redbee/node/node.hpp"
 
 namespace redbee {
@@ -69,8 +70,10 @@ class Recorder {
   /// Runs until `stop` or a disk problem. Returns the reason; empty after `stop`.
   std::string run(const std::atomic<bool>& stop) {
     auto next_health = Clock::now();
+    Heartbeat heartbeat;
     while (!stop) {
       handle();
+      heartbeat.beat();
       if (Clock::now() < next_health) continue;
       next_health += kHealthPeriod;
       if (std::string failure = queue_.failure(); !failure.empty()) return failure;
