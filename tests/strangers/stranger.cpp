@@ -63,20 +63,24 @@ class Packets {
   Packets(const Packets&) = delete;
   Packets& operator=(const Packets&) = delete;
 
+  /// One without a channel: LCM hands it out with a size of -1. Whoever subscribes to all channels receives
+  /// it.
+  void sendShort() const { sendWords({kWhole, 8}, nullptr, 0); }
+
   void send() const {
-    constexpr uint32_t kWhole = 0x4c433032;
     constexpr uint32_t kFragment = 0x4c433033;
     constexpr uint32_t kSize = 4000;
     // A fragment whose offset wraps round, behind a normal first one.
     sendWords({kFragment, 7, kSize, 0, 2}, "CAMERA", 1000);
     sendWords({kFragment, 7, kSize, 0xfffffff6, 0x00010002}, "", 1000);
-    // No channel: a size of -1.
-    sendWords({kWhole, 8}, nullptr, 0);
+    sendShort();
     // One fragment of 255 MB.
     sendWords({kFragment, 9, 255u << 20, 0, 2}, "PROCESS_HEALTH", 1000);
   }
 
  private:
+  static constexpr uint32_t kWhole = 0x4c433032;
+
   void sendWords(const std::vector<uint32_t>& words, const char* channel, size_t bytes) const {
     std::vector<char> packet;
     for (const uint32_t word : words) {
@@ -141,13 +145,18 @@ int main(int argc, char** argv) {
   health->add_option("--process", forgery.processes);
   health->add_option("--invented", forgery.invented);
   auto* packets = app.add_subcommand("packets", "packets that end a program of LCM 1.3.1");
+  auto* only_short = packets->add_flag("--short", "only one that LCM survives: no channel, a size of -1");
   auto* random = app.add_subcommand("flood", "random bytes on every channel");
   random->add_option("--seconds", seconds_long);
   auto* listen = app.add_subcommand("listen", "prints how many health messages are heard");
   listen->add_option("--seconds", seconds_long);
   CLI11_PARSE(app, argc, argv);
   if (*health) forgery.send(*redbee::makeLcmBus(url));
-  if (*packets) Packets(url).send();
+  if (*packets && *only_short) {
+    Packets(url).sendShort();
+  } else if (*packets) {
+    Packets(url).send();
+  }
   if (*random) flood(*redbee::makeLcmBus(url), seconds_long);
   if (*listen) std::printf("%d\n", heard(url, seconds_long));
   return 0;
