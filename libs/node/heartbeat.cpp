@@ -9,8 +9,8 @@
 
 namespace redbee {
 
-Heartbeat::Heartbeat() {
-  const char* path = std::getenv("NOTIFY_SOCKET");  // NOLINT(concurrency-mt-unsafe)
+Heartbeat::Heartbeat(const char* variable) {
+  const char* path = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe)
   if (path == nullptr || path[0] != '/' || std::strlen(path) >= sizeof address_.sun_path) return;
   address_.sun_family = AF_UNIX;
   std::strcpy(address_.sun_path, path);

@@ -8,11 +8,11 @@
 namespace redbee {
 
 /// Reports that the process makes progress: sends WATCHDOG=1, as sd_notify(3) does, to the Unix socket that
-/// the environment variable NOTIFY_SOCKET names; does nothing without it. The kernel tells the receiver who
+/// an environment variable names; does nothing without it. The kernel tells the receiver who
 /// sent it, so that, unlike a message on a channel, nobody can forge it.
 class Heartbeat {
  public:
-  Heartbeat();
+  explicit Heartbeat(const char* variable = "NOTIFY_SOCKET");
   ~Heartbeat();
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "processes/redbee/vehicle/health_check.hpp"
+#include "processes/health_check.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/node/health.hpp"
 

@@ -9,6 +9,7 @@
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/node/heartbeat.hpp"
 #include "redbee/node/node.hpp"
 
 namespace redbee {
@@ -42,7 +43,7 @@ class Worker {
         heartbeats_(heartbeatSocket()),
         watch_({supervisor, watchedPrograms(),
                 std::chrono::duration<double>(configuration.watch.hang_timeout_s)},
-               [this] { return client_.processes(); }),
+               [this] { return askSupervisor(); }),
         bus_(makeLcmBus(url)),
         subscription_(bus_->subscribe<process_health_t>(
             channel_, kListenerQueue, [this](const process_health_t& health) { watch_.onHealth(health); },
@@ -73,6 +74,14 @@ class Worker {
     if (path == nullptr)
       throw UserError("redbee watch: NOTIFY_SOCKET is not set; start the stack with: fly up");
     return path;
+  }
+
+  /// While supervisor answers, systemd (if it started the stack) is told that all is well: nobody else would
+  /// end a supervisor that hangs.
+  std::optional<std::vector<SupervisedProcess>> askSupervisor() {
+    auto processes = client_.processes();
+    if (processes) systemd_.beat();
+    return processes;
   }
 
   void step() {
@@ -112,6 +121,7 @@ class Worker {
 
   std::string channel_;
   SupervisorClient client_;
+  Heartbeat systemd_{"REDBEE_SYSTEMD_SOCKET"};
   HeartbeatReceiver heartbeats_;
   ProcessWatch watch_;
   std::unique_ptr<Bus> bus_;

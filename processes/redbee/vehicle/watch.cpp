@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "processes/redbee/vehicle/health_check.hpp"
+#include "processes/health_check.hpp"
 #include "processes/redbee/vehicle/pidfd.hpp"
 #include "redbee/node/health.hpp"
 

@@ -1,4 +1,4 @@
-#include "processes/redbee/vehicle/health_check.hpp"
+#include "processes/health_check.hpp"
 
 #include <algorithm>
 #include <array>
