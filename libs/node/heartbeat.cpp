@@ -23,11 +23,15 @@ Heartbeat::~Heartbeat() {
 
 void Heartbeat::beat() {
   const auto now = std::chrono::steady_clock::now();
-  if (socket_ < 0 || now < next_) return;
+  if (now < next_) return;
   next_ = now + kPeriod;
-  static constexpr char kAlive[] = "WATCHDOG=1";
+  send("WATCHDOG=1");
+}
+
+void Heartbeat::send(std::string_view message) const {
+  if (socket_ < 0) return;
   // Nobody may listen just now, or the receiver may be behind: the next one counts.
-  static_cast<void>(sendto(socket_, kAlive, sizeof kAlive - 1, MSG_NOSIGNAL,
+  static_cast<void>(sendto(socket_, message.data(), message.size(), MSG_NOSIGNAL,
                            reinterpret_cast<const sockaddr*>(&address_), sizeof address_));
 }
 

@@ -4,6 +4,7 @@
 #include <sys/un.h>
 
 #include <chrono>
+#include <string_view>
 
 namespace redbee {
 
@@ -21,6 +22,8 @@ class Heartbeat {
 
   /// Call at least as often as kPeriod; sends once per period, and never waits.
   void beat();
+  /// Any other message of sd_notify(3), at once.
+  void send(std::string_view message) const;
 
  private:
   int socket_ = -1;

@@ -47,7 +47,7 @@ class TrialReport {
       const auto next = observer_.firstGoodAfter(kill.utime);
       f.resumed_s.push_back(std::chrono::duration<double>(next->second.received - kill.when).count());
       f.hang = kill.hang;
-      f.without_s.push_back(withoutMaskAfter(kill.utime));
+      f.without_s.push_back(withoutMaskAfter(kill));
       compareIdentities(kill.utime, f);
     }
     bool good = printFigures(figures);
@@ -66,10 +66,11 @@ class TrialReport {
     int reused = 0;  ///< identities that another car had before
   };
 
-  /// Flight time without a GOOD mask in the 1.5 s after a kill.
-  double withoutMaskAfter(int64_t utime) const {
+  /// Flight time without a GOOD mask in the 1.5 s after a kill, the 4 s after a hang.
+  double withoutMaskAfter(const Kill& kill) const {
     int frames = 0;
-    for (int64_t k = flight_.frameAt(utime) + 1; k <= flight_.frameAt(utime) + 36; ++k) {
+    const int64_t first = flight_.frameAt(kill.utime) + 1;
+    for (int64_t k = first; k < first + (kill.hang ? 4 : 1.5) * kFps; ++k) {
       const auto it = observer_.frames().find(flight_.utime(k));
       frames += it == observer_.frames().end() || it->second.status != 0 ? 1 : 0;
     }

@@ -21,6 +21,7 @@ constexpr std::chrono::milliseconds kShortestPause{100};  ///< between two quest
 constexpr std::chrono::seconds kLongestPause{1};
 constexpr std::chrono::milliseconds kWaking{500};
 constexpr std::chrono::minutes kReportPeriod{1};
+constexpr std::chrono::seconds kSupervisorTimeout{20};  ///< without its answer systemd starts it again
 
 /// All of the table but the watch itself, whose two halves watch each other.
 std::map<std::string, std::filesystem::path> watchedPrograms() {
@@ -51,6 +52,7 @@ class Worker {
 
   void run(Partner& guard) {
     const std::atomic<bool>& stop = stopOnSignals();
+    systemd_.send("WATCHDOG_USEC=" + std::to_string(std::chrono::microseconds(kSupervisorTimeout).count()));
     while (!stop) {
       bus_->handle(kWatchPeriod);
       step();
@@ -66,6 +68,8 @@ class Worker {
           return;
       }
     }
+    // Who stops the watch does not mean to stop the flight.
+    systemd_.send("WATCHDOG_USEC=0");
   }
 
  private:
