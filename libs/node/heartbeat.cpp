@@ -4,16 +4,17 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <cstring>
-#include <string>
+
+#include "redbee/node/unix_address.hpp"
 
 namespace redbee {
 
 Heartbeat::Heartbeat(const char* variable) {
   const char* path = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe)
-  if (path == nullptr || path[0] != '/' || std::strlen(path) >= sizeof address_.sun_path) return;
-  address_.sun_family = AF_UNIX;
-  std::strcpy(address_.sun_path, path);
+  if (path == nullptr || path[0] != '/') return;
+  const auto address = unixAddress(path);
+  if (!address) return;
+  address_ = *address;
   socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
 }
 

@@ -55,6 +55,7 @@ Tone toneOf(HealthState state) {
 template <typename Entries>
 std::vector<std::string> inOrderOfWork(const Entries& entries) {
   std::vector<std::string> names;
+  names.reserve(kStages.size() + entries.size());
   for (const auto* stage : kStages) names.push_back(programName(*stage));
   for (const auto& [name, entry] : entries) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);

@@ -9,19 +9,21 @@
 #include <cstring>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/node/unix_address.hpp"
 
 namespace redbee {
 
 HeartbeatReceiver::HeartbeatReceiver(const std::filesystem::path& socket)
     : fd_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (socket.string().size() >= sizeof address.sun_path) throw InputError(socket, "is too long for a socket");
-  std::strcpy(address.sun_path, socket.c_str());
+  const auto address = unixAddress(socket.string());
+  if (!address) {
+    if (fd_ >= 0) close(fd_);
+    throw InputError(socket, "is too long for a socket");
+  }
   unlink(socket.c_str());
   const int on = 1;
   if (fd_ < 0 || setsockopt(fd_, SOL_SOCKET, SO_PASSCRED, &on, sizeof on) != 0 ||
-      bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      bind(fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 ||
       chmod(socket.c_str(), S_IRUSR | S_IWUSR) != 0) {
     const int error = errno;
     if (fd_ >= 0) close(fd_);

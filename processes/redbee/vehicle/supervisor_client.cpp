@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "redbee/files/user_error.hpp"
+#include "redbee/node/unix_address.hpp"
 
 namespace redbee {
 namespace {
@@ -30,14 +31,12 @@ struct Connection {
 };
 
 bool connectTo(const Connection& connection, const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (connection.fd < 0 || path.size() >= sizeof address.sun_path) return false;
-  std::strcpy(address.sun_path, path.c_str());
+  const auto address = unixAddress(path);
+  if (connection.fd < 0 || !address) return false;
   const timeval patience{0, kPatience_us};
   setsockopt(connection.fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   setsockopt(connection.fd, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-  return connect(connection.fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  return connect(connection.fd, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) == 0;
 }
 
 std::string receiveAll(const Connection& connection) {
