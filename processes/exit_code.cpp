@@ -1,14 +1,16 @@
 #include "processes/exit_code.hpp"
 
-#include <errno.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <new>
+#include <stdexcept>
 #include <string>
 
 #include "redbee/files/user_error.hpp"
@@ -18,6 +20,15 @@ namespace {
 
 constexpr int kFailure = 1;
 constexpr int kBadInput = 2;
+
+/// What was printed counts as a result: one that did not arrive, as on a full disk, is no success.
+void requirePrinted() {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return;
+  throw std::runtime_error(std::string("standard output: cannot be written: ") +
+                           (errno != 0 ? std::strerror(errno) : "an earlier write failed"));
+}
 
 int fail(int code, const std::string& line) {
   std::fprintf(stderr, "%s\n", line.c_str());
@@ -43,13 +54,14 @@ int exitCodeOf(const CLI::App& app, const std::function<void()>& work) {
   const std::string& program = app.get_name();
   try {
     work();
+    requirePrinted();
     return 0;
   } catch (const std::bad_alloc&) {
     endWithoutMemory();
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) return exitCodeOf(app, [&] { app.exit(error); });  // --help, --version
     return fail(kBadInput, program + ": " + error.what() + " (see " + program + " --help)");
   } catch (const UserError& error) {
     return fail(kBadInput, error.what());

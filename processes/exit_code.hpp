@@ -14,8 +14,8 @@ namespace redbee {
 void endWhereMemoryIsShort();
 
 /// Runs `work`, which may parse the command line with `app`. Returns 0 on success; otherwise prints one line
-/// on stderr and returns 2 for bad use or bad input, 1 for any other failure. For a CLI::RuntimeError it
-/// returns its code and prints nothing.
+/// on stderr and returns 2 for bad use or bad input, 1 for any other failure, as where standard output cannot
+/// be written. For a CLI::RuntimeError it returns its code and prints nothing.
 int exitCodeOf(const CLI::App& app, const std::function<void()>& work);
 
 }  // namespace redbee

@@ -43,6 +43,11 @@ struct WaitParameters {
   int max_backlog = 14;          ///< frames that may queue up; beyond this the oldest are skipped
 };
 
+/// For `redbee watch`.
+struct WatchParameters {
+  double hang_timeout_s = 2.0;  ///< s of wall time without a sign of life, after which a process is killed
+};
+
 struct Configuration {
   std::string vehicle = "unnamed";
   CameraIntrinsics camera;
@@ -55,6 +60,7 @@ struct Configuration {
   DetectionParameters detection;
   Channels channels;
   WaitParameters waits;
+  WatchParameters watch;
   int overlay_period_frames = 4;  ///< OVERLAY is published for every n-th frame; 0: never
 };
 

@@ -9,6 +9,7 @@
 #include "redbee/configuration/configuration_value.hpp"
 #include "redbee/configuration/renamed_keys.hpp"
 #include "redbee/configuration/wait_order.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee::configuration {
 namespace {
@@ -38,6 +39,7 @@ Loader::Place Loader::placeOf(const YAML::Node& node) const {
 
 void Loader::loadFile(const std::filesystem::path& file) {
   YAML::Node root;
+  if (const std::string fault = faultOfFile(file); !fault.empty()) fail({file.string(), 0}, "file", fault);
   try {
     root = YAML::LoadFile(file.string());
   } catch (const YAML::BadFile&) {
@@ -64,8 +66,8 @@ void Loader::includeOne(const YAML::Node& name) {
   if (!name.IsScalar()) fail(placeOf(name), "include", "must be a file name or a list of them");
   const std::filesystem::path file = open_files_.back().parent_path() / name.Scalar();
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    fail(placeOf(name), "include", "no file " + file.string());
+  if (const std::string fault = faultOfFile(file); !fault.empty())
+    fail(placeOf(name), "include", file.string() + " " + fault);
   const bool open = std::any_of(open_files_.begin(), open_files_.end(), [&](const auto& other) {
     return std::filesystem::equivalent(file, other, error);
   });

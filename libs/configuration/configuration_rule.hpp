@@ -25,6 +25,8 @@ Rule(Predicate, std::string) -> Rule<Predicate>;
 
 inline const Rule anything{[](const auto&) { return true; }, ""};
 inline const Rule positive{[](auto x) { return x > 0; }, "must be above 0"};
+inline const Rule hangTimeout{[](auto x) { return x >= 0.5; },
+                              "must be at least 0.5: a busy process gives signs of life 0.1 s apart"};
 inline const Rule notNegative{[](auto x) { return x >= 0; }, "must not be negative"};
 inline const Rule fraction{[](auto x) { return x >= 0 && x <= 1; }, "must lie from 0 to 1"};
 inline const Rule probability{[](auto x) { return x > 0 && x < 1; }, "must lie between 0 and 1"};

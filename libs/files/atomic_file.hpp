@@ -1,33 +1,29 @@
 // A file that appears under its name only when it is complete.
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <string>
 #include <string_view>
+
+#include "redbee/files/new_file.hpp"
 
 namespace redbee {
 
-/// Writes to "<path>.partial" and renames it on close(); the partial file is removed if close() is not
-/// called. Write errors, such as a full disk, throw InputError with the file's name.
+/// A PartialFile with a buffer, for many small writes. Write errors, such as a full disk, throw InputError
+/// with the file's name.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
+  explicit AtomicFile(std::filesystem::path path) : file_(std::move(path)) {}
 
-  void write(const void* data, size_t size);
-  void write(std::string_view text) { write(text.data(), text.size()); }
+  void write(const void* data, size_t size) { write({static_cast<const char*>(data), size}); }
+  void write(std::string_view text);
+  /// Without it no file remains.
   void close();
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return file_.path(); }
 
  private:
-  [[noreturn]] void fail(int error) const;
-
-  std::filesystem::path path_;
-  std::filesystem::path partial_;
-  std::FILE* file_ = nullptr;
+  PartialFile file_;
+  std::string buffer_;
 };
 
 /// Writes a small file at once.

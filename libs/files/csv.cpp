@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee {
 namespace {
@@ -28,7 +29,7 @@ std::vector<std::string> split(const std::string& line) {
 }  // namespace
 
 CsvReader::CsvReader(std::filesystem::path path) : path_(std::move(path)) {
-  if (!std::filesystem::is_regular_file(path_)) throw InputError(path_, "no such file");
+  requireFile(path_);
   file_.open(path_);
   if (!file_) throw InputError(path_, "cannot be opened");
 }

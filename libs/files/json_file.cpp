@@ -5,10 +5,12 @@
 
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee {
 
 nlohmann::json readJson(const std::filesystem::path& file) {
+  requireFile(file);
   std::ifstream stream(file);
   if (!stream) throw InputError(file, "cannot be read");
   try {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee {
 namespace {
@@ -15,10 +16,16 @@ constexpr int64_t kHeaderSize = 28;
 constexpr int32_t kMaxChannelSize = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
 
 template <typename Integer>
-void putBigEndian(std::vector<uint8_t>& out, Integer value) {
+void putBigEndian(std::string& out, Integer value) {
   for (int shift = static_cast<int>(sizeof(Integer)) * 8 - 8; shift >= 0; shift -= 8) {
-    out.push_back(static_cast<uint8_t>(static_cast<uint64_t>(value) >> shift));
+    out.push_back(static_cast<char>(static_cast<uint64_t>(value) >> shift));
   }
+}
+
+std::vector<uint8_t> syncWord() {
+  std::string word;
+  putBigEndian<uint32_t>(word, kSync);
+  return {word.begin(), word.end()};
 }
 
 template <typename Integer>
@@ -30,25 +37,28 @@ Integer getBigEndian(const uint8_t* from) {
 
 }  // namespace
 
+std::string eventHeader(int64_t number, int64_t utime, const std::string& channel, size_t data_size) {
+  std::string header;
+  putBigEndian<uint32_t>(header, kSync);
+  putBigEndian<int64_t>(header, number);
+  putBigEndian<int64_t>(header, utime);
+  putBigEndian<int32_t>(header, static_cast<int32_t>(channel.size()));
+  putBigEndian<int32_t>(header, static_cast<int32_t>(data_size));
+  return header + channel;
+}
+
 void LogWriter::write(int64_t utime, const std::string& channel, const std::vector<uint8_t>& data) {
   if (channel.empty() || channel.size() > static_cast<size_t>(kMaxChannelSize)) {
     throw InputError(file_.path(), "channel name '" + channel + "' must have 1 to 63 characters");
   }
-  std::vector<uint8_t> header;
-  header.reserve(kHeaderSize);
-  putBigEndian<uint32_t>(header, kSync);
-  putBigEndian<int64_t>(header, number_++);
-  putBigEndian<int64_t>(header, utime);
-  putBigEndian<int32_t>(header, static_cast<int32_t>(channel.size()));
-  putBigEndian<int32_t>(header, static_cast<int32_t>(data.size()));
-  file_.write(header.data(), header.size());
-  file_.write(channel);
+  const std::string header = eventHeader(number_++, utime, channel, data.size());
+  file_.write(header);
   file_.write(data.data(), data.size());
-  bytes_ += static_cast<int64_t>(header.size() + channel.size() + data.size());
+  bytes_ += static_cast<int64_t>(header.size() + data.size());
 }
 
 LogReader::LogReader(std::filesystem::path path) : path_(std::move(path)) {
-  if (std::filesystem::is_directory(path_)) throw InputError(path_, "is a folder, not a log");
+  requireFile(path_);
   file_.open(path_, std::ios::binary);
   if (!file_) throw InputError(path_, std::string("cannot be opened: ") + std::strerror(errno));
   size_ = static_cast<int64_t>(std::filesystem::file_size(path_));
@@ -133,14 +143,12 @@ bool LogReader::eventFollows(int64_t offset) {
   // Fewer bytes than a sync word are the rest of a truncated event; what precedes them is complete.
   const size_t there = static_cast<size_t>(std::min<int64_t>(4, size_ - offset));
   if (!readAt(offset, bytes.data(), there)) return false;
-  std::vector<uint8_t> sync;
-  putBigEndian<uint32_t>(sync, kSync);
+  const std::vector<uint8_t> sync = syncWord();
   return std::equal(bytes.begin(), bytes.begin() + static_cast<long>(there), sync.begin());
 }
 
 std::optional<int64_t> LogReader::resynchronise(int64_t from) {
-  std::vector<uint8_t> sync;
-  putBigEndian<uint32_t>(sync, kSync);
+  const std::vector<uint8_t> sync = syncWord();
   std::vector<uint8_t> block(64 * 1024);
   for (int64_t at = from; at + kHeaderSize <= size_;) {
     const size_t count =

@@ -24,6 +24,9 @@ struct LogEvent {
   std::vector<uint8_t> data;
 };
 
+/// What stands before the data of an event.
+std::string eventHeader(int64_t number, int64_t utime, const std::string& channel, size_t data_size);
+
 /// The log appears under its name on close(); without close() no file remains. Throws InputError if it cannot
 /// be written.
 class LogWriter {

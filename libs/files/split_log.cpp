@@ -1,19 +1,20 @@
 #include "redbee/files/split_log.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
 
 namespace redbee {
 
-SplitLog::SplitLog(std::filesystem::path prefix, int64_t split_bytes)
-    : prefix_(std::move(prefix)), split_bytes_(split_bytes) {
+SplitLog::SplitLog(std::filesystem::path prefix, int64_t split_bytes, int64_t min_free_bytes)
+    : prefix_(std::move(prefix)), split_bytes_(split_bytes), min_free_bytes_(min_free_bytes) {
   openNext();
 }
 
@@ -22,33 +23,52 @@ void SplitLog::write(const ReceivedMessage& message) {
     sync();
     openNext();
   }
-  lcm::LogEvent event{};
-  event.timestamp = message.utime;
-  event.channel = message.channel;
-  event.datalen = static_cast<int32_t>(message.data.size());
-  // LCM's event takes non-const pointers to what it only reads.
-  event.data = const_cast<uint8_t*>(message.data.data());
-  if (log_->writeEvent(&event) != 0) fail();
-  bytes_ += message.bytes();
+  std::string event = eventHeader(event_number_, message.utime, message.channel, message.data.size());
+  event.append(reinterpret_cast<const char*>(message.data.data()), message.data.size());
+  const auto size = static_cast<int64_t>(event.size());
+  requireRoomFor(size);
+  if (!file_.write(event)) {
+    const int error = errno;
+    // What cannot be shortened either is found by whoever reads it.
+    static_cast<void>(ftruncate(file_.get(), bytes_) == 0);
+    errno = error;
+    fail();
+  }
+  ++event_number_;
+  bytes_ += size;
+}
+
+void SplitLog::requireRoomFor(int64_t bytes) const {
+  if (min_free_bytes_ <= 0) return;
+  struct statvfs disk {};
+  if (fstatvfs(file_.get(), &disk) != 0) fail();
+  const auto free = static_cast<int64_t>(disk.f_bavail) * static_cast<int64_t>(disk.f_frsize);
+  // An event ends within a block of the disk, and the name of the file and the tables of the disk take some,
+  // too.
+  constexpr int64_t kMargin = 64 << 10;
+  if (free - bytes - kMargin >= min_free_bytes_) return;
+  throw InputError(path_,
+                   fmt::format("{:.0f} MB free, {:.0f} MB are kept free", static_cast<double>(free) / 1e6,
+                               static_cast<double>(min_free_bytes_) / 1e6));
 }
 
 void SplitLog::sync() {
-  std::FILE* file = log_->getFilePtr();
-  if (std::fflush(file) != 0 || fdatasync(fileno(file)) != 0) fail();
+  if (fdatasync(file_.get()) != 0) fail();
 }
 
 void SplitLog::openNext() {
   do {
-    file_ = prefix_;
-    file_ += fmt::format(".{:02}", number_++);
-  } while (std::filesystem::exists(file_));
-  log_ = std::make_unique<lcm::LogFile>(file_.string(), "w");
-  if (!log_->good()) fail();
+    path_ = prefix_;
+    path_ += fmt::format(".{:02}", file_number_++);
+    file_ = createFile(path_);
+  } while (!file_.isOpen() && errno == EEXIST);
+  if (!file_.isOpen()) fail();
+  event_number_ = 0;
   bytes_ = 0;
 }
 
 void SplitLog::fail() const {
-  throw InputError(file_, std::string("cannot be written: ") + std::strerror(errno));
+  throw InputError(path_, std::string("cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace redbee

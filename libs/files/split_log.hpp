@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <lcm/lcm-cpp.hpp>
-#include <memory>
 #include <string>
 #include <vector>
+
+#include "redbee/files/new_file.hpp"
 
 namespace redbee {
 
@@ -21,27 +21,33 @@ struct ReceivedMessage {
 };
 
 /// Unlike with LogWriter, whatever is written remains on disk even if the process is killed. Existing files
-/// are never overwritten; numbering continues after them. Throws InputError on a write error.
+/// are never overwritten; numbering continues after them. Throws InputError on a write error; what the file
+/// then holds of the last event is removed, so that it ends with a whole one.
 class SplitLog {
  public:
-  /// A new file is started after the message with which the current one exceeds `split_bytes`.
-  SplitLog(std::filesystem::path prefix, int64_t split_bytes);
+  /// A new file is started after the message with which the current one exceeds `split_bytes`. At least
+  /// `min_free_bytes` of the disk stay free: a message that would take more throws InputError and is not
+  /// written.
+  SplitLog(std::filesystem::path prefix, int64_t split_bytes, int64_t min_free_bytes = 0);
 
   void write(const ReceivedMessage& message);
   /// Flushes all data to disk (fsync).
   void sync();
-  const std::filesystem::path& file() const { return file_; }
+  const std::filesystem::path& file() const { return path_; }
 
  private:
   void openNext();
+  void requireRoomFor(int64_t bytes) const;
   [[noreturn]] void fail() const;
 
   std::filesystem::path prefix_;
   int64_t split_bytes_;
-  int number_ = 0;
-  int64_t bytes_ = 0;
-  std::filesystem::path file_;
-  std::unique_ptr<lcm::LogFile> log_;
+  int64_t min_free_bytes_;
+  int file_number_ = 0;
+  int64_t event_number_ = 0;
+  int64_t bytes_ = 0;  ///< of the current file, whole events
+  std::filesystem::path path_;
+  FileDescriptor file_;
 };
 
 }  // namespace redbee

@@ -8,12 +8,13 @@
 
 #include "redbee/bus/image.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee {
 namespace {
 
 std::vector<uint8_t> readWhole(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw InputError(file, "no such image");
+  requireFile(file);
   std::ifstream in(file, std::ios::binary);
   std::vector<uint8_t> bytes(static_cast<size_t>(std::filesystem::file_size(file)));
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

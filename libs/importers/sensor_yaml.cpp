@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 #include "redbee/geometry/camera_model.hpp"
 
 namespace redbee {
@@ -25,8 +26,9 @@ class SensorFile {
  public:
   /// `section`: the key that holds the keys; empty for those of the file itself.
   explicit SensorFile(const std::filesystem::path& file, const std::string& section = "") : file_(file) {
+    requireFile(file);
     std::ifstream in(file);
-    if (!in) throw InputError(file, "no such file");
+    if (!in) throw InputError(file, "cannot be read");
     std::string text;
     for (std::string line; std::getline(in, line);) {
       // OpenCV's directive is no YAML; an empty line in its place keeps the line numbers.

@@ -5,6 +5,7 @@
 
 #include "redbee/files/ffmpeg.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee {
 namespace {
@@ -13,7 +14,7 @@ constexpr AVRational kMicroseconds{1, 1000000};
 
 ffmpeg::Input openInput(const std::filesystem::path& path) {
   ffmpeg::silence();
-  if (!std::filesystem::is_regular_file(path)) throw InputError(path, "no such file");
+  requireFile(path);
   AVFormatContext* raw = nullptr;
   const int opened = avformat_open_input(&raw, path.c_str(), nullptr, nullptr);
   if (opened < 0) throw InputError(path, "is no video or is cut short: " + ffmpeg::explain(opened));

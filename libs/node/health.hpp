@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "redbee/geometry/time.hpp"
 #include "redbee/process_health_t.hpp"
@@ -113,6 +115,9 @@ class HealthMonitor {
   /// Wall time of processing one frame, without waiting [ms].
   void noteWork(double milliseconds);
   void noteCpu(const CpuTime& time);
+  /// `callback` is called after each frame: several in a row may take longer than a pass of the main loop
+  /// should.
+  void onProgress(std::function<void()> callback) { on_progress_ = std::move(callback); }
 
   /// `message`: the reason in one line, empty for a good state. A change of either is published immediately.
   void setState(HealthState state, const std::string& message = "");
@@ -186,6 +191,7 @@ class HealthMonitor {
   double work_sum_ = 0;
   int64_t work_count_ = 0;
   CpuTime cpu_;
+  std::function<void()> on_progress_;
 };
 
 /// Resident memory of this process [bytes]; 0 if /proc is not available.

@@ -8,6 +8,8 @@
 #include <new>
 #include <opencv2/core.hpp>
 
+#include "redbee/node/heartbeat.hpp"
+
 namespace redbee {
 namespace {
 
@@ -57,8 +59,11 @@ void runNode(Bus& bus, Node& node, const std::string& health_channel, const std:
   auto next_health = std::chrono::steady_clock::now();
   InputSilenceTimer silence;
   int64_t failures = 0;
+  Heartbeat heartbeat;
+  node.health().onProgress([&] { heartbeat.beat(); });
   while (!stop) {
     bus.handle(kPollTimeout);
+    heartbeat.beat();
     node.health().noteDamaged(bus.handlerFailures() - failures);
     failures = bus.handlerFailures();
     guarded(node, &Node::process);
@@ -69,6 +74,7 @@ void runNode(Bus& bus, Node& node, const std::string& health_channel, const std:
     if (due) next_health = now + kHealthPeriod;
   }
   guarded(node, &Node::finish);
+  node.health().onProgress({});
   node.health().setState(HealthState::kStopping);
   bus.publish(health_channel, node.health().nextMessage());
 }

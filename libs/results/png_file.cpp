@@ -5,6 +5,7 @@
 
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee {
 
@@ -18,8 +19,7 @@ void writePng(const std::filesystem::path& file, const cv::Mat& image) {
 }
 
 cv::Mat1b readGreyPng(const std::filesystem::path& file) {
-  // OpenCV writes a warning of its own where the file is missing.
-  if (!std::filesystem::is_regular_file(file)) throw InputError(file, "no such file");
+  requireFile(file);  // OpenCV would write a warning of its own
   cv::Mat image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   if (image.empty()) throw InputError(file, "not a readable image");
   return image;

@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <system_error>
 
 #include "redbee/files/ffmpeg.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/new_file.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -17,26 +17,18 @@ namespace redbee {
 class VideoWriter::Implementation {
  public:
   Implementation(const std::filesystem::path& path, const cv::Size& size, double fps, int quality)
-      : path_(path), partial_(path), size_(size), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
+      : file_(path), size_(size), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
     if (size.width <= 0 || size.height <= 0 || size.width % 2 != 0 || size.height % 2 != 0) {
       throw std::invalid_argument("VideoWriter: width and height must be even and positive");
     }
     if (!(fps > 0)) throw std::invalid_argument("VideoWriter: fps must be positive");
     ffmpeg::silence();
-    partial_ += ".partial";
     AVFormatContext* raw = nullptr;
-    check(avformat_alloc_output_context2(&raw, nullptr, "mp4", partial_.c_str()));
+    check(avformat_alloc_output_context2(&raw, nullptr, "mp4", file_.descriptorPath().c_str()));
     output_.reset(raw);
     openEncoder(av_d2q(fps, 1001000), quality);
     openFile();
     allocateFrame();
-  }
-
-  ~Implementation() {
-    if (closed_) return;
-    output_.reset();
-    std::error_code ignored;
-    std::filesystem::remove(partial_, ignored);
   }
 
   void write(const cv::Mat& image) {
@@ -58,18 +50,17 @@ class VideoWriter::Implementation {
   }
 
   void close() {
-    if (closed_) return;
+    if (!file_.isOpen()) return;
     encode(nullptr);
     check(av_write_trailer(output_.get()));
     check(avio_closep(&output_->pb));
     output_.reset();
-    closed_ = true;
-    std::filesystem::rename(partial_, path_);
+    file_.commit();
   }
 
  private:
   void check(int result) const {
-    if (result < 0) throw InputError(path_, "cannot be written: " + ffmpeg::explain(result));
+    if (result < 0) throw InputError(file_.path(), "cannot be written: " + ffmpeg::explain(result));
   }
 
   void openEncoder(AVRational fps, int quality) {
@@ -92,7 +83,7 @@ class VideoWriter::Implementation {
       av_opt_set_double(encoder_->priv_data, "crf", quality, 0);
       if (avcodec_open2(encoder_.get(), codec, nullptr) == 0) return;
     }
-    throw InputError(path_, "cannot be written: ffmpeg has neither an H.264 nor an MPEG-4 encoder");
+    throw InputError(file_.path(), "cannot be written: ffmpeg has neither an H.264 nor an MPEG-4 encoder");
   }
 
   void openFile() {
@@ -100,7 +91,7 @@ class VideoWriter::Implementation {
     check(avcodec_parameters_from_context(stream_->codecpar, encoder_.get()));
     stream_->time_base = encoder_->time_base;
     stream_->avg_frame_rate = encoder_->framerate;
-    check(avio_open(&output_->pb, partial_.c_str(), AVIO_FLAG_WRITE));
+    check(avio_open(&output_->pb, file_.descriptorPath().c_str(), AVIO_FLAG_WRITE));
     AVDictionary* options = nullptr;
     // The index at the front: a browser starts to play before it has everything.
     av_dict_set(&options, "movflags", "+faststart", 0);
@@ -130,8 +121,7 @@ class VideoWriter::Implementation {
     }
   }
 
-  std::filesystem::path path_;
-  std::filesystem::path partial_;
+  PartialFile file_;  ///< outlives what writes to it
   cv::Size size_;
   ffmpeg::Output output_;
   ffmpeg::CodecContext encoder_;
@@ -141,7 +131,6 @@ class VideoWriter::Implementation {
   ffmpeg::Frame frame_;
   AVStream* stream_ = nullptr;
   int64_t next_ = 0;
-  bool closed_ = false;
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& path, const cv::Size& size, double fps, int quality)

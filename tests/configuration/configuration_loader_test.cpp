@@ -59,7 +59,7 @@ TEST_F(ConfigurationLoader, FaultsAreReportedWithFileLineAndKey) {
       {"waits: {fusion_s: 0.5}\n", "2: waits.fusion_s: ", "waits.segmentation_s (0.45 s) must be longer"},
       {"vehicle: a\nvehicle: b\n", "3: vehicle: ", "second time"},
       {"preset: fancy\n", "2: preset: ", "one of default, paper, vision_only"},
-      {"include: nowhere.yaml\n", "2: include: ", "no file"},
+      {"include: nowhere.yaml\n", "2: include: ", "no such file"},
       {"include: {a: b}\n", "2: include: ", "file name"},
       {"vehicle: [\n", "3: syntax: ", ""},
       {"\"two\\nlines\": 1\n", "2: two lines: ", "unknown key"},

@@ -6,6 +6,7 @@
 
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace redbee {
@@ -52,6 +53,39 @@ TEST(SplitLog, NeverTouchesAFileThatIsThere) {
   log.sync();
   EXPECT_EQ(std::filesystem::file_size(folder.path() / "f.lcm.00"), 7u);
   EXPECT_EQ(timesIn(folder.path() / "f.lcm.01"), std::vector<int64_t>{1});
+}
+
+TEST(SplitLog, AMessageThatWouldTakeFromTheReserveIsNotWritten) {
+  const test::ScratchFolder folder;
+  const int64_t free = static_cast<int64_t>(std::filesystem::space(folder.path()).available);
+  const int64_t room = 1 << 20;  // other programs may take some meanwhile
+  SplitLog log(folder.path() / "f.lcm", 1 << 30, free - 64 * room);
+  log.write(messageOf(1, 1000));
+  EXPECT_THROW(log.write(messageOf(2, 66 * room)), InputError);
+  EXPECT_EQ(timesIn(folder.path() / "f.lcm.00"), std::vector<int64_t>{1});
+}
+
+TEST(SplitLog, AnEventThatTheDiskTookHalfOfIsRemoved) {
+  const test::ScratchFolder folder;
+  SplitLog log(folder.path() / "f.lcm", 1 << 30);
+  const test::FileSizeLimit full(2600);
+  log.write(messageOf(1, 1000));
+  log.write(messageOf(2, 1000));
+  EXPECT_THROW(log.write(messageOf(3, 1000)), InputError);
+  EXPECT_EQ(timesIn(folder.path() / "f.lcm.00"), (std::vector<int64_t>{1, 2}));
+  LogReader reader(folder.path() / "f.lcm.00");
+  while (reader.next()) {
+  }
+  EXPECT_FALSE(reader.truncated());
+}
+
+TEST(SplitLog, WritesThroughNoLink) {
+  const test::ScratchFolder folder;
+  std::filesystem::create_symlink(folder / "victim", folder / "f.lcm.00");
+  SplitLog log(folder.path() / "f.lcm", 1000000);
+  log.write(messageOf(1, 10));
+  EXPECT_FALSE(std::filesystem::exists(folder / "victim"));
+  EXPECT_EQ(timesIn(folder / "f.lcm.01"), std::vector<int64_t>{1});
 }
 
 TEST(SplitLog, WhatTheDiskDoesNotTakeIsAnError) {

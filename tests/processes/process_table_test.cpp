@@ -60,10 +60,10 @@ TEST(ProcessTable, SupervisorRunsAllOfIt) {
   const std::string text = supervisorConfiguration();
   for (const ProcessDescription* stage : kStages) {
     EXPECT_THAT(text, HasSubstr("[program:" + std::string(stage->name) + "]\n"));
-    EXPECT_THAT(text, HasSubstr("\"%(ENV_REDBEE_BIN)s/" + programName(*stage) + "\" --config"));
+    EXPECT_THAT(text, HasSubstr("\"$REDBEE_BIN/" + programName(*stage) + "\" --config \"$REDBEE_CONFIG\""));
   }
-  EXPECT_THAT(text, HasSubstr("\"%(ENV_REDBEE_BIN)s/redbee\" watch --config"));
-  EXPECT_THAT(text, HasSubstr("nice -n 5 \"%(ENV_REDBEE_BIN)s/redbee\" record --out"));
+  EXPECT_THAT(text, HasSubstr("\"$REDBEE_BIN/redbee\" watch --config"));
+  EXPECT_THAT(text, HasSubstr("nice -n 5 \"$REDBEE_BIN/redbee\" record --out"));
   EXPECT_THAT(text, HasSubstr("autostart=%(ENV_REDBEE_RECORD)s"));
 }
 

@@ -1,6 +1,6 @@
-// restart_trial: publishes the endless flight to a running stack, kills its processes (SIGKILL) at random
-// times, in turn, and compares the output with the truth. Exit status 1 if a requirement is not met. Times
-// are printed but not checked, as the machine may be busy.
+// restart_trial: publishes the endless flight to a running stack, kills its processes (SIGKILL) or makes them
+// hang (SIGSTOP, every third time) at random times, in turn, and compares the output with the truth. Exit
+// status 1 if a requirement is not met. Times are printed but not checked, as the machine may be busy.
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
@@ -20,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kSettling_s = 3;
 constexpr double kLongestPause_s = 30;
 constexpr int kSettledFrames = 30;
+constexpr size_t kHangEvery = 3;
 
 std::string vehicleYaml() {
   const simulation::Scenario scenario = endlessScenario();
@@ -36,7 +37,7 @@ class Trial {
   Trial(const std::string& url, int kills, unsigned seed, double speed)
       : bus_(makeLcmBus(url)),
         observer_(*bus_, flight_),
-        player_(*bus_, flight_, 20 + kills * 6.0, speed),
+        player_(*bus_, flight_, 20 + kills * 8.0, speed),
         kills_wanted_(kills),
         speed_(speed),
         random_(seed) {}
@@ -88,8 +89,9 @@ class Trial {
     const std::string process = turn_.back();
     turn_.pop_back();
     const int pid = observer_.pids(process).back();
-    kills_.push_back({process, pid, player_.newestUtime(), Clock::now()});
-    return ::kill(pid, SIGKILL) == 0 || fail(process + " was not running");
+    const bool hang = kills_.size() % kHangEvery == kHangEvery - 1;
+    kills_.push_back({process, hang, pid, player_.newestUtime(), Clock::now()});
+    return ::kill(pid, hang ? SIGSTOP : SIGKILL) == 0 || fail(process + " was not running");
   }
 
   std::vector<std::string> programs_ = allPrograms();

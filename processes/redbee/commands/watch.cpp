@@ -15,7 +15,10 @@ const Command kWatchCommand(CommandGroup::kVehicle, "watch",
                               auto options = std::make_shared<WatchOptions>();
                               addConfigurationOption(command, options->configuration);
                               addLcmUrlOption(command, options->url);
-                              command.callback([options] { runWatch(*options); });
+                              command.callback([options] {
+                                const int status = runWatch(*options);
+                                if (status != 0) throw CLI::RuntimeError(status);
+                              });
                             });
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "processes/conversions.hpp"
+#include "processes/health_check.hpp"
 #include "redbee/bus/build_version.hpp"
 #include "redbee/files/input_error.hpp"
 
@@ -61,7 +62,10 @@ ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesy
       channels.fused_homography, kListenerQueue, [this](const fused_homography_t& m) { onFused(m); },
       damaged));
   subscriptions_.push_back(bus.subscribe<process_health_t>(
-      channels.health, kListenerQueue, [this](const process_health_t& m) { health_[m.process] = m; },
+      channels.health, kListenerQueue,
+      [this](const process_health_t& m) {
+        if (isKnownProcess(m.process) && isPlausible(m)) health_[m.process] = m;
+      },
       damaged));
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 #include "redbee/files/json_file.hpp"
 
 namespace redbee {
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 using Fields = std::vector<std::string>;
 
 void forEachLine(const fs::path& file, size_t least_fields, const std::function<void(const Fields&)>& take) {
+  requireFile(file);
   std::ifstream in(file);
   if (!in) throw InputError(file, "cannot be read");
   int number = 0;

@@ -41,7 +41,7 @@ class TruthFolder {
   void add(int k, CameraTime time, const cv::Mat& mask, const Eigen::Matrix3d& H) {
     if (folder_.empty()) return;
     const std::string stamp = std::to_string(toUtime(time) * 1000);
-    cv::imwrite((folder_ / "mask" / (stamp + ".png")).string(), mask);
+    writePng(folder_ / "mask" / (stamp + ".png"), mask);
     homographies_ << stamp << ',' << k;
     for (int i = 0; i < 9; ++i) homographies_ << ',' << H(i / 3, i % 3);
     homographies_ << '\n';

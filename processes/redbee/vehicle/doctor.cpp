@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "processes/redbee/vehicle/stack_network.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/bus/receive_buffer.hpp"
@@ -29,7 +30,8 @@ bool onPath(const std::string& program) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    if (std::filesystem::exists(std::filesystem::path(folder) / program)) return true;
+    std::error_code error;  // the path may name folders that we may not look into
+    if (std::filesystem::exists(std::filesystem::path(folder) / program, error)) return true;
   }
   return false;
 }
@@ -95,7 +97,10 @@ std::vector<Finding> findSensors(const DoctorOptions& options) {
 }
 
 int runDoctor(const DoctorOptions& options) {
-  std::vector<Finding> findings = {findReceiveBuffer(options.url), findMulticast(options.url), findSpy()};
+  const StackNetwork network = stackNetwork(supervisorPidFile());
+  const bool is_inside = network.is_ours || (network.supervisor && enterNetworkOf(*network.supervisor));
+  std::vector<Finding> findings = {findNetwork(network, is_inside), findReceiveBuffer(options.url),
+                                   findMulticast(options.url), findSpy()};
   for (Finding& finding : findSensors(options)) findings.push_back(std::move(finding));
   int failed = 0;
   for (const Finding& finding : findings) {

@@ -4,13 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace redbee {
+#include "processes/redbee/vehicle/finding.hpp"
 
-struct Finding {
-  bool good = false;
-  std::string what;  ///< one line
-  std::string fix;   ///< a command or a step; empty if nothing is wrong
-};
+namespace redbee {
 
 struct DoctorOptions {
   std::string url;
@@ -25,7 +21,8 @@ Finding findMulticast(const std::string& url);
 Finding findSpy();
 std::vector<Finding> findSensors(const DoctorOptions& options);
 
-/// Prints all findings. Returns the number of failed checks.
+/// Prints all findings. As root it first enters the network of a stack that is up. Returns the number of
+/// failed checks.
 int runDoctor(const DoctorOptions& options);
 
 }  // namespace redbee

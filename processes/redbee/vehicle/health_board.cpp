@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "processes/health_check.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/node/health.hpp"
 
@@ -54,6 +55,7 @@ Tone toneOf(HealthState state) {
 template <typename Entries>
 std::vector<std::string> inOrderOfWork(const Entries& entries) {
   std::vector<std::string> names;
+  names.reserve(kStages.size() + entries.size());
   for (const auto* stage : kStages) names.push_back(programName(*stage));
   for (const auto& [name, entry] : entries) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -72,6 +74,14 @@ std::string printable(std::string text, int columns) {
 }  // namespace
 
 void HealthBoard::onHealth(const process_health_t& health, Time now) {
+  if (!isKnownProcess(health.process)) {
+    ++strangers_;
+    return;
+  }
+  if (!isPlausible(health)) {
+    ++implausible_;
+    return;
+  }
   const auto [it, is_new] = entries_.try_emplace(health.process);
   Entry& entry = it->second;
   if (!is_new && health.pid != entry.last.pid) {
@@ -166,6 +176,11 @@ std::vector<BoardLine> HealthBoard::table(Time now, int columns) const {
   lines.push_back({"", Tone::kPlain});
   appendRemarks(lines, now);
   appendBuilds(lines);
+  const auto count = [&](int64_t messages, const char* of) {
+    if (messages > 0) lines.push_back({brief(messages) + " messages " + of, Tone::kWarning});
+  };
+  count(strangers_, "of names outside the process table: not shown");
+  count(implausible_, "that no process can have sent: not shown");
   for (BoardLine& line : lines) line.text = printable(line.text, columns);
   return lines;
 }

@@ -25,6 +25,8 @@ class HealthBoard {
   /// A process publishes its health once a second; after this long without a message it counts as silent.
   static constexpr std::chrono::milliseconds kSilence{2500};
 
+  /// Messages of names outside the process table and implausible ones (health_check.hpp) are counted, not
+  /// kept.
   void onHealth(const process_health_t& health, Time now);
 
   int processes() const { return static_cast<int>(entries_.size()); }
@@ -48,7 +50,9 @@ class HealthBoard {
   void appendRemarks(std::vector<BoardLine>& lines, Time now) const;
   void appendBuilds(std::vector<BoardLine>& lines) const;
 
-  std::map<std::string, Entry> entries_;
+  std::map<std::string, Entry> entries_;  ///< only names of the process table
+  int64_t strangers_ = 0;
+  int64_t implausible_ = 0;
 };
 
 }  // namespace redbee

@@ -17,6 +17,7 @@
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/split_log.hpp"
 #include "redbee/node/health.hpp"
+#include "redbee/node/heartbeat.hpp"
 #include "redbee/node/node.hpp"
 
 namespace redbee {
@@ -28,7 +29,8 @@ constexpr std::chrono::milliseconds kSyncPeriod{100};
 constexpr std::chrono::milliseconds kHealthPeriod{1000};
 constexpr std::chrono::seconds kStopTimeout{5};
 constexpr int kPollTimeout_ms = 50;
-constexpr int kBatch = 1000;  ///< messages handled before the time is checked again
+constexpr uint32_t kLongestMessage = 1 << 28;  ///< bytes; LCM refuses longer ones
+constexpr int kBatch = 1000;                   ///< messages handled before the time is checked again
 
 std::filesystem::path prefixNow(const std::filesystem::path& folder) {
   const std::time_t now = std::time(nullptr);
@@ -54,7 +56,8 @@ class Recorder {
  public:
   explicit Recorder(const RecordOptions& options)
       : options_(options),
-        log_(prefixNow(options.out), static_cast<int64_t>(options.split_mb * kMegabyte)),
+        log_(prefixNow(options.out), static_cast<int64_t>(options.split_mb * kMegabyte),
+             static_cast<int64_t>(options.min_free_mb * kMegabyte)),
         queue_([this](const ReceivedMessage& message) { write(message); }, kQueueBytes),
         lcm_(options.url) {
     if (!lcm_.good()) throw std::runtime_error("LCM cannot open " + options.url);
@@ -69,11 +72,13 @@ class Recorder {
   /// Runs until `stop` or a disk problem. Returns the reason; empty after `stop`.
   std::string run(const std::atomic<bool>& stop) {
     auto next_health = Clock::now();
+    Heartbeat heartbeat;
     while (!stop) {
       handle();
+      heartbeat.beat();
+      if (std::string failure = queue_.failure(); !failure.empty()) return failure;
       if (Clock::now() < next_health) continue;
       next_health += kHealthPeriod;
-      if (std::string failure = queue_.failure(); !failure.empty()) return failure;
       if (std::string shortage = shortageOfDisk(options_); !shortage.empty()) return shortage;
       reportLosses();
       publishHealth();
@@ -100,6 +105,8 @@ class Recorder {
   }
 
   void onMessage(const lcm::ReceiveBuffer* received, const std::string& channel) {
+    // LCM 1.3.1 hands out a packet without a channel as one of size -1.
+    if (channel.empty() || received->data_size >= kLongestMessage) return health_.noteDamaged();
     const auto* first = static_cast<const uint8_t*>(received->data);
     ReceivedMessage message{received->recv_utime, channel, {first, first + received->data_size}};
     health_.noteInput(fromUtime(message.utime));

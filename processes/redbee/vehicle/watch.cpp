@@ -1,106 +1,132 @@
 #include "processes/redbee/vehicle/watch.hpp"
 
-#include <poll.h>
 #include <signal.h>
-extern "C" {
-#include <sys/pidfd.h>  // glibc 2.36 declares these without C linkage
-}
 #include <unistd.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <utility>
 
-#include "redbee/configuration/configuration.hpp"
+#include "processes/health_check.hpp"
+#include "processes/redbee/vehicle/pidfd.hpp"
 #include "redbee/node/health.hpp"
-#include "redbee/node/node.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod{20};
-constexpr std::chrono::milliseconds kWaking{500};
-
-bool hasEnded(int fd) {
-  pollfd entry{fd, POLLIN, 0};
-  return poll(&entry, 1, 0) > 0;
-}
+constexpr std::chrono::milliseconds kWatchLate{500};
 
 }  // namespace
 
+ProcessWatch::ProcessWatch(Options options, AskSupervisor ask)
+    : options_(std::move(options)), ask_(std::move(ask)) {}
+
 ProcessWatch::~ProcessWatch() {
-  for (auto& [process, watched] : watched_) stopWatching(watched);
-}
-
-void ProcessWatch::stopWatching(Watched& watched) {
-  if (watched.fd >= 0) close(watched.fd);
-  watched.fd = -1;
-}
-
-void ProcessWatch::onHealth(const process_health_t& health, Clock::time_point now) {
-  if (health.state == static_cast<int8_t>(HealthState::kDead)) return;
-  Watched& watched = watched_[health.process];
-  if (watched.fd < 0 || health.pid != watched.last.pid) {
-    stopWatching(watched);
-    watched.fd = pidfd_open(health.pid, 0);
+  for (auto& [name, watched] : watched_) {
+    if (watched.fd >= 0) close(watched.fd);
   }
-  watched.last = health;
-  watched.received = now;
-  if (!health.configuration.empty()) newest_message_ = now;
+}
+
+void ProcessWatch::refresh(Clock::time_point now) {
+  const auto processes = ask_();
+  if (!processes) return;
+  for (const SupervisedProcess& process : *processes) {
+    if (process.is_up && options_.programs.count(process.name) > 0) watch(process, now);
+  }
+  // What supervisor itself stops has all the time that supervisor gives it.
+  for (auto& [name, watched] : watched_) {
+    const auto is_same = [&, n = name, pid = watched.pid](const SupervisedProcess& process) {
+      return process.is_up && process.name == n && process.pid == pid;
+    };
+    const bool is_up = std::any_of(processes->begin(), processes->end(), is_same);
+    if (!is_up) watched.deadline = std::max(watched.deadline, now + hangTimeout());
+  }
+}
+
+void ProcessWatch::watch(const SupervisedProcess& process, Clock::time_point now) {
+  Watched& watched = watched_[process.name];
+  if (watched.fd >= 0 && watched.pid == process.pid) return;
+  const int fd = pidfd::open(process.pid);
+  const auto identity = identityOf(process.pid);  // after the pidfd: of that process or of none
+  if (fd < 0 || !identity || identity->parent != options_.supervisor) {
+    if (fd >= 0) close(fd);
+    return;
+  }
+  if (watched.fd >= 0) noteDeath(process.name, watched);
+  watched = {fd, process.pid, identity->start_ticks, now + hangTimeout(), false, {}};
+  watched.deadline = std::max(watched.deadline, now - identity->age + kStartTimeout);
+}
+
+bool ProcessWatch::onHeartbeat(pid_t pid, Clock::time_point now) {
+  for (auto& [name, watched] : watched_) {
+    if (watched.fd < 0 || watched.pid != pid) continue;
+    watched.deadline = now + hangTimeout();
+    return true;
+  }
+  return false;
+}
+
+void ProcessWatch::onHealth(const process_health_t& health) {
+  if (health.state == static_cast<int8_t>(HealthState::kDead)) return;
+  for (auto& [name, watched] : watched_) {
+    if (watched.pid != health.pid || health.process != "redbee-" + name || !isPlausible(health)) continue;
+    watched.last = health;
+    return;
+  }
+  ++strangers_;
+}
+
+bool ProcessWatch::isStillWatched(const std::string& name, const Watched& watched) const {
+  const auto identity = identityOf(watched.pid);
+  if (!identity || identity->parent != options_.supervisor || identity->start_ticks != watched.start_ticks)
+    return false;
+  std::error_code error;
+  if (!std::filesystem::equivalent(identity->executable, options_.programs.at(name), error)) return false;
+  const auto processes = ask_();
+  return processes &&
+         std::any_of(processes->begin(), processes->end(), [&](const SupervisedProcess& process) {
+           return process.is_up && process.name == name && process.pid == watched.pid;
+         });
 }
 
 std::vector<std::string> ProcessWatch::killHanging(Clock::time_point now) {
-  // Without messages from any process the network is down, and killing processes would not restore it.
-  constexpr std::chrono::seconds kNetworkIsUp{2};
+  // Who was itself not scheduled cannot tell how long the others were silent.
+  const auto late =
+      last_look_ && now - *last_look_ > kWatchLate ? now - *last_look_ : Clock::duration::zero();
+  last_look_ = now;
   std::vector<std::string> killed;
-  if (newest_message_ == Clock::time_point::min() || now - newest_message_ > kNetworkIsUp) return killed;
-  for (auto& [process, watched] : watched_) {
-    if (watched.fd < 0 || watched.last.configuration.empty() || now - watched.received < kHangTimeout)
-      continue;
-    if (pidfd_send_signal(watched.fd, SIGKILL, nullptr, 0) == 0) killed.push_back(process);
-    watched.received = now;
+  for (auto& [name, watched] : watched_) {
+    watched.deadline += late;
+    if (watched.fd < 0 || now < watched.deadline) continue;
+    watched.deadline = now + hangTimeout();
+    if (!isStillWatched(name, watched) || !pidfd::send(watched.fd, SIGKILL)) continue;
+    watched.killed = true;
+    killed.push_back(name);
   }
   return killed;
 }
 
-std::vector<process_health_t> ProcessWatch::drainDeaths() {
-  std::vector<process_health_t> deaths;
-  for (auto& [process, watched] : watched_) {
-    if (watched.fd < 0 || !hasEnded(watched.fd)) continue;
-    stopWatching(watched);
-    const bool was_stopping = watched.last.state == static_cast<int8_t>(HealthState::kStopping);
-    process_health_t death = watched.last;
-    death.state = static_cast<int8_t>(HealthState::kDead);
-    death.message = (was_stopping ? "stopped, process " : "died, process ") + std::to_string(death.pid);
-    death.rate_in = death.rate_out = 0;
-    death.resident = 0;
-    deaths.push_back(std::move(death));
-  }
-  return deaths;
+void ProcessWatch::noteDeath(const std::string& name, Watched& watched) {
+  const bool was_stopping = watched.last.state == static_cast<int8_t>(HealthState::kStopping);
+  process_health_t death = watched.last;
+  death.process = "redbee-" + name;
+  death.pid = watched.pid;
+  death.state = static_cast<int8_t>(HealthState::kDead);
+  death.message = (watched.killed ? "hung and was killed, process "
+                   : was_stopping ? "stopped, process "
+                                  : "died, process ") +
+                  std::to_string(death.pid);
+  death.rate_in = death.rate_out = 0;
+  death.resident = 0;
+  deaths_.push_back(std::move(death));
+  close(watched.fd);
+  watched.fd = -1;
 }
 
-void runWatch(const WatchOptions& options) {
-  const std::string channel = loadConfiguration(options.configuration).channels.health;
-  const auto bus = makeLcmBus(options.url);
-  ProcessWatch watch;
-  const Subscription subscription = bus->subscribe<process_health_t>(
-      channel, kListenerQueue,
-      [&](const process_health_t& health) { watch.onHealth(health, ProcessWatch::Clock::now()); }, nullptr);
-  const std::atomic<bool>& stop = stopOnSignals();
-  auto wake_until = ProcessWatch::Clock::time_point::min();
-  while (!stop) {
-    bus->handle(kPeriod);
-    for (const std::string& process : watch.killHanging(ProcessWatch::Clock::now())) {
-      std::printf("%s has published nothing for %lld s: killed\n", process.c_str(),
-                  static_cast<long long>(ProcessWatch::kHangTimeout.count()));
-    }
-    for (const process_health_t& death : watch.drainDeaths()) {
-      std::printf("%s %s\n", death.process.c_str(), death.message.c_str());
-      bus->publish(channel, death);
-      wake_until = ProcessWatch::Clock::now() + kWaking;
-    }
-    if (ProcessWatch::Clock::now() < wake_until) std::printf("waking supervisor\n");
-    std::fflush(stdout);
+std::vector<process_health_t> ProcessWatch::drainDeaths() {
+  for (auto& [name, watched] : watched_) {
+    if (watched.fd >= 0 && pidfd::hasEnded(watched.fd)) noteDeath(name, watched);
   }
+  return std::exchange(deaths_, {});
 }
 
 }  // namespace redbee

@@ -5,34 +5,52 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "redbee/bus/bus.hpp"
+#include "processes/redbee/vehicle/process_identity.hpp"
+#include "processes/redbee/vehicle/supervisor_client.hpp"
 #include "redbee/process_health_t.hpp"
 
 namespace redbee {
 
-/// Learns of processes from PROCESS_HEALTH and watches each by a pidfd (pidfd_open(2)), so that an exit is
-/// detected immediately.
+/// Watches the children of supervisor, each by a pidfd (pidfd_open(2)), so that an exit is detected
+/// immediately. Which they are says supervisor, and that they live their heartbeats; PROCESS_HEALTH, which
+/// anybody may have sent, only adds what a report of a death contains.
 class ProcessWatch {
  public:
   using Clock = std::chrono::steady_clock;
+  /// std::nullopt: supervisor does not answer.
+  using AskSupervisor = std::function<std::optional<std::vector<SupervisedProcess>>()>;
 
-  ProcessWatch() = default;
+  struct Options {
+    pid_t supervisor = 0;  ///< parent of all that may be killed
+    /// The processes that may be killed, by supervisor's name, with the program that each must run.
+    std::map<std::string, std::filesystem::path> programs;
+    std::chrono::duration<double> hang_timeout{2.0};
+  };
+
+  ProcessWatch(Options options, AskSupervisor ask);
   ~ProcessWatch();
   ProcessWatch(const ProcessWatch&) = delete;
   ProcessWatch& operator=(const ProcessWatch&) = delete;
 
-  /// A process without a message for this long, while others publish, is considered to hang.
-  static constexpr std::chrono::seconds kHangTimeout{20};
+  /// A process that has just been started may take this long until its first heartbeat.
+  static constexpr std::chrono::seconds kStartTimeout{20};
 
-  /// Processes on other hosts are not watched. Publishers without a configuration (scripts) publish
-  /// irregularly and are never considered to hang.
-  void onHealth(const process_health_t& health, Clock::time_point now);
+  /// Asks supervisor for its children.
+  void refresh(Clock::time_point now);
+  /// Returns false if this process is not watched (yet).
+  bool onHeartbeat(pid_t pid, Clock::time_point now);
+  /// Messages of others than the watched processes, and implausible ones, are counted, not kept.
+  void onHealth(const process_health_t& health);
+  int64_t strangers() const { return strangers_; }
 
-  /// Kills hanging processes (SIGKILL, as they do not react to SIGTERM). Returns their names.
+  /// Kills hanging processes (SIGKILL, as they do not react to SIGTERM), each only if supervisor, its parent,
+  /// its program and its start agree that it is the one that was watched. Returns their names.
   std::vector<std::string> killHanging(Clock::time_point now);
 
   /// The processes that exited since the last call: the last message of each, with the state kDead and a text
@@ -42,13 +60,25 @@ class ProcessWatch {
  private:
   struct Watched {
     int fd = -1;
-    process_health_t last;
-    Clock::time_point received;
+    pid_t pid = 0;
+    int64_t start_ticks = 0;
+    Clock::time_point deadline;  ///< for its next heartbeat
+    bool killed = false;
+    process_health_t last{};
   };
-  static void stopWatching(Watched& watched);
+  void watch(const SupervisedProcess& process, Clock::time_point now);
+  bool isStillWatched(const std::string& name, const Watched& watched) const;
+  void noteDeath(const std::string& name, Watched& watched);
+  Clock::duration hangTimeout() const {
+    return std::chrono::duration_cast<Clock::duration>(options_.hang_timeout);
+  }
 
-  std::map<std::string, Watched> watched_;
-  Clock::time_point newest_message_ = Clock::time_point::min();
+  Options options_;
+  AskSupervisor ask_;
+  std::map<std::string, Watched> watched_;  ///< by supervisor's name
+  std::vector<process_health_t> deaths_;
+  std::optional<Clock::time_point> last_look_;
+  int64_t strangers_ = 0;
 };
 
 struct WatchOptions {
@@ -56,9 +86,8 @@ struct WatchOptions {
   std::string url;
 };
 
-/// Runs until SIGINT or SIGTERM. For half a second after an exit it prints a line every 20 ms: supervisor 4.2
-/// polls its children when one of them prints, otherwise once a second (supervisord.py, runforever), and
-/// needs two polls to restart a process.
-void runWatch(const WatchOptions& options);
+/// Runs under supervisor until SIGINT or SIGTERM, as two processes that watch each other. Throws
+/// UserError where supervisor did not start it.
+int runWatch(const WatchOptions& options);
 
 }  // namespace redbee

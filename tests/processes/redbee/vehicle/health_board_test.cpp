@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/node/health.hpp"
 
@@ -44,13 +46,13 @@ TEST(HealthBoard, HasOneLineAProcessInTheOrderOfTheWork) {
   HealthBoard board;
   board.onHealth(healthOf("redbee-motion-segmentation", HealthState::kGood, 4), kNow);
   board.onHealth(healthOf("redbee-imu-integration", HealthState::kGood, 1), kNow);
-  board.onHealth(healthOf("a-camera-driver", HealthState::kGood, 5), kNow);
+  board.onHealth(healthOf("redbee-record", HealthState::kGood, 5), kNow);
   const auto lines = board.table(kNow);
   EXPECT_THAT(lines[1].text, HasSubstr("imu-integration"));
   EXPECT_THAT(lines[2].text, HasSubstr("visual-homography   no messages"));
   EXPECT_EQ(lines[2].tone, Tone::kBad);
   EXPECT_THAT(lines[4].text, HasSubstr("motion-segmentation"));
-  EXPECT_THAT(lines[kStages.size() + 1].text, HasSubstr("a-camera-driver"));
+  EXPECT_THAT(lines[kStages.size() + 1].text, HasSubstr("record"));
   for (const char* part : {"good", "24.0", "23.5", "11.2", "16.9", " 3 ", "12k", " 7 ", " 42"}) {
     EXPECT_THAT(lines[1].text, HasSubstr(part));
   }
@@ -68,28 +70,29 @@ TEST(HealthBoard, ReportsSinceWhenAProcessIsSilent) {
 
 TEST(HealthBoard, AStoppedOrDeadProcessIsNotSilent) {
   HealthBoard board;
-  board.onHealth(healthOf("redbee-a", HealthState::kStopping), kNow);
-  board.onHealth(healthOf("redbee-b", HealthState::kDead), kNow);
+  board.onHealth(healthOf("redbee-imu-integration", HealthState::kStopping), kNow);
+  board.onHealth(healthOf("redbee-visual-homography", HealthState::kDead), kNow);
   auto script = healthOf("redbee-record", HealthState::kGood);
   script.configuration.clear();
   board.onHealth(script, kNow);
   EXPECT_THAT(textOf(board, kNow + seconds(60)), testing::Not(HasSubstr("silent")));
-  EXPECT_EQ(board.table(kNow)[kStages.size() + 2].tone, Tone::kBad);
+  EXPECT_EQ(board.table(kNow)[2].tone, Tone::kBad);
 }
 
 TEST(HealthBoard, ANewProcessNumberIsARestart) {
   HealthBoard board;
-  board.onHealth(healthOf("redbee-a", HealthState::kGood, 10), kNow);
-  board.onHealth(healthOf("redbee-a", HealthState::kDead, 10), kNow + seconds(1));
-  board.onHealth(healthOf("redbee-a", HealthState::kStarting, 11), kNow + seconds(2));
-  board.onHealth(healthOf("redbee-a", HealthState::kGood, 11), kNow + seconds(3));
-  EXPECT_THAT(textOf(board, kNow + seconds(4)), HasSubstr("a: restarts seen: 1, the last 2 s ago"));
+  board.onHealth(healthOf("redbee-imu-integration", HealthState::kGood, 10), kNow);
+  board.onHealth(healthOf("redbee-imu-integration", HealthState::kDead, 10), kNow + seconds(1));
+  board.onHealth(healthOf("redbee-imu-integration", HealthState::kStarting, 11), kNow + seconds(2));
+  board.onHealth(healthOf("redbee-imu-integration", HealthState::kGood, 11), kNow + seconds(3));
+  EXPECT_THAT(textOf(board, kNow + seconds(4)),
+              HasSubstr("imu-integration: restarts seen: 1, the last 2 s ago"));
 }
 
 TEST(HealthBoard, DifferentBuildsOrConfigurationsStandOut) {
   HealthBoard board;
-  board.onHealth(healthOf("redbee-a", HealthState::kGood), kNow);
-  auto other = healthOf("redbee-b", HealthState::kGood);
+  board.onHealth(healthOf("redbee-imu-integration", HealthState::kGood), kNow);
+  auto other = healthOf("redbee-visual-homography", HealthState::kGood);
   other.configuration = "beef";
   board.onHealth(other, kNow);
   const auto lines = board.table(kNow);
@@ -99,18 +102,50 @@ TEST(HealthBoard, DifferentBuildsOrConfigurationsStandOut) {
 
 TEST(HealthBoard, FitsTheTerminalAndRemovesControlCharacters) {
   HealthBoard board;
-  auto wild = healthOf(std::string(200, 'x'), HealthState::kDegraded, 2147483647);
+  auto wild = healthOf("redbee-motion-segmentation", HealthState::kDegraded, 4194304);
   wild.message = std::string(500, 'm') + "\x1b[2J";
-  wild.rate_in = 1e300;
-  wild.latency_p99 = -1e300;
-  wild.skipped = wild.lost = wild.damaged = std::numeric_limits<int64_t>::max();
-  wild.state = 99;
+  wild.rate_in = 1e6;
+  wild.latency_p99 = 1e7;
+  wild.skipped = wild.lost = wild.damaged = 1'000'000'000'000;
   wild.calibration = "does not fit\x1b]0;owned\x07";
   board.onHealth(wild, kNow);
+  EXPECT_EQ(board.processes(), 1);
   for (const BoardLine& line : board.table(kNow)) {
     EXPECT_LE(line.text.size(), 80u);
     EXPECT_EQ(line.text.find('\x1b'), std::string::npos);
   }
+}
+
+TEST(HealthBoard, NamesOutsideTheProcessTableAreCountedNotKept) {
+  HealthBoard board;
+  board.onHealth(healthOf("redbee-imu-integration", HealthState::kGood), kNow);
+  const size_t lines = board.table(kNow).size();
+  for (int i = 0; i < 1200; ++i)
+    board.onHealth(healthOf("invented" + std::to_string(i), HealthState::kGood), kNow);
+  EXPECT_EQ(board.processes(), 1);
+  EXPECT_EQ(board.table(kNow).size(), lines + 1);
+  EXPECT_THAT(textOf(board, kNow), HasSubstr("1200 messages of names outside the process table"));
+}
+
+TEST(HealthBoard, ImplausibleMessagesAreCountedNotShown) {
+  const auto isShown = [](const auto& change) {
+    HealthBoard board;
+    auto health = healthOf("redbee-imu-integration", HealthState::kGood);
+    change(health);
+    board.onHealth(health, kNow);
+    EXPECT_EQ(board.processes() == 0,
+              textOf(board, kNow).find("1 messages that no process") != std::string::npos);
+    return board.processes() == 1;
+  };
+  EXPECT_TRUE(isShown([](auto&) {}));
+  EXPECT_FALSE(isShown([](auto& h) { h.lost = 9'000'000'000'000'000'000; }));
+  EXPECT_FALSE(isShown([](auto& h) { h.received = -1; }));
+  EXPECT_FALSE(isShown([](auto& h) { h.pid = 0; }));
+  EXPECT_FALSE(isShown([](auto& h) { h.state = 99; }));
+  EXPECT_FALSE(isShown([](auto& h) { h.rate_in = std::numeric_limits<double>::quiet_NaN(); }));
+  EXPECT_FALSE(isShown([](auto& h) { h.latency_p99 = -1e300; }));
+  EXPECT_FALSE(isShown([](auto& h) { h.resident = std::numeric_limits<int64_t>::max(); }));
+  EXPECT_FALSE(isShown([](auto& h) { h.message = std::string(100000, 'm'); }));
 }
 
 }  // namespace

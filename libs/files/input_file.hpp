@@ -1,0 +1,40 @@
+// What may be read as a file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "redbee/files/input_error.hpp"
+
+namespace redbee {
+
+/// Empty for a regular file and for a link to one, otherwise what else it is: a pipe would be waited for
+/// for ever, and a device may never end.
+inline std::string faultOfFile(const std::filesystem::path& file) {
+  std::error_code error;
+  switch (std::filesystem::status(file, error).type()) {
+    case std::filesystem::file_type::regular:
+      return "";
+    case std::filesystem::file_type::not_found:
+      return "no such file";
+    case std::filesystem::file_type::directory:
+      return "is a folder, not a file";
+    case std::filesystem::file_type::fifo:
+      return "is a pipe, not a file";
+    case std::filesystem::file_type::character:
+    case std::filesystem::file_type::block:
+      return "is a device, not a file";
+    case std::filesystem::file_type::socket:
+      return "is a socket, not a file";
+    default:
+      return error ? "cannot be read: " + error.message() : "is no file";
+  }
+}
+
+/// Throws InputError unless it is a regular file. To be called before any file of the user's is opened.
+inline void requireFile(const std::filesystem::path& file) {
+  if (const std::string fault = faultOfFile(file); !fault.empty()) throw InputError(file, fault);
+}
+
+}  // namespace redbee

@@ -1,0 +1,34 @@
+// The sign of life of a process, for whoever watches it.
+#pragma once
+
+#include <sys/un.h>
+
+#include <chrono>
+#include <string_view>
+
+namespace redbee {
+
+/// Reports that the process makes progress: sends WATCHDOG=1, as sd_notify(3) does, to the Unix socket that
+/// an environment variable names; does nothing without it. The kernel tells the receiver who
+/// sent it, so that, unlike a message on a channel, nobody can forge it.
+class Heartbeat {
+ public:
+  explicit Heartbeat(const char* variable = "NOTIFY_SOCKET");
+  ~Heartbeat();
+  Heartbeat(const Heartbeat&) = delete;
+  Heartbeat& operator=(const Heartbeat&) = delete;
+
+  static constexpr std::chrono::milliseconds kPeriod{100};
+
+  /// Call at least as often as kPeriod; sends once per period, and never waits.
+  void beat();
+  /// Any other message of sd_notify(3), at once.
+  void send(std::string_view message) const;
+
+ private:
+  int socket_ = -1;
+  sockaddr_un address_{};
+  std::chrono::steady_clock::time_point next_;
+};
+
+}  // namespace redbee
