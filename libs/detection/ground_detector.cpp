@@ -12,7 +12,6 @@ namespace {
 
 // P_FG * 255 below this is noise, and would be most of the encoded map's bytes.
 constexpr double kNoise = 6;
-constexpr int kComparedPx = 16;  // full-size px: side of the blocks that tell a repeated image
 
 }  // namespace
 
@@ -32,8 +31,8 @@ DetectorOutput GroundDetector::step(const FrameInput& frame) {
     size_ = frame.fullSize();
   }
   last_time_ = frame.time;
-  const int scale = frame.grey.empty() ? 1 : std::max(1, size_.width / frame.grey.cols);
-  const ImageContent content = image_check_.classify(frame.grey, kComparedPx / scale);
+  const int downscale = frame.grey.empty() ? 1 : std::max(1, size_.width / frame.grey.cols);
+  const ImageContent content = image_check_.classify(frame.grey, downscale);
   const bool is_repeated = content == ImageContent::kRepeated || content == ImageContent::kFrozen;
   if (is_repeated && continues && held_.covers(frame.time)) return held_.hold(frame);
   image_check_.setReference(frame.grey);

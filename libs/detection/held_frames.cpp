@@ -34,11 +34,9 @@ DetectorOutput HeldFrames::hold(const FrameInput& repeated) {
 
 FrameInput HeldFrames::sinceImage(FrameInput next) const {
   if (!since_ || !next.ground) return next;
-  next.ground = normaliseHomography(*next.ground * since_->ground);
-  next.front = next.front && since_->front ? std::optional(normaliseHomography(*next.front * *since_->front))
-                                           : std::nullopt;
-  next.motion =
-      next.motion && since_->motion ? std::optional(compose(*next.motion, *since_->motion)) : std::nullopt;
+  next.ground = composeHomographies(next.ground, since_->ground);
+  next.front = composeHomographies(next.front, since_->front);
+  next.motion = compose(next.motion, since_->motion);
   return next;
 }
 

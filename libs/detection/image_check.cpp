@@ -19,12 +19,12 @@ double roughness(const cv::Mat1b& grey, double deviation) {
 
 }  // namespace
 
-ImageContent ImageCheck::classify(const cv::Mat1b& grey, int block_px) const {
+ImageContent ImageCheck::classify(const cv::Mat1b& grey, int downscale) const {
   if (grey.empty()) return ImageContent::kUnusable;
   cv::Scalar mean, deviation;
   cv::meanStdDev(grey, mean, deviation);
   if (deviation[0] < min_contrast_) return ImageContent::kUnusable;
-  if (repeats(grey, reference_, block_px)) {
+  if (repeats(grey, reference_, downscale)) {
     const bool is_same = cv::norm(reference_, grey, cv::NORM_INF) == 0;
     return is_same ? ImageContent::kFrozen : ImageContent::kRepeated;
   }

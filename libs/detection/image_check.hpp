@@ -18,8 +18,8 @@ class ImageCheck {
   explicit ImageCheck(double min_contrast) : min_contrast_(min_contrast) {}
 
   void reset() { reference_.release(); }
-  /// `block_px`: side of the blocks that are compared.
-  ImageContent classify(const cv::Mat1b& grey, int block_px) const;
+  /// `downscale`: of the image.
+  ImageContent classify(const cv::Mat1b& grey, int downscale) const;
   /// The image that later ones are compared with.
   void setReference(const cv::Mat1b& grey) { reference_ = grey.clone(); }
 

@@ -5,9 +5,11 @@
 
 namespace redbee {
 
-bool repeats(const cv::Mat1b& image, const cv::Mat1b& earlier, int block_px) {
+bool repeats(const cv::Mat1b& image, const cv::Mat1b& earlier, int downscale) {
+  constexpr int kBlock_px = 16;
   constexpr double kEncoding = 0.5;  // grey levels, mean of a block's absolute differences
   if (image.empty() || image.size() != earlier.size()) return false;
+  const int block_px = kBlock_px / downscale;
   cv::Mat1b difference;
   cv::Mat1i sums;
   for (int y = 0; y < image.rows; y += block_px) {

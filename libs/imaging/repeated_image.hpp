@@ -11,8 +11,9 @@ namespace redbee {
 /// a camera that hangs.
 constexpr Duration kMaxRepetition = std::chrono::milliseconds(200);
 
-/// True if the images, of one size, show the same moment: no block of `block_px` x `block_px` differs by
-/// more than encoding it twice explains. Sensor noise, and an object that moves, differ by more.
-bool repeats(const cv::Mat1b& image, const cv::Mat1b& earlier, int block_px);
+/// True if the images, of one size, show the same moment: no block of 16x16 px of the full-size image differs
+/// by more than encoding it twice explains. `downscale`: of the images. Sensor noise, and an object that
+/// moves, differ by more.
+bool repeats(const cv::Mat1b& image, const cv::Mat1b& earlier, int downscale);
 
 }  // namespace redbee

@@ -94,10 +94,9 @@ void VisualHomographyEstimator::setReference(CameraTime time, const cv::Mat1b& h
 bool VisualHomographyEstimator::isRepeated(CameraTime time, const cv::Mat1b& half,
                                            const std::optional<Eigen::Matrix3d>& predicted) const {
   constexpr double kMoved_px = 0.5;
-  constexpr int kBlock_px = 8;  // at half size
   if (!predicted || time - *previous_time_ > kMaxRepetition) return false;
   const double moved = meanTransferError(*predicted, Eigen::Matrix3d::Identity(), size_.width, size_.height);
-  return moved > kMoved_px && repeats(half, reference_half_, kBlock_px);
+  return moved > kMoved_px && repeats(half, reference_half_, 2);
 }
 
 bool VisualHomographyEstimator::lacksTexture(const Pyramid& image, double sharpness) const {

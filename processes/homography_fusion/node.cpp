@@ -43,25 +43,27 @@ bool HomographyFusionNode::onInertial(const inertial_homography_t& message) {
   if (message.valid == 0 && message.status == inertial_homography_t::INITIALISING) {
     inertial_at_first_frame_ = true;
   }
-  if (const auto restored = restoredInertial(message); restored && isStillToCome(timeOf(*restored))) {
-    expect(configuration_.channels.inertial_homography, timeOf(*restored));
-    inertial_.putRestored(timeOf(*restored), *restored);
-  }
-  expect(configuration_.channels.inertial_homography, timeOf(message));
-  inertial_.put(timeOf(message), message, newestFrame());
+  queue(configuration_.channels.inertial_homography, message, restoredInertial(message), inertial_);
   return true;
 }
 
 bool HomographyFusionNode::onVisual(const visual_homography_t& message) {
   const bool is_good = message.status == visual_homography_t::GOOD;
   if (!plausibleTimes(message) || (!isFinite(message.ground) && is_good)) return false;
-  if (const auto restored = restoredVisual(message); restored && isStillToCome(timeOf(*restored))) {
-    expect(configuration_.channels.visual_homography, timeOf(*restored));
-    visual_.putRestored(timeOf(*restored), *restored);
-  }
-  expect(configuration_.channels.visual_homography, timeOf(message));
-  visual_.put(timeOf(message), message, newestFrame());
+  queue(configuration_.channels.visual_homography, message, restoredVisual(message), visual_);
   return true;
+}
+
+template <typename Message>
+void HomographyFusionNode::queue(const std::string& channel, const Message& message,
+                                 const std::optional<Message>& restored,
+                                 MessageSynchronizer<Message>& messages) {
+  if (restored && isStillToCome(timeOf(*restored))) {
+    expect(channel, timeOf(*restored));
+    messages.putRestored(timeOf(*restored), *restored);
+  }
+  expect(channel, timeOf(message));
+  messages.put(timeOf(message), message, newestFrame());
 }
 
 void HomographyFusionNode::expect(const std::string& channel, CameraTime time) {

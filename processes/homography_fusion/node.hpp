@@ -29,6 +29,10 @@ class HomographyFusionNode : public Stage {
  private:
   bool onInertial(const inertial_homography_t& message);
   bool onVisual(const visual_homography_t& message);
+  /// `restored`: what the message repeats of the one before.
+  template <typename Message>
+  void queue(const std::string& channel, const Message& message, const std::optional<Message>& restored,
+             MessageSynchronizer<Message>& messages);
   void expect(const std::string& channel, CameraTime time);
   /// Whether the frame follows the last one fused; without one, what came before is of no use.
   bool isStillToCome(CameraTime frame) const { return pending_.last() && frame > *pending_.last(); }

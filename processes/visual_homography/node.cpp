@@ -40,14 +40,7 @@ std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime 
     const inertial_homography_t* link = companions().find(at);
     if (link == nullptr || link->valid == 0 || previousTimeOf(*link) >= at) return std::nullopt;
     const HomographyPrediction step{matrix3(link->ground.H), matrix8(link->ground.covariance)};
-    if (!chain) {
-      chain = step;
-    } else {
-      const auto J = composeJacobians(scaling.scale(chain->H), scaling.scale(step.H));
-      chain->covariance = J.by_left * chain->covariance * J.by_left.transpose() +
-                          J.by_right * step.covariance * J.by_right.transpose();
-      chain->H = normaliseHomography(chain->H * step.H);
-    }
+    chain = chain ? compose(*chain, step, scaling) : step;
     at = previousTimeOf(*link);
     if (at < *from) return std::nullopt;
   }

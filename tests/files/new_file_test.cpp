@@ -16,23 +16,21 @@
 namespace redbee::test {
 namespace {
 
-TEST(PartialFileTest, APlantedLinkIsNotWrittenThrough) {
-  const ScratchFolder folder;
+/// Writes "content" to `f` where `link` points to somebody's file.
+void writeBeside(const ScratchFolder& folder, const char* link) {
   writeText(folder / "victim", "mine");
-  fs::create_symlink(folder / "victim", folder / "f.partial");
+  fs::create_symlink(folder / "victim", folder / link);
   writeAtomically(folder / "f", "content");
   EXPECT_EQ(readText(folder / "victim"), "mine");
   EXPECT_EQ(readText(folder / "f"), "content");
 }
 
+TEST(PartialFileTest, APlantedLinkIsNotWrittenThrough) { writeBeside(ScratchFolder(), "f.partial"); }
+
 TEST(PartialFileTest, ALinkUnderTheNameItselfIsReplaced) {
   const ScratchFolder folder;
-  writeText(folder / "victim", "mine");
-  fs::create_symlink(folder / "victim", folder / "f");
-  writeAtomically(folder / "f", "content");
-  EXPECT_EQ(readText(folder / "victim"), "mine");
+  writeBeside(folder, "f");
   EXPECT_FALSE(fs::is_symlink(folder / "f"));
-  EXPECT_EQ(readText(folder / "f"), "content");
 }
 
 TEST(PartialFileTest, WhatAKilledRunLeftIsReplaced) {

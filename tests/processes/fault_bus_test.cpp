@@ -151,9 +151,8 @@ StackFlight withSecondPublisher(const std::string& channel, int64_t delay_us) {
     }
     both.push_back(other);
   }
-  std::stable_sort(both.begin(), both.end(),
-                   [](const SensorMessage& a, const SensorMessage& b) { return a.utime < b.utime; });
   flight.messages = both;
+  sortByTime(flight.messages);
   return flight;
 }
 

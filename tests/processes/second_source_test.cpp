@@ -75,9 +75,8 @@ StackFlight withSecondCamera(const std::function<bool(int, image_t&)>& change) {
     message.utime = sent.utime + (std::abs(offset) < 1'000'000 ? offset : 1);
     both.push_back(message);
   }
-  std::stable_sort(both.begin(), both.end(),
-                   [](const SensorMessage& a, const SensorMessage& b) { return a.utime < b.utime; });
   flight.messages = both;
+  sortByTime(flight.messages);
   return flight;
 }
 

@@ -29,6 +29,12 @@ struct StackFlight {
   std::vector<cv::Mat> masks;
 };
 
+/// Those of one time stay in their order.
+inline void sortByTime(std::vector<SensorMessage>& messages) {
+  std::stable_sort(messages.begin(), messages.end(),
+                   [](const SensorMessage& a, const SensorMessage& b) { return a.utime < b.utime; });
+}
+
 /// The first `frames` of a scenario, with a configuration that has the true extrinsics.
 inline StackFlight stackFlight(const simulation::Scenario& scenario, int frames) {
   const RenderedFlight rendered(scenario, frames);
@@ -48,8 +54,7 @@ inline StackFlight stackFlight(const simulation::Scenario& scenario, int frames)
     flight.homographies.push_back(rendered.homography(k));
     flight.masks.push_back(rendered.image(k).mask);
   }
-  std::stable_sort(flight.messages.begin(), flight.messages.end(),
-                   [](const SensorMessage& a, const SensorMessage& b) { return a.utime < b.utime; });
+  sortByTime(flight.messages);
   return flight;
 }
 

@@ -34,18 +34,9 @@ void EarlierFrames::propagate(const Eigen::Matrix3d& ground, const std::optional
                               const std::optional<Eigen::Matrix3d>& front) {
   for (EarlierFrame& frame : frames_) {
     frame.ground = normaliseHomography(ground * frame.ground);
-    if (front && (frame.front || frame.still)) {
-      frame.front = normaliseHomography(*front * frame.front.value_or(Eigen::Matrix3d::Identity()));
-    } else {
-      frame.front.reset();
-    }
-    if (frame.still) {
-      frame.motion = motion;
-    } else if (frame.motion && motion) {
-      frame.motion = compose(*motion, *frame.motion);
-    } else {
-      frame.motion.reset();
-    }
+    const std::optional<Eigen::Matrix3d> none = Eigen::Matrix3d::Identity();
+    frame.front = composeHomographies(front, frame.still ? none : frame.front);
+    frame.motion = frame.still ? motion : compose(motion, frame.motion);
     frame.still = false;
   }
 }
