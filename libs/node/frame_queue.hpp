@@ -27,8 +27,8 @@ enum class FrameArrival {
 /// A frame is *ordinary* if it follows the last frame taken, by at most a pause, and keeps the rhythm, where
 /// there is one; anything else is held. Held frames are believed, and none of them is lost, once five in a
 /// row agree and no ordinary frame has come between them for that long, or where the ordinary frames have
-/// missed beats meanwhile: the rhythm has changed. A single frame of another time, or those of a second
-/// camera, change nothing.
+/// missed beats meanwhile: the rhythm has changed; or where they have divided five beats in a row evenly: the
+/// camera is faster now. A single frame of another time, or those of a second camera, change nothing.
 ///
 /// A gap in the rhythm of the frames may be a frame that was overtaken: the frame behind it is not in order
 /// until the window for reordering has passed. Where the rhythm is kept, nothing waits.
@@ -47,7 +47,7 @@ class FrameQueue {
   FrameArrival put(CameraTime time, Content content) {
     if (isKnown(time)) return FrameArrival::kRepeated;
     if (isOrdinary(time)) {
-      if (hasMissedBeats(time)) {
+      if (hasMissedBeats(time) || isFasterSince(time)) {
         queueHeld();
       } else {
         discardHeld();
@@ -132,6 +132,26 @@ class FrameQueue {
     return 2 * (time - *newest()) > (held_beats_ < kKnownSource ? 3 : 7) * *period;
   }
 
+  /// A camera that multiplies its rate divides its beats evenly; the phase of a second one is any.
+  bool isFasterSince(CameraTime time) {
+    even_beats_ = dividesBeat(time) ? even_beats_ + 1 : 0;
+    if (even_beats_ < static_cast<int>(kBelieveAfter)) return false;
+    even_beats_ = 0;
+    rhythm_.clear();
+    return true;
+  }
+  bool dividesBeat(CameraTime time) const {
+    const auto newest = this->newest();
+    if (held_.empty() || !newest) return false;
+    const auto parts = static_cast<int64_t>(held_.size() + 1);
+    for (size_t i = 0; i < held_.size(); ++i) {
+      const Duration even = (time - *newest) * static_cast<int64_t>(i + 1) / parts;
+      if (held_[i].is_late || !FrameRhythm::isSameBeat(held_[i].time - *newest, even, time - *newest))
+        return false;
+    }
+    return true;
+  }
+
   FrameArrival hold(CameraTime time, Content content) {
     const bool agrees = held_.empty() || (time > held_.back().time && time - held_.back().time <= kLongPause);
     if (!agrees || held_.size() >= kMostHeld) discardHeld();
@@ -193,6 +213,7 @@ class FrameQueue {
   std::deque<CameraTime> taken_;    ///< the latest frames taken or skipped
   FrameRhythm rhythm_;              ///< of the frames taken
   int held_beats_ = 0;              ///< beats in a row between which frames were held
+  int even_beats_ = 0;              ///< beats in a row that held frames divided evenly
   Discarded discarded_;
 };
 

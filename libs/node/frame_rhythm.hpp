@@ -29,6 +29,10 @@ class FrameRhythm {
     std::nth_element(sorted.begin(), middle, sorted.end());
     return *middle;
   }
+  /// Whether two distances are as close as those of a regular camera of this period.
+  static bool isSameBeat(Duration a, Duration b, Duration period) {
+    return std::abs(static_cast<double>((a - b).count())) <= kRegular * static_cast<double>(period.count());
+  }
   /// Whether a frame this far from another breaks a rhythm that the latest frames have kept closely: it is
   /// then of another source, or the rhythm has changed. Lost frames break none.
   bool isBrokenBy(Duration distance) const {

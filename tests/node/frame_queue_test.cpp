@@ -136,6 +136,20 @@ TEST(FrameQueue, FollowsACameraWhoseRateChangesWithFewFramesLost) {
   }
 }
 
+TEST(FrameQueue, FollowsACameraThatMultipliesItsRate) {
+  for (const int factor : {2, 3, 4}) {
+    Queue queue;
+    run(queue, 0, 20);
+    int taken = 0;
+    for (int k = 1; k <= 100; ++k) {
+      const CameraTime time = at(19) + k * kPeriod / factor;
+      queue.put(time, k);
+      while (!queue.empty() && queue.isInOrder(time)) taken += queue.pop() >= 0 ? 1 : 0;
+    }
+    EXPECT_GE(taken, 100 - 4 * (factor - 1)) << "held in the first four beats only, times " << factor;
+  }
+}
+
 TEST(FrameQueue, AnIrregularCameraLosesNothing) {
   Queue queue;
   CameraTime time = at(0);
