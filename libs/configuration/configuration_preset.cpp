@@ -38,6 +38,7 @@ PresetValues defaultValues() {
 PresetValues visionOnlyValues() {
   return {{"detection.objects.threshold", "0.25"},
           {"detection.objects.weak_threshold", "0.18"},
+          {"detection.objects.neutral", "0.213"},
           {"detection.objects.extent_threshold", "0.12"}};
 }
 

@@ -64,6 +64,7 @@ std::vector<Setting> detectionSettings() {
       setting("detection.refinement.flow_noise_px", MEMBER(refinement.flow_noise_px), notNegative),
       setting("detection.objects.threshold", MEMBER(objects.threshold), fraction),
       setting("detection.objects.weak_threshold", MEMBER(objects.weak_threshold), fraction),
+      setting("detection.objects.neutral", MEMBER(objects.neutral), fraction),
       setting("detection.objects.extent_threshold", MEMBER(objects.extent_threshold), fraction),
       setting("detection.objects.opening_px", MEMBER(objects.opening_px), notNegative),
       setting("detection.objects.closing_px", MEMBER(objects.closing_px), notNegative),

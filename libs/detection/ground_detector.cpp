@@ -21,7 +21,7 @@ GroundDetector::GroundDetector(const DetectionParameters& parameters)
       objects_(parameters.objects),
       image_check_(parameters.min_contrast),
       probability_(parameters.refinement),
-      tracker_(parameters.objects) {}
+      tracker_(parameters.objects, parameters.parallax) {}
 
 DetectorOutput GroundDetector::step(const FrameInput& frame) {
   const bool continues = isConsecutive(frame);
@@ -54,7 +54,9 @@ DetectorOutput GroundDetector::process(const FrameInput& input, bool continues, 
   } else {
     reset();
   }
-  tracker_.propagate(elapsed, continues ? input.ground : std::nullopt);
+  const bool is_camera_known = continues && input.motion;
+  tracker_.propagate(elapsed, continues ? input.ground : std::nullopt,
+                     is_camera_known ? std::optional(CameraStep{*input.motion, input.K}) : std::nullopt);
   DetectorOutput output = emptyOutput(input);
   if (content == ImageContent::kUnusable || content == ImageContent::kFrozen) {
     output.status = DetectorStatus::kBadImage;

@@ -10,6 +10,7 @@ DetectionParameters paperDetection() {
   parameters.objects.threshold = 0.5;  // not given in the paper
   parameters.objects.extent_threshold = parameters.objects.threshold;
   parameters.objects.weak_threshold = 0.5 * parameters.objects.threshold;
+  parameters.objects.neutral = 0.73 * parameters.objects.threshold;
   return parameters;
 }
 

@@ -77,9 +77,8 @@ struct RefinementParameters {
 struct ObjectParameters {
   /// On P_FG: components that exceed this somewhere are strong, and are assigned to tracks first.
   double threshold = 0.6;
-  /// On P_FG, at most `threshold`: components count that exceed this somewhere. Halfway between the two, in
-  /// log odds, a component with a photometric gain of 1 is evidence neither for nor against its track.
-  double weak_threshold = 0.5;
+  double weak_threshold = 0.4;  ///< on P_FG, at most `threshold`: components count that exceed this somewhere
+  double neutral = 0.55;  ///< P_FG of a component that, alone, is evidence neither for nor against its track
   double extent_threshold = 0.12;  ///< on P_FG, at most `threshold`: components reach no further than this
   int opening_px = 3;              ///< px: diameter of the disc that removes specks; 0: none
   int closing_px = 7;              ///< px: diameter of the disc that closes holes; 0: none

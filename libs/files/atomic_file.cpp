@@ -23,6 +23,8 @@ void AtomicFile::close() {
   file_.commit();
 }
 
+void checkWritable(const std::filesystem::path& path) { const PartialFile file(path); }
+
 void writeAtomically(const std::filesystem::path& path, std::string_view content) {
   AtomicFile file(path);
   file.write(content);

@@ -26,6 +26,9 @@ class AtomicFile {
   std::string buffer_;
 };
 
+/// Throws InputError, with its name, if a file could not be written there: to be asked before long work.
+void checkWritable(const std::filesystem::path& path);
+
 /// Writes a small file at once.
 void writeAtomically(const std::filesystem::path& path, std::string_view content);
 

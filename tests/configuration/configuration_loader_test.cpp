@@ -43,7 +43,7 @@ TEST_F(ConfigurationLoader, FaultsAreReportedWithFileLineAndKey) {
       {"detection: {refinement: {alpha: 1.5}}\n", "2: detection.refinement.alpha: ", "from 0 to 1"},
       {"detection: {method: fancy}\n", "2: detection.method: ", "must be one of aurora, "},
       {"detection:\n  objects: {threshold: 0.3}\n",
-       "3: detection.objects.threshold: ", "weak_threshold (0.5) must not exceed"},
+       "3: detection.objects.threshold: ", "weak_threshold (0.4) must not exceed"},
       {"segmentation:\n  threshold: 0.5\n",
        "3: segmentation.threshold: ", "was renamed to detection.objects.threshold"},
       {"segmentation: {sample_grid_px: 16}\n",

@@ -32,8 +32,10 @@ class TrackerFlight {
       : parameters_(parameters), tracker_(parameters), period_s_(1 / rate_hz) {}
 
   void propagate(double elapsed_s, const std::optional<Eigen::Matrix3d>& ground) {
-    tracker_.propagate(fromSeconds(elapsed_s), ground);
+    tracker_.propagate(fromSeconds(elapsed_s), ground, camera_);
   }
+  /// The camera's motion in each step from now on.
+  void setCamera(const CameraStep& step) { camera_ = step; }
   /// ForegroundMaps::residual of all pixels, from the next update() on.
   void setResidual(double squared) { residual_ = squared; }
   std::vector<Detection> update(const Regions& regions) {
@@ -65,6 +67,7 @@ class TrackerFlight {
 
  private:
   double residual_ = 1;
+  std::optional<CameraStep> camera_;
   ObjectParameters parameters_;
   ObjectTracker tracker_;
   double period_s_;

@@ -96,10 +96,9 @@ void BoxFilter::update(const BoxMeasurement& measured) {
 }
 
 double BoxFilter::centreDistance(const BoxMeasurement& measured) const {
-  const Eigen::Vector2d innovation =
-      0.5 * (measured.edges_px.head<2>() + measured.edges_px.tail<2>()) - state_.head<2>();
+  const Eigen::Vector2d innovation = measured.centre() - state_.head<2>();
   Eigen::Matrix2d S = covariance_.topLeftCorner<2, 2>();
-  S.diagonal() += 0.25 * (measured.variance_px2.head<2>() + measured.variance_px2.tail<2>());
+  S.diagonal() += measured.centreVariance();
   return squaredMahalanobis(innovation, S);
 }
 

@@ -11,6 +11,9 @@ namespace redbee {
 struct BoxMeasurement {
   Eigen::Vector4d edges_px;
   Eigen::Vector4d variance_px2;
+
+  Eigen::Vector2d centre() const { return 0.5 * (edges_px.head<2>() + edges_px.tail<2>()); }
+  Eigen::Vector2d centreVariance() const { return 0.25 * (variance_px2.head<2>() + variance_px2.tail<2>()); }
 };
 
 /// State: centre (2) and size (2) [px], velocity of the centre over the ground (2) [px/s]. The ground's

@@ -10,6 +10,8 @@ constexpr double kSurest = 0.95;    // what is surer than this, either way, is n
 constexpr double kSettled_s = 0.5;  // age from which it counts that a track stays
 constexpr double kLeftPlace = 2;
 constexpr double kStayedLogOdds = -1;  // at worst
+constexpr double kFreedomLogOdds = 1;  // expected where nothing moves: the velocity has one freedom more
+const double kMostLogOdds = std::log(kSurest / (1 - kSurest));
 
 }  // namespace
 
@@ -28,6 +30,11 @@ double restlessLogOdds(double squared_residual) { return -0.5 * std::log(std::ma
 double stayedLogOdds(double age_s, double farthest) {
   if (age_s < kSettled_s || farthest >= kLeftPlace) return 0;
   return std::max(std::log(farthest / kLeftPlace), kStayedLogOdds);
+}
+
+double movingLogOdds(double age_s, double log_likelihood_ratio) {
+  const double odds = std::min(log_likelihood_ratio - kFreedomLogOdds, kMostLogOdds);
+  return std::max(odds, age_s < kSettled_s ? 0 : kStayedLogOdds);
 }
 
 }  // namespace redbee

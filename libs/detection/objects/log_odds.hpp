@@ -13,5 +13,8 @@ double restlessLogOdds(double squared_residual);
 /// Of a track of this age [s] that has moved `farthest` from its origin, in roots of its box's area. What has
 /// not left its place sways or is static: at most 0.
 double stayedLogOdds(double age_s, double farthest);
+/// Of a track of this age [s] whose path has this log likelihood ratio (static_path.hpp), instead, where the
+/// camera's motion is known. The first half second may only count for it.
+double movingLogOdds(double age_s, double log_likelihood_ratio);
 
 }  // namespace redbee

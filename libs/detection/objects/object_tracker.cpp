@@ -35,10 +35,6 @@ cv::Rect pixelsOf(const cv::Rect2d& box) {
   return {low, cv::Point(cvRound(box.x + box.width), cvRound(box.y + box.height))};
 }
 
-bool isInside(const Eigen::Vector2d& point, cv::Size image) {
-  return cv::Rect2d(cv::Point2d(), image).contains({point.x(), point.y()});
-}
-
 bool movesApart(const BoxFilter& a, const BoxFilter& b) {
   const Eigen::Vector2d difference = a.velocity() - b.velocity();
   const Eigen::Matrix2d S = (a.covariance() + b.covariance()).bottomRightCorner<2, 2>();
@@ -47,12 +43,16 @@ bool movesApart(const BoxFilter& a, const BoxFilter& b) {
 
 }  // namespace
 
-ObjectTracker::ObjectTracker(const ObjectParameters& parameters)
+ObjectTracker::ObjectTracker(const ObjectParameters& parameters, const ParallaxParameters& parallax)
     : parameters_(parameters),
-      neutral_log_odds_(0.5 * (logOdds(parameters.threshold) + logOdds(parameters.weak_threshold))) {}
+      neutral_log_odds_(logOdds(parameters.neutral)),
+      direction_error_(parallax.direction_error),
+      camera_(parallax.nearest_depth_fraction) {}
 
-void ObjectTracker::propagate(Duration elapsed, const std::optional<Eigen::Matrix3d>& ground) {
+void ObjectTracker::propagate(Duration elapsed, const std::optional<Eigen::Matrix3d>& ground,
+                              const std::optional<CameraStep>& camera) {
   elapsed_s_ = std::max(0.0, seconds(elapsed));
+  camera_.propagate(elapsed_s_, ground, camera);
   for (Track& track : tracks_) {
     const double decay_s = track.missed_s > 0 ? kMissedVelocityDecay_s : kSeenVelocityDecay_s;
     track.filter.predict(ground.value_or(Eigen::Matrix3d::Identity()), elapsed_s_, decay_s);
@@ -147,18 +147,32 @@ void ObjectTracker::begin(size_t component, const ForegroundComponents& found) {
   const Component& first = found.components[component];
   Track track{BoxFilter(measurementOf(first, found.image)), first};
   track.origin = track.filter.centre();
+  notePlace(track, found.image);
   track.components.push_back(component);
   tracks_.push_back(track);
+}
+
+void ObjectTracker::notePlace(Track& track, cv::Size image) const {
+  const BoxMeasurement measured = measurementOf(track.last, image);
+  track.path.push_back({camera_.current(), measured.centre(), measured.centreVariance()});
+  while (!camera_.project(track.path.front().frame, track.path.front().centre_px)) track.path.pop_front();
+}
+
+double ObjectTracker::motionLogOdds(const Track& track) const {
+  const auto likelihood = movingLogLikelihood(track.path, camera_, direction_error_);
+  if (!likelihood) return stayedLogOdds(track.age_s, track.farthest);
+  return movingLogOdds(track.age_s, *likelihood / std::max(1.0, track.last.residual_around));
 }
 
 void ObjectTracker::observe(Track& track, const ForegroundComponents& found) const {
   track.last = joined(found.components, track.components);
   track.filter.update(measurementOf(track.last, found.image));
+  notePlace(track, found.image);
   const double moved_px = (track.filter.centre() - track.origin).norm();
   track.farthest = std::max(track.farthest, moved_px / track.filter.size());
   track.evidence_s +=
       elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_ + gainLogOdds(track.last.gain) +
-                    restlessLogOdds(track.last.residual_around) + stayedLogOdds(track.age_s, track.farthest));
+                    restlessLogOdds(track.last.residual_around) + motionLogOdds(track));
   track.evidence_s = std::min(track.evidence_s, std::max(kMostEvidence_s, parameters_.confirm_s));
   track.missed_s = 0;
   track.skipped_s = 0;
@@ -176,7 +190,9 @@ void ObjectTracker::deleteLostTracks(cv::Size image) {
     if (track.id == 0 && track.evidence_s < kLeastEvidence_s) return true;
     const double most_s = track.id > 0 ? parameters_.max_missed_s : kUnconfirmedMissed_s;
     const bool is_missed = track.missed_s - track.skipped_s > most_s + kTimeTolerance_s;
-    return is_missed || (track.missed_s > 0 && !isInside(track.filter.centre(), image));
+    const Eigen::Vector2d at = track.filter.centre();
+    const bool is_inside = cv::Rect2d(cv::Point2d(), image).contains({at.x(), at.y()});
+    return is_missed || (track.missed_s > 0 && !is_inside);
   };
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), lost), tracks_.end());
 }

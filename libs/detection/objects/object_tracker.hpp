@@ -3,12 +3,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
 #include "redbee/detection/objects/box_filter.hpp"
 #include "redbee/detection/objects/components.hpp"
+#include "redbee/detection/objects/static_path.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/time.hpp"
 
@@ -32,12 +34,14 @@ struct TrackedObjects {
 /// component begins a track; it is reported once the log odds of its components, over time, confirm it.
 class ObjectTracker {
  public:
-  explicit ObjectTracker(const ObjectParameters& parameters);
+  explicit ObjectTracker(const ObjectParameters& parameters, const ParallaxParameters& parallax = {});
 
   void reset() { tracks_.clear(); }
   /// To the next frame, before update() or skip(). `elapsed`: since the previous frame; negative counts as
-  /// none. `ground`: homography, previous to current [px]; std::nullopt if it is unknown.
-  void propagate(Duration elapsed, const std::optional<Eigen::Matrix3d>& ground);
+  /// none. `ground`: homography, previous to current [px]; `camera`: over the same step, for the test of the
+  /// paths against static surfaces. std::nullopt if unknown.
+  void propagate(Duration elapsed, const std::optional<Eigen::Matrix3d>& ground,
+                 const std::optional<CameraStep>& camera = std::nullopt);
   /// Assigns components to tracks; one that covers several objects is split in `found`. Confirmed tracks
   /// without a component are returned with seen = false for max_missed_s, or until they leave the image.
   TrackedObjects update(ForegroundComponents& found);
@@ -55,7 +59,8 @@ class ObjectTracker {
     double skipped_s = 0;                              ///< of this, in skipped frames
     double evidence_s = 0;                             ///< integral of its log odds over time
     Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< px: where on the ground it was first found
-    double farthest = 0;  ///< distance from there, in roots of the box's area, the greatest so far
+    double farthest = 0;           ///< distance from there, in roots of the box's area, the greatest so far
+    std::deque<PathPoint> path{};  ///< where it was found
     std::vector<size_t> components{};  ///< of this frame
   };
   enum class Strength { kStrong, kWeak, kAny };
@@ -68,12 +73,16 @@ class ObjectTracker {
   std::vector<size_t> unassigned(Strength strength, const std::vector<Component>& components) const;
   void begin(size_t component, const ForegroundComponents& found);
   void observe(Track& track, const ForegroundComponents& found) const;
+  void notePlace(Track& track, cv::Size image) const;
+  double motionLogOdds(const Track& track) const;
   void miss(Track& track) const;
   void deleteLostTracks(cv::Size image);
   TrackedObjects report(cv::Size image);
 
   ObjectParameters parameters_;
   double neutral_log_odds_;  ///< of a component that says nothing
+  double direction_error_;   ///< rad
+  CameraPath camera_;
   std::vector<Track> tracks_;
   double elapsed_s_ = 0;
   int next_id_ = 1;

@@ -96,6 +96,7 @@ void printVerdicts(const CalibrationResult& result) {
 
 int runCalibrate(const CalibrateOptions& options) {
   SvgPlot::checkInstalled();
+  if (std::filesystem::exists(options.out)) checkWritable(options.out / "report.html");
   const Configuration configuration = loadConfiguration(options.configuration);
   CalibrationInput input = inputFrom(configuration);
   readSource(options, configuration, input);

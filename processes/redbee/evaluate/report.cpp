@@ -83,6 +83,7 @@ void printIndented(const std::string& text) {
 }  // namespace
 
 void writeReport(const ReportOptions& options) {
+  checkWritable(options.page);
   const nlohmann::json summary = RunFolder(options.results).summary();
   std::optional<ClipMeasures> measures;
   if (!options.truth.empty()) measures = measureClip({options.truth, options.results, {}});

@@ -82,6 +82,9 @@ void runSimulate(const SimulateOptions& options) {
   scenario.frames = std::max(1, static_cast<int>(options.seconds * scenario.fps));
   const simulation::FlightSimulator simulator(scenario);
 
+  std::filesystem::path configuration = options.log;
+  configuration.replace_extension(".yaml");
+  checkWritable(configuration);
   Progress progress("simulating " + options.scenario, "frames");
   FlightMerger merger(options.log, ImportChannels(), simulator.imu(), simulator.altimeter());
   TruthFolder truth(options.truth);
@@ -94,8 +97,6 @@ void runSimulate(const SimulateOptions& options) {
   ImportSummary summary;
   merger.close(summary);
   truth.close();
-  std::filesystem::path configuration = options.log;
-  configuration.replace_extension(".yaml");
   writeAtomically(configuration, "# The simulated drone, with its true extrinsics.\n" +
                                      emitYaml(configurationOf(scenario, options)));
   progress.finish();

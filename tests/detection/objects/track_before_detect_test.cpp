@@ -48,6 +48,40 @@ TEST(TrackBeforeDetect, WhereAllMovesUnlikeAStaticSurfaceMoreEvidenceIsNeeded) {
   EXPECT_LT(reportedAfter(kStrong, 24, 4, 7.4), 2) << "unless its flow explains the image well";
 }
 
+/// A camera that looks straight down from 20 m; the parallax lies along x.
+CameraStep lookingDown(double x_m) {
+  CameraStep step{{Eigen::Matrix3d::Identity(), {-x_m, 0, 0}, Eigen::Vector3d::UnitZ(), 20},
+                  Eigen::Matrix3d::Identity()};
+  step.K.diagonal() << 500, 500, 1;
+  step.K.topRightCorner<2, 1>() << 320, 240;
+  return step;
+}
+
+/// s until an object that moves by px_s over the ground is reported; 2 if
+/// it is not.
+double reportedAt(const Eigen::Vector2d& px_s, double probability) {
+  TrackerFlight flight(shipped());
+  const CameraStep step = lookingDown(0.05);
+  flight.setCamera(step);
+  const Eigen::Matrix3d ground = planeHomography(step.K, step.motion);
+  for (int k = 0; k < 48; ++k) {
+    const double time_s = k / 24.0;
+    const cv::Point at(static_cast<int>(500 + ground(0, 2) * k + px_s.x() * time_s),
+                       static_cast<int>(200 + px_s.y() * time_s));
+    if (!flight.step({{cv::Rect(at, cv::Size(20, 30)), probability}}, ground).empty()) return time_s;
+  }
+  return 2;
+}
+
+TEST(TrackBeforeDetect, APathThatNoStaticSurfaceHasConfirmsWeakEvidence) {
+  constexpr double kFaint = 0.53;  // P_FG: alone it never confirms a track
+  EXPECT_LT(reportedAt({0, 40}, kFaint), 1.5) << "across the travel";
+  EXPECT_EQ(reportedAt({0, 0}, kFaint), 2) << "on the ground";
+  // A treetop at half the height of the camera goes by twice as fast.
+  EXPECT_EQ(reportedAt({-30, 0}, kFaint), 2) << "a treetop";
+  EXPECT_LT(reportedAt({30, 0}, kFaint), 1.5) << "with the drone, as nothing static does";
+}
+
 TEST(TrackBeforeDetect, StrongEvidenceThatDoesNotPersistIsNotConfirmed) {
   TrackerFlight flight(shipped());
   for (int k = 0; k < 72; ++k) {

@@ -1,0 +1,135 @@
+#include "redbee/detection/objects/static_path.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <vector>
+
+#include "redbee/geometry/compose_motion.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr double kSpan_s = 1.5;
+constexpr size_t kFewestPoints = 4;
+// What a component shows of its object changes slowly: errors that are as far apart are independent.
+constexpr double kCorrelation_s = 0.17;
+
+/// Weighted least squares of `Unknowns` parameters, with a weak prior on each.
+template <int Unknowns>
+class LeastSquares {
+ public:
+  using Vector = Eigen::Matrix<double, Unknowns, 1>;
+  using Rows = Eigen::Matrix<double, 2, Unknowns>;
+
+  void add(const Rows& A, const Eigen::Vector2d& b, const Eigen::Vector2d& weights) {
+    const Eigen::Matrix<double, Unknowns, 2> weighted = A.transpose() * weights.asDiagonal();
+    normal_ += weighted * A;
+    right_ += weighted * b;
+    total_ += b.dot(weights.cwiseProduct(b));
+  }
+  void addPrior(int unknown, double weight) { normal_(unknown, unknown) += weight; }
+  Vector solve() const { return normal_.ldlt().solve(right_); }
+  double chiSquare() const { return std::max(0.0, total_ - right_.dot(solve())); }
+
+ private:
+  static constexpr double kWeakPrior = 1e-9;  // keeps the matrix regular where nothing observes an unknown
+  Eigen::Matrix<double, Unknowns, Unknowns> normal_ =
+      kWeakPrior * Eigen::Matrix<double, Unknowns, Unknowns>::Identity();
+  Vector right_ = Vector::Zero();
+  double total_ = 0;
+};
+
+struct Observation {
+  CameraPath::Sighting seen;
+  Eigen::Vector2d weights;  ///< inverse variances [px^-2]
+};
+
+/// The base of a moving point lies behind by its velocity times the age.
+double chiSquareOfMoving(const std::vector<Observation>& observations) {
+  LeastSquares<4> fit;
+  for (const auto& [seen, weights] : observations) {
+    Eigen::Matrix<double, 2, 4> A;
+    A << Eigen::Matrix2d::Identity(), -seen.age_s * Eigen::Matrix2d::Identity();
+    fit.add(A, seen.base, weights);
+  }
+  return fit.chiSquare();
+}
+
+/// Depth, 0 (ground) to 1 (nearest), of the static point that fits best.
+double bestDepth(const std::vector<Observation>& observations) {
+  LeastSquares<3> fit;
+  for (const auto& [seen, weights] : observations) {
+    Eigen::Matrix<double, 2, 3> A;
+    A << Eigen::Matrix2d::Identity(), -seen.parallax;
+    fit.add(A, seen.base, weights);
+  }
+  return std::clamp(fit.solve()(2), 0.0, 1.0);
+}
+
+/// The direction of the parallax may be off by a small angle, the same for all frames.
+double chiSquareOfStatic(const std::vector<Observation>& observations, double direction_error) {
+  const double depth = bestDepth(observations);
+  LeastSquares<3> fit;
+  for (const auto& [seen, weights] : observations) {
+    const Eigen::Vector2d parallax = depth * seen.parallax;
+    Eigen::Matrix<double, 2, 3> A;
+    A << Eigen::Matrix2d::Identity(), Eigen::Vector2d(parallax.y(), -parallax.x());
+    fit.add(A, seen.base + parallax, weights);
+  }
+  fit.addPrior(2, 1 / (direction_error * direction_error));
+  return fit.chiSquare();
+}
+
+}  // namespace
+
+void CameraPath::propagate(double elapsed_s, const std::optional<Eigen::Matrix3d>& ground,
+                           const std::optional<CameraStep>& step) {
+  ++current_;
+  if (!ground || !step) {
+    frames_.clear();
+    return;
+  }
+  for (Frame& frame : frames_) {
+    frame.age_s += elapsed_s;
+    frame.ground = normaliseHomography(*ground * frame.ground);
+    frame.motion = compose(step->motion, frame.motion);
+  }
+  frames_.push_back({elapsed_s, *ground, step->motion});
+  K_ = step->K;
+  while (frames_.front().age_s > kSpan_s) frames_.pop_front();
+}
+
+std::optional<CameraPath::Sighting> CameraPath::project(int64_t frame, const Eigen::Vector2d& pixel) const {
+  if (frame == current_) return Sighting{0, pixel, Eigen::Vector2d::Zero()};
+  const int64_t index = frame - (current_ - static_cast<int64_t>(frames_.size()));
+  if (index < 0 || frame > current_) return std::nullopt;
+  const Frame& from = frames_[static_cast<size_t>(index)];
+  const bool shows_ground = from.motion.m_a.dot(K_.inverse() * pixel.homogeneous()) > 0;
+  Sighting seen;
+  seen.age_s = from.age_s;
+  seen.base = transfer(shows_ground ? from.ground : K_ * from.motion.R_ba * K_.inverse(), pixel);
+  const Eigen::Vector3d e = K_ * from.motion.t_ba / (nearest_depth_fraction_ * from.motion.h_a);
+  seen.parallax = e.head<2>() - e.z() * seen.base;
+  return seen;
+}
+
+std::optional<double> movingLogLikelihood(const std::deque<PathPoint>& points, const CameraPath& camera,
+                                          double direction_error) {
+  std::vector<Observation> observations;
+  for (const PathPoint& point : points) {
+    auto seen = camera.project(point.frame, point.centre_px);
+    if (!seen) continue;
+    seen->base -= points.back().centre_px;  // small numbers
+    observations.push_back({*seen, point.variance_px2.cwiseInverse()});
+  }
+  if (observations.size() < kFewestPoints) return std::nullopt;
+  const double span_s = observations.front().seen.age_s - observations.back().seen.age_s;
+  const auto gaps = static_cast<double>(observations.size() - 1);
+  const double correlated = std::max(1.0, kCorrelation_s * gaps / span_s);
+  const double difference =
+      chiSquareOfStatic(observations, direction_error) - chiSquareOfMoving(observations);
+  return 0.5 * difference / correlated;
+}
+
+}  // namespace redbee

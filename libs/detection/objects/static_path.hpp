@@ -1,0 +1,71 @@
+// Whether a track moves over the scene, or its path is that of a static surface of unknown depth, which the
+// camera's travel explains. libs/README.md, (36).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "redbee/geometry/homography.hpp"
+
+namespace redbee {
+
+/// The camera's motion over one step, and the camera matrix [px].
+struct CameraStep {
+  PlaneMotion motion;
+  Eigen::Matrix3d K;
+};
+
+/// The camera's motion over the latest 1.5 s: from each of these frames to the current one.
+class CameraPath {
+ public:
+  /// `nearest_depth_fraction`: of the height, see ParallaxParameters.
+  explicit CameraPath(double nearest_depth_fraction) : nearest_depth_fraction_(nearest_depth_fraction) {}
+
+  /// To the next frame. `ground`: homography, previous to current [px]. Frames before a step that is not
+  /// known are forgotten.
+  void propagate(double elapsed_s, const std::optional<Eigen::Matrix3d>& ground,
+                 const std::optional<CameraStep>& step);
+  /// Number of the current frame; 0 before the first step.
+  int64_t current() const { return current_; }
+
+  /// Where a static point, seen at a pixel of an earlier frame, would be in the current one: at `base` on the
+  /// ground (above the horizon: at infinity), at base + parallax at the smallest plausible depth, in between
+  /// at any other [px].
+  struct Sighting {
+    double age_s;
+    Eigen::Vector2d base;
+    Eigen::Vector2d parallax;
+  };
+  /// std::nullopt if that frame is forgotten.
+  std::optional<Sighting> project(int64_t frame, const Eigen::Vector2d& pixel) const;
+
+ private:
+  struct Frame {
+    double age_s;
+    Eigen::Matrix3d ground;  ///< homography, from it to the current frame [px]
+    PlaneMotion motion;      ///< likewise
+  };
+
+  double nearest_depth_fraction_;
+  int64_t current_ = 0;
+  std::deque<Frame> frames_;  ///< before the current one, oldest first
+  Eigen::Matrix3d K_ = Eigen::Matrix3d::Identity();
+};
+
+/// Where a track was found in one frame.
+struct PathPoint {
+  int64_t frame;  ///< CameraPath::current() of then
+  Eigen::Vector2d centre_px;
+  Eigen::Vector2d variance_px2;
+};
+
+/// Log likelihood ratio of two paths fitted to the points (oldest first): of a point that moves over the
+/// ground at a constant velocity, against one that rests at any depth. About 0, or less, where the camera's
+/// travel explains it all, also what moves along the parallax. `direction_error`: rad, sigma of the
+/// direction of travel. std::nullopt for less than four points that the camera's path still knows.
+std::optional<double> movingLogLikelihood(const std::deque<PathPoint>& points, const CameraPath& camera,
+                                          double direction_error);
+
+}  // namespace redbee
