@@ -84,9 +84,9 @@ class Stage : public Node {
   }
   Publisher& publisher() { return publisher_; }
 
- private:
-  static constexpr const char* kSecondSource = "a second source is ignored";
+  static constexpr const char* kSecondSource = "a second source is ignored";  ///< for noteIgnored()
 
+ private:
   /// The publishers that `message` comes from are told apart, and those not listened to are reported.
   template <typename Message>
   std::vector<Message> chosen(PublisherChoice<Message>& choice, const std::string& channel,

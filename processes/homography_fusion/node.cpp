@@ -112,10 +112,14 @@ void HomographyFusionNode::fuse(CameraTime time) {
   }
   std::optional<VisualInput> visual_input;
   if (visual != nullptr && visual->status == visual_homography_t::GOOD) visual_input = inputOf(*visual);
+  if (inertial != nullptr) {
+    calibration_.setDisagreement(inertial->status == inertial_homography_t::VISION_DISAGREES);
+  }
   const FusedHomography fused = fusion_.step(time, inertial_input, visual_input);
   if (fused.has_innovation && inertial_input && visual_input) {
     validateCalibration(fused, *inertial_input, *visual_input);
   }
+  if (inertial != nullptr) health().setCalibration(calibration_.status());
   const bool same_step = visual != nullptr && previousTimeOf(*visual) == fused.time_previous;
   const PointTracks tracks = same_step ? tracksOf(visual->tracks) : PointTracks{};
   std::optional<HomographyEstimate> front;
@@ -147,7 +151,6 @@ void HomographyFusionNode::validateCalibration(const FusedHomography& fused, con
                                                const VisualInput& visual) {
   if (inertial.time_previous != visual.time_previous) return;
   calibration_.note(fused.test_ratio, meanTransferError(inertial.H, visual.H, camera_.width, camera_.height));
-  health().setCalibration(calibration_.status());
 }
 
 fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused) const {

@@ -42,6 +42,7 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
 void ImuIntegrationNode::onFrame(const image_t& message) {
   const CameraIntrinsics& camera = configuration_.camera;
   if (!isOfCamera(message, {camera.width, camera.height}, configuration_.channels.camera)) return;
+  noteClockOffset(timeOf(message));
   queueFrame(pending_, configuration_.channels.camera, timeOf(message), WorkTimer());
   health().noteSkipped(pending_.limitTo(kMaxPendingFrames));
   if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
@@ -51,8 +52,25 @@ bool ImuIntegrationNode::onImu(const ins_t& message) {
   const ImuTime time(fromUtime(message.utime));
   clock_.noteOther(time);
   const bool plausible = filter_.addImu({time, vector3(message.gyro), vector3(message.accel)});
+  if (filter_.takeForeignSamples() > 0) health().noteIgnored(configuration_.channels.imu, kSecondSource);
   if (plausible) imu_alive_ = true;
+  if (plausible) last_sample_ = time;
   return plausible;
+}
+
+void ImuIntegrationNode::noteClockOffset(CameraTime frame) {
+  clock_offset_s_.reset();
+  if (!last_sample_) return;
+  const ImuTime exposure = toImu(frame, fromSeconds(configuration_.inertial.extrinsics.timeshift_s));
+  clock_offset_s_ = seconds(exposure - *last_sample_);
+  last_sample_.reset();  // an IMU that is silent has no clock
+}
+
+std::string ImuIntegrationNode::reasonOf(InertialStatus status) const {
+  const std::string& disagreement = filter_.agreement().message();
+  if (!disagreement.empty()) return disagreement;
+  if (status != InertialStatus::kNoImu || !clock_offset_s_) return toString(status);
+  return disagreementOf(*clock_offset_s_);
 }
 
 bool ImuIntegrationNode::onFused(const fused_homography_t& message) {
@@ -158,7 +176,7 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   if (result.valid && result.status == InertialStatus::kGood) {
     health().setState(HealthState::kGood, "");
   } else {
-    health().setState(HealthState::kDegraded, toString(result.status));
+    health().setState(HealthState::kDegraded, reasonOf(result.status));
   }
 }
 
