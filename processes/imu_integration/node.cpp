@@ -34,8 +34,7 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
       return filter_.addAltitude({ImuTime(fromUtime(m.utime)), m.height, m.sigma});
     });
   }
-  on<fused_homography_t>(channels.fused_homography,
-                         [this](const fused_homography_t& m) { return onFused(m); });
+  on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) { onFused(m); });
   on<filter_snapshot_t>(channels.warm_start, [this](const filter_snapshot_t& m) { warm_start_ = m; });
 }
 
@@ -73,11 +72,9 @@ std::string ImuIntegrationNode::reasonOf(InertialStatus status) const {
   return disagreementOf(*clock_offset_s_);
 }
 
-bool ImuIntegrationNode::onFused(const fused_homography_t& message) {
-  if (!plausibleTimes(message)) return false;
+void ImuIntegrationNode::onFused(const fused_homography_t& message) {
   health().setCalibration(message.calibration);
   feedback_.put(timeOf(message), message, pending_.newest().value_or(CameraTime::min()));
-  return true;
 }
 
 void ImuIntegrationNode::restart(CameraTime newest) {
@@ -119,13 +116,8 @@ void ImuIntegrationNode::applyFeedback() {
   if (!last_frame_) return;
   const fused_homography_t* fused = feedback_.find(*last_frame_);
   if (fused == nullptr || fused->has_observation == 0) return;
-  const HomographyObservation observation{previousTimeOf(*fused), timeOf(*fused), matrix3(fused->observed.H),
-                                          matrix8(fused->observed.covariance)};
-  if (!observation.H.allFinite() || !observation.covariance.allFinite()) {
-    health().noteDamaged();
-    return;
-  }
-  feedback_report_ = filter_.correct(observation);
+  feedback_report_ = filter_.correct({previousTimeOf(*fused), timeOf(*fused), matrix3(fused->observed.H),
+                                      matrix8(fused->observed.covariance)});
 }
 
 void ImuIntegrationNode::publishSnapshot() {
@@ -168,10 +160,7 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   message.feedback_test_ratio = feedback_report_.test_ratio;
   message.earlier = earlier_;
   publish(configuration_.channels.inertial_homography, message);
-  earlier_.valid = message.valid;
-  earlier_.utime = toUtime(frame);
-  earlier_.utime_previous = message.utime_previous;
-  earlier_.ground = message.ground;
+  earlier_ = stepOf(message, frame, result.valid);
   if (result.valid && agreed_in_a_row_ >= kAgreedFrames) publishSnapshot();
   if (result.valid && result.status == InertialStatus::kGood) {
     health().setState(HealthState::kGood, "");

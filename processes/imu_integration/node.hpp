@@ -33,7 +33,7 @@ class ImuIntegrationNode : public Stage {
  private:
   void onFrame(const image_t& message);
   bool onImu(const ins_t& message);
-  bool onFused(const fused_homography_t& message);
+  void onFused(const fused_homography_t& message);
   bool isReadyFor(CameraTime frame);
   /// Called when a frame arrives.
   void noteClockOffset(CameraTime frame);
