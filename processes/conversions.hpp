@@ -1,11 +1,12 @@
-// Conversions between messages and the libraries' types.
+// Conversions between messages and the libraries' types. What arrives is plausible
+// (libs/node/message_check.hpp).
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "redbee/earlier_step_t.hpp"
@@ -103,21 +104,11 @@ inline void fill(tracks_t& message, const PointTracks& tracks, const std::vector
   message.inlier.resize(n);
 }
 
-/// px: no image is larger; coordinates beyond are damaged and would overflow an int.
-constexpr float kMaxCoordinate = 1e5F;
-
-/// Skips damaged points (not a number, or far beyond any image).
 inline PointTracks tracksOf(const tracks_t& message) {
   PointTracks tracks;
-  const auto plausible = [](float x, float y) {
-    return std::abs(x) < kMaxCoordinate && std::abs(y) < kMaxCoordinate;  // false for NaN
-  };
   tracks.previous.reserve(message.x.size());
   tracks.current.reserve(message.x.size());
   for (size_t i = 0; i < message.x.size(); ++i) {
-    if (!plausible(message.x_previous[i], message.y_previous[i]) || !plausible(message.x[i], message.y[i])) {
-      continue;
-    }
     tracks.previous.emplace_back(message.x_previous[i], message.y_previous[i]);
     tracks.current.emplace_back(message.x[i], message.y[i]);
   }
@@ -140,25 +131,27 @@ inline void fill(homography_t& message, const Eigen::Matrix3d& H,
   fill(message.covariance, covariance);
 }
 
-/// True if both frame times of the message are plausible.
+/// What the next message repeats of this one, which is about the frame at `time`.
 template <typename Message>
-bool plausibleTimes(const Message& message) {
-  return isPlausibleTime(timeOf(message)) && isPlausibleTime(previousTimeOf(message));
+earlier_step_t stepOf(const Message& message, CameraTime time, bool is_valid) {
+  earlier_step_t step{};
+  step.valid = is_valid ? 1 : 0;
+  step.utime = toUtime(time);
+  step.utime_previous = message.utime_previous;
+  step.ground = message.ground;
+  if constexpr (std::is_same_v<Message, visual_homography_t>) {
+    step.inliers = message.inliers;
+    step.outliers = message.outliers;
+  }
+  return step;
 }
 
-/// True if all entries are finite and h33 is not 0.
-inline bool isFinite(const homography_t& message) {
-  return matrix3(message.H).allFinite() && matrix8(message.covariance).allFinite() && message.H[8] != 0;
-}
-
-/// The message about the frame before, as far as `message` repeats it; only if it is valid and plausible.
+/// The message about the frame before, as far as `message` repeats it.
 template <typename Message>
 std::optional<Message> restoredFrom(const Message& message) {
   const earlier_step_t& earlier = message.earlier;
   const bool is_before = earlier.utime_previous < earlier.utime && earlier.utime < message.utime;
-  if (earlier.valid == 0 || !is_before || !plausibleTimes(earlier) || !isFinite(earlier.ground)) {
-    return std::nullopt;
-  }
+  if (earlier.valid == 0 || !is_before) return std::nullopt;
   Message restored{};
   restored.utime = earlier.utime;
   restored.utime_previous = earlier.utime_previous;

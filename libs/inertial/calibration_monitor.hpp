@@ -35,14 +35,18 @@ class CalibrationMonitor {
     distance_px_ += rate * (std::fmin(distance_px, 100.0) - distance_px_);
   }
 
+  /// Whether the IMU is left out because vision contradicts it: then there are no innovations.
+  void setDisagreement(bool disagrees) { disagrees_ = disagrees; }
+
   bool decided() const { return frames_ >= parameters_.min_frames; }
   bool fits() const { return ratio_ <= parameters_.misfit_ratio || distance_px_ <= parameters_.misfit_px; }
   double meanDistance_px() const { return distance_px_; }
   double meanRatio() const { return ratio_; }
 
-  /// "unknown", "fits", or "does not fit: predicted homography off by 3 px". The pixels are rounded, so that
-  /// the text seldom changes.
+  /// "unknown", "fits", "does not fit: IMU and camera disagree", or "does not fit: predicted homography off
+  /// by 3 px". The pixels are rounded, so that the text seldom changes.
   std::string status() const {
+    if (disagrees_) return "does not fit: IMU and camera disagree";
     if (!decided()) return "unknown";
     if (fits()) return "fits";
     char text[80];
@@ -54,6 +58,7 @@ class CalibrationMonitor {
  private:
   Parameters parameters_;
   int frames_ = 0;
+  bool disagrees_ = false;
   double ratio_ = 0;
   double distance_px_ = 0;
 };

@@ -23,6 +23,10 @@ FrameSamples::FrameSamples(const InertialParameters& parameters)
 
 bool FrameSamples::add(const ImuSample& sample) {
   if (!isPlausibleTime(sample.time) || !sample.gyro.allFinite() || !sample.accel.allFinite()) return false;
+  if (!rhythm_.isKeptBy(sample.time)) {
+    ++foreign_;
+    return true;
+  }
   for (const ImuSample& accepted : check_.filter(sample)) imu_.add(accepted);
   return true;
 }

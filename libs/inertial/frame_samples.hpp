@@ -1,10 +1,12 @@
 // IMU samples by frame; converts between the camera's and the IMU's clock.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/inertial/imu_rhythm.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
 
@@ -17,6 +19,8 @@ class FrameSamples {
 
   /// Refuses a sample that is not finite or has an implausible time, and then returns false.
   bool add(const ImuSample& sample);
+  /// Samples of another IMU (ImuRhythm), which were not used, since the last call.
+  int takeForeign() { return std::exchange(foreign_, 0); }
   ImuTime imuTime(CameraTime frame) const { return toImu(frame, timeshift_); }
 
   /// True if the samples reach a frame's exposure.
@@ -42,6 +46,8 @@ class FrameSamples {
  private:
   Duration timeshift_;
   double max_gap_s_;
+  ImuRhythm rhythm_;
+  int foreign_ = 0;
   ImuSampleCheck check_;
   ImuBuffer imu_;
 };

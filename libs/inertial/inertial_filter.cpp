@@ -7,6 +7,7 @@
 #include "redbee/inertial/frame_samples.hpp"
 #include "redbee/inertial/homography_measurement.hpp"
 #include "redbee/inertial/initial_state.hpp"
+#include "redbee/inertial/vision_agreement.hpp"
 
 namespace redbee {
 namespace {
@@ -35,6 +36,8 @@ class InertialFilter::Implementation {
 
   bool addImu(const ImuSample& sample) { return samples_.add(sample); }
 
+  int takeForeignSamples() { return samples_.takeForeign(); }
+
   bool addAltitude(const AltitudeSample& sample) {
     const bool usable = isPlausibleTime(sample.time) && std::isfinite(sample.height_m) &&
                         std::isfinite(sample.sigma_m) && sample.sigma_m > 0;
@@ -62,6 +65,7 @@ class InertialFilter::Implementation {
     const bool belongs = state_ && previous_frame_ && !corrected_ && observation.time == *frame_ &&
                          observation.time_previous == *previous_frame_;
     if (!belongs) return {};
+    compare(observation);
     const NavigationState before = *state_;
     const CorrectionReport report = vision_.correct(*state_, observation, camera_, p_IC());
     corrected_ = report.applied;
@@ -80,6 +84,8 @@ class InertialFilter::Implementation {
   }
 
   const std::optional<FilterSnapshot>& snapshot() const { return known_; }
+
+  const VisionAgreement& agreement() const { return agreement_; }
 
   bool isAtFirstFrame() const { return state_ && !has_moved_; }
 
@@ -138,9 +144,21 @@ class InertialFilter::Implementation {
     if (!isValid(*state_)) return startAfresh(frame);
     describe(*state_, camera_, p_IC(), result);
     if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
+    if (!agreement_.agrees()) {
+      result.status = InertialStatus::kDisagreement;
+      return result;
+    }
     result.valid = true;
     known_ = snapshotOf(*state_, frame, p_IC());
     return result;
+  }
+
+  /// Compares the rotation between the last two frames with vision's, before vision corrects it.
+  void compare(const HomographyObservation& observation) {
+    const auto difference =
+        rotationDifference(*state_, camera_, p_IC(), observation.H, observation.covariance);
+    const Eigen::Matrix3d R_ba = cameraMotion(*state_, p_IC()).R_ba;
+    if (difference) agreement_.note({observation.time_previous, observation.time, R_ba, *difference});
   }
 
   /// Refused samples take precedence over missing ones.
@@ -194,6 +212,7 @@ class InertialFilter::Implementation {
   FrameSamples samples_;
   AltitudeCorrection altitude_;
   VisionCorrection vision_;
+  VisionAgreement agreement_;  ///< survives a restart
   std::optional<NavigationState> state_;
   std::optional<FilterSnapshot> known_;  ///< of the last valid state: survives a restart
   std::optional<CameraTime> frame_;
@@ -209,6 +228,7 @@ InertialFilter::InertialFilter(InertialFilter&&) noexcept = default;
 InertialFilter& InertialFilter::operator=(InertialFilter&&) noexcept = default;
 
 bool InertialFilter::addImu(const ImuSample& sample) { return implementation_->addImu(sample); }
+int InertialFilter::takeForeignSamples() { return implementation_->takeForeignSamples(); }
 bool InertialFilter::addAltitude(const AltitudeSample& sample) {
   return implementation_->addAltitude(sample);
 }
@@ -220,6 +240,7 @@ CorrectionReport InertialFilter::correct(const HomographyObservation& observatio
 std::optional<NominalState> InertialFilter::state() const { return implementation_->state(); }
 const std::optional<FilterSnapshot>& InertialFilter::snapshot() const { return implementation_->snapshot(); }
 bool InertialFilter::isAtFirstFrame() const { return implementation_->isAtFirstFrame(); }
+const VisionAgreement& InertialFilter::agreement() const { return implementation_->agreement(); }
 SnapshotCheck InertialFilter::warmStart(const FilterSnapshot& known) {
   return implementation_->warmStart(known);
 }

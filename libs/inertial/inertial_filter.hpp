@@ -21,6 +21,7 @@
 #include "redbee/inertial/imu.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
+#include "redbee/inertial/vision_agreement.hpp"
 
 namespace redbee {
 
@@ -89,6 +90,8 @@ class InertialFilter {
   /// it.
   bool addImu(const ImuSample& sample);
   bool addAltitude(const AltitudeSample& sample);
+  /// Samples of a second IMU, which were not used, since the last call.
+  int takeForeignSamples();
 
   /// True if the samples reach the exposure of this frame.
   bool covers(CameraTime frame) const;
@@ -101,6 +104,10 @@ class InertialFilter {
   CorrectionReport correct(const HomographyObservation& observation);
 
   std::optional<NominalState> state() const;
+
+  /// Of the observations that correct() was given. While vision contradicts the IMU, advanceTo() returns no
+  /// homography; the state is still corrected, so that the IMU is used again once they agree.
+  const VisionAgreement& agreement() const;
 
   /// Snapshot at the last frame with a valid motion; std::nullopt before the first.
   const std::optional<FilterSnapshot>& snapshot() const;

@@ -16,6 +16,8 @@ const char* toString(InertialStatus status) {
       return "clock jump";
     case InertialStatus::kBadSamples:
       return "implausible IMU samples refused";
+    case InertialStatus::kDisagreement:
+      return "IMU and camera disagree";
   }
   return "unknown";
 }

@@ -15,6 +15,7 @@ enum class InertialStatus {
   kNoImu,         ///< no samples in the interval: no homography
   kClockJump,     ///< time ran backwards or jumped: restarted, no homography
   kBadSamples,    ///< samples in the interval were refused (ImuSampleCheck) and not used
+  kDisagreement,  ///< vision contradicts the IMU (VisionAgreement): left out, no homography
 };
 const char* toString(InertialStatus status);
 

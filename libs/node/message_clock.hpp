@@ -9,42 +9,43 @@
 
 namespace redbee {
 
-/// The latest time in any message. Frames are trusted (FrameQueue has checked them); times of other sensors
-/// are used only if they are close to the frames', so that a damaged time, or a clock that is off by hours,
-/// does not make every later wait time out.
+/// The newest frame's time, plus how far another sensor's times have advanced since that frame arrived. Only
+/// steps of the sensor's clock count, never its reading: a clock that is off by half a second, or by hours,
+/// makes no wait time out. Frames are trusted (FrameQueue has checked them).
 class MessageClock {
  public:
-  /// Largest difference between another sensor's time and the frames'.
-  static constexpr Duration kNear = std::chrono::seconds(2);
+  /// A sensor's time that differs by more from the one before is damaged, or its clock was set: no time has
+  /// passed.
+  static constexpr Duration kMaxStep = std::chrono::milliseconds(250);
 
   void noteFrame(CameraTime time) {
-    frame_ = frame_ ? std::max(*frame_, time) : time;
-    if (other_ && !isNear(*other_)) other_.reset();
+    if (frame_ && time <= *frame_) return;
+    frame_ = time;
+    since_frame_ = Duration(0);
   }
-  /// The time shift is a few milliseconds and is neglected here.
   void noteOther(ImuTime reading) {
-    const CameraTime time = toCamera(reading, Duration(0));
-    if (isNear(time)) other_ = other_ ? std::max(*other_, time) : time;
+    if (other_ && isStep(*other_, reading)) {
+      since_frame_ += std::max(reading - *other_, Duration(0));
+      other_ = std::max(*other_, reading);
+    } else {
+      other_ = reading;
+    }
   }
   /// To be called when the clock was set back.
   void restart() { *this = {}; }
   /// Time 0 before the first frame.
-  CameraTime now() const {
-    const CameraTime frame = frame_.value_or(CameraTime());
-    return std::max(frame, other_.value_or(frame));
-  }
+  CameraTime now() const { return frame_ ? *frame_ + since_frame_ : CameraTime(); }
 
  private:
-  bool isNear(CameraTime time) const {
-    return frame_ &&
-           std::abs(microseconds(time) - microseconds(*frame_)) <= static_cast<double>(kNear.count());
+  /// As doubles, so that differences cannot overflow.
+  static bool isStep(ImuTime from, ImuTime to) {
+    return std::abs(static_cast<double>(toUtime(to)) - static_cast<double>(toUtime(from))) <=
+           static_cast<double>(kMaxStep.count());
   }
 
-  /// As a double, so that differences cannot overflow.
-  static double microseconds(CameraTime time) { return static_cast<double>(toUtime(time)); }
-
   std::optional<CameraTime> frame_;
-  std::optional<CameraTime> other_;
+  Duration since_frame_{};
+  std::optional<ImuTime> other_;
 };
 
 }  // namespace redbee

@@ -1,5 +1,7 @@
 #include "redbee/node/stage.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include "redbee/bus/image.hpp"
 
 namespace redbee {
@@ -14,6 +16,13 @@ bool Stage::isOfCamera(const image_t& image, cv::Size camera, const std::string&
   health_.noteSkipped();
   health_.noteIgnored(channel, "an image of " + text(size) + " is ignored, configured are " + text(camera));
   return false;
+}
+
+void Stage::refuse(const std::string& channel, const char* fault) {
+  const std::string what = std::string("a message is refused: ") + fault;
+  health_.noteDamaged();
+  health_.noteIgnored(channel, what);
+  if (refused_.insert(channel + fault).second) spdlog::warn("{}: {}", channel, what);
 }
 
 void Stage::finish() {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <opencv2/core/types.hpp>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "redbee/ins_t.hpp"
 #include "redbee/node/frame_queue.hpp"
 #include "redbee/node/frame_time.hpp"
+#include "redbee/node/message_check.hpp"
 #include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/node/publisher.hpp"
@@ -41,8 +43,8 @@ class Stage : public Node {
   /// `process`: its name in PROCESS_HEALTH.
   Stage(Bus& bus, const std::string& process, const std::string& configuration_hash);
 
-  /// `handler` is called for each message that decodes, and may return whether the message is plausible. A
-  /// message that does not decode or is not plausible is counted as damaged; a missing sequence number, if
+  /// `handler` is called for each message that decodes and is plausible (message_check.hpp), and may return
+  /// whether it was of use. Any other message is counted as damaged; a missing sequence number, if
   /// the type has them, as lost. Of several publishers, where the type names them, one is listened to.
   template <typename Message, typename Handler>
   void on(const std::string& channel, Handler handler);
@@ -84,9 +86,17 @@ class Stage : public Node {
   }
   Publisher& publisher() { return publisher_; }
 
- private:
-  static constexpr const char* kSecondSource = "a second source is ignored";
+  static constexpr const char* kSecondSource = "a second source is ignored";  ///< for noteIgnored()
 
+ private:
+  /// Whether the message is plausible; one that is not is counted and reported.
+  template <typename Message>
+  bool isUsable(const std::string& channel, const Message& message) {
+    const char* fault = faultOf(message);
+    if (fault != nullptr) refuse(channel, fault);
+    return fault == nullptr;
+  }
+  void refuse(const std::string& channel, const char* fault);
   /// The publishers that `message` comes from are told apart, and those not listened to are reported.
   template <typename Message>
   std::vector<Message> chosen(PublisherChoice<Message>& choice, const std::string& channel,
@@ -99,6 +109,7 @@ class Stage : public Node {
   Publisher publisher_;
   FrameTimers timers_;
   bool finishing_ = false;
+  std::set<std::string> refused_;  ///< channels and faults that were logged
   std::vector<Subscription> subscriptions_;
 };
 
@@ -110,6 +121,7 @@ void Stage::on(const std::string& channel, Handler handler) {
     subscriptions_.push_back(bus_.subscribe<Message>(
         channel, kQueueLength<Message>,
         [this, channel, choice, handler = std::move(handler)](const Message& message) {
+          if (!isUsable(channel, message)) return;
           for (const Message& each : chosen(*choice, channel, message)) deliver(channel, handler, each);
         },
         damaged));
@@ -117,7 +129,7 @@ void Stage::on(const std::string& channel, Handler handler) {
     subscriptions_.push_back(bus_.subscribe<Message>(
         channel, kQueueLength<Message>,
         [this, channel, handler = std::move(handler)](const Message& message) {
-          deliver(channel, handler, message);
+          if (isUsable(channel, message)) deliver(channel, handler, message);
         },
         damaged));
   }
@@ -145,7 +157,6 @@ void Stage::deliver(const std::string& channel, const Handler& handler, const Me
 template <typename Content>
 void Stage::queueFrame(FrameQueue<Content>& frames, const std::string& channel, CameraTime time,
                        Content content) {
-  if (!isPlausibleTime(time)) return health_.noteDamaged();
   const FrameArrival arrival = frames.put(time, std::move(content));
   const auto discarded = frames.takeDiscarded();
   health_.noteSkipped(discarded.late);

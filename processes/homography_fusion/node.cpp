@@ -29,29 +29,23 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
       visual_(fromSeconds(configuration.waits.fusion_s), true) {
   const auto& channels = configuration_.channels;
   on<inertial_homography_t>(channels.inertial_homography,
-                            [this](const inertial_homography_t& m) { return onInertial(m); });
+                            [this](const inertial_homography_t& m) { onInertial(m); });
   on<filter_snapshot_t>(channels.filter_snapshot, [this](const filter_snapshot_t& m) { snapshot_ = m; });
-  on<visual_homography_t>(channels.visual_homography,
-                          [this](const visual_homography_t& m) { return onVisual(m); });
+  on<visual_homography_t>(channels.visual_homography, [this](const visual_homography_t& m) { onVisual(m); });
   if (configuration_.has_imu) {
     on<ins_t>(channels.imu, [this](const ins_t& m) { clock_.noteOther(ImuTime(fromUtime(m.utime))); });
   }
 }
 
-bool HomographyFusionNode::onInertial(const inertial_homography_t& message) {
-  if (!plausibleTimes(message) || (!isFinite(message.ground) && message.valid != 0)) return false;
+void HomographyFusionNode::onInertial(const inertial_homography_t& message) {
   if (message.valid == 0 && message.status == inertial_homography_t::INITIALISING) {
     inertial_at_first_frame_ = true;
   }
   queue(configuration_.channels.inertial_homography, message, restoredInertial(message), inertial_);
-  return true;
 }
 
-bool HomographyFusionNode::onVisual(const visual_homography_t& message) {
-  const bool is_good = message.status == visual_homography_t::GOOD;
-  if (!plausibleTimes(message) || (!isFinite(message.ground) && is_good)) return false;
+void HomographyFusionNode::onVisual(const visual_homography_t& message) {
   queue(configuration_.channels.visual_homography, message, restoredVisual(message), visual_);
-  return true;
 }
 
 template <typename Message>
@@ -112,10 +106,14 @@ void HomographyFusionNode::fuse(CameraTime time) {
   }
   std::optional<VisualInput> visual_input;
   if (visual != nullptr && visual->status == visual_homography_t::GOOD) visual_input = inputOf(*visual);
+  if (inertial != nullptr) {
+    calibration_.setDisagreement(inertial->status == inertial_homography_t::VISION_DISAGREES);
+  }
   const FusedHomography fused = fusion_.step(time, inertial_input, visual_input);
   if (fused.has_innovation && inertial_input && visual_input) {
     validateCalibration(fused, *inertial_input, *visual_input);
   }
+  if (inertial != nullptr) health().setCalibration(calibration_.status());
   const bool same_step = visual != nullptr && previousTimeOf(*visual) == fused.time_previous;
   const PointTracks tracks = same_step ? tracksOf(visual->tracks) : PointTracks{};
   std::optional<HomographyEstimate> front;
@@ -147,7 +145,6 @@ void HomographyFusionNode::validateCalibration(const FusedHomography& fused, con
                                                const VisualInput& visual) {
   if (inertial.time_previous != visual.time_previous) return;
   calibration_.note(fused.test_ratio, meanTransferError(inertial.H, visual.H, camera_.width, camera_.height));
-  health().setCalibration(calibration_.status());
 }
 
 fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused) const {

@@ -27,8 +27,8 @@ class HomographyFusionNode : public Stage {
   void process() override;
 
  private:
-  bool onInertial(const inertial_homography_t& message);
-  bool onVisual(const visual_homography_t& message);
+  void onInertial(const inertial_homography_t& message);
+  void onVisual(const visual_homography_t& message);
   /// `restored`: what the message repeats of the one before.
   template <typename Message>
   void queue(const std::string& channel, const Message& message, const std::optional<Message>& restored,

@@ -34,14 +34,14 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
       return filter_.addAltitude({ImuTime(fromUtime(m.utime)), m.height, m.sigma});
     });
   }
-  on<fused_homography_t>(channels.fused_homography,
-                         [this](const fused_homography_t& m) { return onFused(m); });
+  on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) { onFused(m); });
   on<filter_snapshot_t>(channels.warm_start, [this](const filter_snapshot_t& m) { warm_start_ = m; });
 }
 
 void ImuIntegrationNode::onFrame(const image_t& message) {
   const CameraIntrinsics& camera = configuration_.camera;
   if (!isOfCamera(message, {camera.width, camera.height}, configuration_.channels.camera)) return;
+  noteClockOffset(timeOf(message));
   queueFrame(pending_, configuration_.channels.camera, timeOf(message), WorkTimer());
   health().noteSkipped(pending_.limitTo(kMaxPendingFrames));
   if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
@@ -51,15 +51,30 @@ bool ImuIntegrationNode::onImu(const ins_t& message) {
   const ImuTime time(fromUtime(message.utime));
   clock_.noteOther(time);
   const bool plausible = filter_.addImu({time, vector3(message.gyro), vector3(message.accel)});
+  if (filter_.takeForeignSamples() > 0) health().noteIgnored(configuration_.channels.imu, kSecondSource);
   if (plausible) imu_alive_ = true;
+  if (plausible) last_sample_ = time;
   return plausible;
 }
 
-bool ImuIntegrationNode::onFused(const fused_homography_t& message) {
-  if (!plausibleTimes(message)) return false;
+void ImuIntegrationNode::noteClockOffset(CameraTime frame) {
+  clock_offset_s_.reset();
+  if (!last_sample_) return;
+  const ImuTime exposure = toImu(frame, fromSeconds(configuration_.inertial.extrinsics.timeshift_s));
+  clock_offset_s_ = seconds(exposure - *last_sample_);
+  last_sample_.reset();  // an IMU that is silent has no clock
+}
+
+std::string ImuIntegrationNode::reasonOf(InertialStatus status) const {
+  const std::string& disagreement = filter_.agreement().message();
+  if (!disagreement.empty()) return disagreement;
+  if (status != InertialStatus::kNoImu || !clock_offset_s_) return toString(status);
+  return disagreementOf(*clock_offset_s_);
+}
+
+void ImuIntegrationNode::onFused(const fused_homography_t& message) {
   health().setCalibration(message.calibration);
   feedback_.put(timeOf(message), message, pending_.newest().value_or(CameraTime::min()));
-  return true;
 }
 
 void ImuIntegrationNode::restart(CameraTime newest) {
@@ -101,13 +116,8 @@ void ImuIntegrationNode::applyFeedback() {
   if (!last_frame_) return;
   const fused_homography_t* fused = feedback_.find(*last_frame_);
   if (fused == nullptr || fused->has_observation == 0) return;
-  const HomographyObservation observation{previousTimeOf(*fused), timeOf(*fused), matrix3(fused->observed.H),
-                                          matrix8(fused->observed.covariance)};
-  if (!observation.H.allFinite() || !observation.covariance.allFinite()) {
-    health().noteDamaged();
-    return;
-  }
-  feedback_report_ = filter_.correct(observation);
+  feedback_report_ = filter_.correct({previousTimeOf(*fused), timeOf(*fused), matrix3(fused->observed.H),
+                                      matrix8(fused->observed.covariance)});
 }
 
 void ImuIntegrationNode::publishSnapshot() {
@@ -150,15 +160,12 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   message.feedback_test_ratio = feedback_report_.test_ratio;
   message.earlier = earlier_;
   publish(configuration_.channels.inertial_homography, message);
-  earlier_.valid = message.valid;
-  earlier_.utime = toUtime(frame);
-  earlier_.utime_previous = message.utime_previous;
-  earlier_.ground = message.ground;
+  earlier_ = stepOf(message, frame, result.valid);
   if (result.valid && agreed_in_a_row_ >= kAgreedFrames) publishSnapshot();
   if (result.valid && result.status == InertialStatus::kGood) {
     health().setState(HealthState::kGood, "");
   } else {
-    health().setState(HealthState::kDegraded, toString(result.status));
+    health().setState(HealthState::kDegraded, reasonOf(result.status));
   }
 }
 

@@ -33,8 +33,11 @@ class ImuIntegrationNode : public Stage {
  private:
   void onFrame(const image_t& message);
   bool onImu(const ins_t& message);
-  bool onFused(const fused_homography_t& message);
+  void onFused(const fused_homography_t& message);
   bool isReadyFor(CameraTime frame);
+  /// Called when a frame arrives.
+  void noteClockOffset(CameraTime frame);
+  std::string reasonOf(InertialStatus status) const;
   void warmStart();
   void applyFeedback();
   void publishSnapshot();
@@ -54,7 +57,9 @@ class ImuIntegrationNode : public Stage {
   CorrectionReport feedback_report_;             ///< of the last frame
   int agreed_in_a_row_ = 0;                      ///< consecutive frames with an accepted correction by vision
   bool imu_alive_ = true;
-  earlier_step_t earlier_{};  ///< of the message before
+  std::optional<ImuTime> last_sample_;    ///< since the newest frame arrived
+  std::optional<double> clock_offset_s_;  ///< of that frame's exposure to the newest sample then
+  earlier_step_t earlier_{};              ///< of the message before
 };
 
 }  // namespace redbee

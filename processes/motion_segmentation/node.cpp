@@ -40,21 +40,19 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
   const auto& channels = configuration_.channels;
   if (!needs_.camera_motion) return;
   on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) {
-    if (!plausibleTimes(m) || !isFinite(m.step) || !isFinite(m.anchor)) return false;
     companions().put(timeOf(m), m, now());
+    fused_path_.reset();
     health().setCalibration(m.calibration);
-    return true;
   });
   on<visual_homography_t>(channels.visual_homography, [this](const visual_homography_t& m) {
-    if (!plausibleTimes(m) || (!isFinite(m.ground) && m.status == visual_homography_t::GOOD)) return false;
     visual_.put(timeOf(m), m, now());
     if (const auto restored = restoredVisual(m)) visual_.putRestored(timeOf(*restored), *restored);
-    return true;
   });
 }
 
 void MotionSegmentationNode::reset(CameraTime newest) {
   visual_.eraseAfter(newest);
+  fused_path_.reset();
   last_.reset();
 }
 
@@ -63,7 +61,7 @@ bool MotionSegmentationNode::isWaiting(CameraTime frame) {
   return needs_.camera_motion && last_ && !fusedPathTo(frame) && isPending(visual_, frame);
 }
 
-FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_homography_t* fused) const {
+FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_homography_t* fused) {
   FrameInput input;
   input.time = timeOf(message);
   input.time_previous = last_.value_or(input.time);
@@ -91,8 +89,11 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_
   return input;
 }
 
-std::optional<Eigen::Matrix3d> MotionSegmentationNode::fusedPathTo(CameraTime frame) const {
-  return homographyAlong(linksOf(companions()), *last_, frame);
+std::optional<Eigen::Matrix3d> MotionSegmentationNode::fusedPathTo(CameraTime frame) {
+  if (!fused_path_ || fused_path_->to != frame) {
+    fused_path_ = FusedPath{frame, homographyAlong(linksOf(companions()), *last_, frame)};
+  }
+  return fused_path_->H;
 }
 
 bool MotionSegmentationNode::addVisual(FrameInput& input) const {
@@ -116,6 +117,7 @@ void MotionSegmentationNode::work(const image_t& message) {
   last_ = input.time;
   // This frame's messages link the next one.
   companions().eraseBefore(timeOf(message));
+  fused_path_.reset();
   visual_.eraseBefore(timeOf(message));
 }
 

@@ -32,12 +32,13 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   /// Vision's homography is waited for as well where the fused ones say nothing about the frame.
   bool isWaiting(CameraTime frame) override;
   /// `fused`: of this frame, or nullptr.
-  FrameInput inputFor(const image_t& message, const fused_homography_t* fused) const;
+  FrameInput inputFor(const image_t& message, const fused_homography_t* fused);
   /// While the fusion is not running or has no estimate yet after a restart, vision's own homography
   /// preserves background and identities. False if there is none.
   bool addVisual(FrameInput& input) const;
-  /// The homography from the last processed frame, by the fused homographies alone.
-  std::optional<Eigen::Matrix3d> fusedPathTo(CameraTime frame) const;
+  /// The homography from the last processed frame, by the fused homographies alone: asked for again and again
+  /// while a frame waits, computed once for what has arrived.
+  std::optional<Eigen::Matrix3d> fusedPathTo(CameraTime frame);
   /// Leaves the images empty if the message cannot be decoded to the camera's size.
   void decodeInto(FrameInput& input, const image_t& message);
   void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output);
@@ -50,7 +51,12 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   RectifiedCamera camera_;
   ForegroundPublisher foreground_;
   MessageSynchronizer<visual_homography_t> visual_;
-  std::optional<CameraTime> last_;  ///< the last processed frame
+  struct FusedPath {
+    CameraTime to;
+    std::optional<Eigen::Matrix3d> H;
+  };
+  std::optional<FusedPath> fused_path_;  ///< until another fused homography arrives
+  std::optional<CameraTime> last_;       ///< the last processed frame
   TrackIdStore identities_;
 };
 

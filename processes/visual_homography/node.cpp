@@ -17,12 +17,9 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
       estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual, rectifier_.unknown())) {
   on<inertial_homography_t>(configuration_.channels.inertial_homography,
                             [this](const inertial_homography_t& m) {
-                              const bool plausible = plausibleTimes(m) && isFinite(m.ground);
-                              if (!plausible) return false;
                               companions().put(timeOf(m), m, now());
                               const auto restored = restoredInertial(m);
                               if (restored) companions().putRestored(timeOf(*restored), *restored);
-                              return true;
                             });
 }
 
@@ -89,13 +86,8 @@ void VisualHomographyNode::publishResult(const VisualHomography& result) {
   }
   message.earlier = earlier_;
   publish(configuration_.channels.visual_homography, message);
-  earlier_.valid = result.ground && result.status == VisualStatus::kGood ? 1 : 0;
-  earlier_.utime = toUtime(result.time);
-  earlier_.utime_previous = message.utime_previous;
-  earlier_.ground = message.ground;
-  earlier_.inliers = message.inliers;
-  earlier_.outliers = message.outliers;
   const bool good = result.status == VisualStatus::kGood;
+  earlier_ = stepOf(message, result.time, result.ground && good);
   health().setState(good ? HealthState::kGood : HealthState::kDegraded, good ? "" : toString(result.status));
 }
 

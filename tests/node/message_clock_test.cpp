@@ -14,6 +14,7 @@ ImuTime sensor(Duration after_frame) { return toImu(kFrame, after_frame); }
 TEST(MessageClock, GoesWithFramesAndSensors) {
   MessageClock clock;
   EXPECT_EQ(clock.now(), CameraTime());
+  clock.noteOther(sensor(0ms));
   clock.noteFrame(kFrame);
   clock.noteOther(sensor(100ms));
   clock.noteOther(sensor(90ms));
@@ -22,15 +23,26 @@ TEST(MessageClock, GoesWithFramesAndSensors) {
   EXPECT_EQ(clock.now(), kFrame + 200ms);
 }
 
-TEST(MessageClock, IgnoresATimeThatIsFarOff) {
+TEST(MessageClock, TheDifferenceOfTheClocksIsNoTime) {
+  for (const Duration difference : {Duration(-1h), Duration(-500ms), Duration(500ms), Duration(1h)}) {
+    MessageClock clock;
+    clock.noteOther(sensor(difference));
+    clock.noteFrame(kFrame);
+    clock.noteOther(sensor(difference + 10ms));
+    EXPECT_EQ(clock.now(), kFrame + 10ms);
+  }
+}
+
+TEST(MessageClock, AJumpOfASensorsTimeIsNoTime) {
   MessageClock clock;
+  clock.noteOther(sensor(0ms));
   clock.noteFrame(kFrame);
-  for (const ImuTime stray : {ImuTime::max(), ImuTime::min(), sensor(1h), sensor(-1h)}) {
+  for (const ImuTime stray : {ImuTime::max(), ImuTime::min(), sensor(1h), sensor(-1h), sensor(500ms)}) {
     clock.noteOther(stray);
     EXPECT_EQ(clock.now(), kFrame);
   }
-  clock.noteOther(sensor(1us));
-  EXPECT_EQ(clock.now(), kFrame + 1us);
+  clock.noteOther(sensor(501ms));
+  EXPECT_EQ(clock.now(), kFrame + 1ms);
 }
 
 TEST(MessageClock, RestartsWhereTimeIsSetBack) {

@@ -184,6 +184,8 @@ TEST(RestartedFusion, ItsAnchorIsNotTakenForTheOldOne) {
     fused.source = static_cast<int8_t>(FusionSource::kVisual);
     fused.epoch = 1;
     fused.utime_anchor = utime_anchor;
+    fused.width = walk().configuration.camera.width;
+    fused.height = walk().configuration.camera.height;
     fill(fused.step.H, walk().homographies[static_cast<size_t>(k)]);
     fill(fused.anchor.H, walk().homographies[static_cast<size_t>(k)]);
     bus->publish("FUSED_HOMOGRAPHY", fused);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "redbee/altimeter_t.hpp"
-#include "redbee/bus/codec.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
@@ -15,16 +14,12 @@
 #include "redbee/image_t.hpp"
 #include "redbee/imaging/rectifier.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/node/message_check.hpp"
 #include "redbee/visual/homography_estimation.hpp"
 #include "redbee/visual/point_tracker.hpp"
 
 namespace redbee {
 namespace {
-
-template <typename Message>
-bool decodes(const LogEvent& event, Message& message) {
-  return decodeMessage(event.data.data(), static_cast<int>(event.data.size()), message);
-}
 
 /// Tracks points over several frames at once if the image moves slowly, so that a facade's parallax and the
 /// rotation exceed the tracking noise. Frames in between only propagate the initial guess.
@@ -115,7 +110,7 @@ class LogIntake {
  private:
   void onImu(const LogEvent& event) {
     ins_t message;
-    if (!decodes(event, message)) return noteDamaged();
+    if (!decodePlausible(event.data, message)) return noteDamaged();
     input_.imu.push_back({ImuTime(fromUtime(message.utime)),
                           {message.gyro[0], message.gyro[1], message.gyro[2]},
                           {message.accel[0], message.accel[1], message.accel[2]}});
@@ -123,13 +118,13 @@ class LogIntake {
 
   void takeAltitude(const LogEvent& event) {
     altimeter_t message;
-    if (!decodes(event, message)) return noteDamaged();
+    if (!decodePlausible(event.data, message)) return noteDamaged();
     input_.altimeter.push_back({ImuTime(fromUtime(message.utime)), message.height, message.sigma});
   }
 
   void takeImage(const LogEvent& event) {
     image_t message;
-    if (!decodes(event, message)) return noteDamaged();
+    if (!decodePlausible(event.data, message)) return noteDamaged();
     const auto grey = decodeGrey(message);
     if (!grey) return noteDamaged();
     if (grey->cols != configuration_.camera.width || grey->rows != configuration_.camera.height) {

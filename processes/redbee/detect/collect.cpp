@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "processes/redbee/detect/collector.hpp"
+#include "redbee/files/input_error.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/node/work_timer.hpp"
 
@@ -19,6 +20,10 @@ int64_t runCollect(const CollectOptions& options) {
   const WorkTimer timer;
   while (!stop) bus->handle(std::chrono::milliseconds(50));
   while (bus->handle(std::chrono::milliseconds(50)) > 0) {
+  }
+  if (collector.frames() == 0) {
+    throw InputError("no frame has arrived on " + configuration.channels.foreground + " (" + options.url +
+                     ")");
   }
   collector.writeTables(timer.milliseconds() / 1000, std::nullopt);
   return collector.frames();

@@ -32,6 +32,19 @@ nlohmann::json stageJson(const process_health_t& health) {
           {"state", health.state},           {"message", health.message}};
 }
 
+/// For a program that only listens: what does not decode or is not plausible is `damaged`.
+template <typename Message>
+Subscription subscribePlausible(Bus& bus, const std::string& channel,
+                                std::function<void(const Message&)> handler,
+                                const std::function<void()>& damaged) {
+  return bus.subscribe<Message>(
+      channel, kListenerQueue,
+      [handler = std::move(handler), damaged](const Message& message) {
+        isPlausible(message) ? handler(message) : damaged();
+      },
+      damaged);
+}
+
 /// Per frame of the run [ms]; the figures of each stage are added to `stages`.
 nlohmann::json cpuJson(const ProcessUsage& usage, int64_t frames, nlohmann::json& stages) {
   const auto per_frame = [&](double milliseconds) { return milliseconds / static_cast<double>(frames); };
@@ -53,20 +66,23 @@ ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesy
     : run_(std::move(folder)) {
   run_.prepare();
   const auto damaged = [this] { ++damaged_; };
-  subscriptions_.push_back(bus.subscribe<foreground_t>(
-      channels.foreground, kListenerQueue, [this](const foreground_t& m) { onForeground(m); }, damaged));
-  subscriptions_.push_back(bus.subscribe<detections_t>(
-      channels.detections, kListenerQueue, [this](const detections_t& m) { detections_[m.utime] = m; },
-      damaged));
-  subscriptions_.push_back(bus.subscribe<fused_homography_t>(
-      channels.fused_homography, kListenerQueue, [this](const fused_homography_t& m) { onFused(m); },
-      damaged));
-  subscriptions_.push_back(bus.subscribe<process_health_t>(
-      channels.health, kListenerQueue,
+  subscriptions_.push_back(subscribePlausible<foreground_t>(
+      bus, channels.foreground, [this](const foreground_t& m) { onForeground(m); }, damaged));
+  subscriptions_.push_back(subscribePlausible<detections_t>(
+      bus, channels.detections, [this](const detections_t& m) { detections_[m.utime] = m; }, damaged));
+  subscriptions_.push_back(subscribePlausible<fused_homography_t>(
+      bus, channels.fused_homography, [this](const fused_homography_t& m) { onFused(m); }, damaged));
+  subscriptions_.push_back(subscribePlausible<process_health_t>(
+      bus, channels.health,
       [this](const process_health_t& m) {
-        if (isKnownProcess(m.process) && isPlausible(m)) health_[m.process] = m;
+        if (isKnownProcess(m.process)) health_[m.process] = m;
       },
       damaged));
+}
+
+int64_t ResultCollector::framesWithImage() const {
+  return std::count_if(status_.begin(), status_.end(),
+                       [](const auto& frame) { return frame.second != foreground_t::BAD_IMAGE; });
 }
 
 void ResultCollector::onForeground(const foreground_t& message) {

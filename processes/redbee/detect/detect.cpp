@@ -8,6 +8,7 @@
 #include "processes/redbee/detect/collector.hpp"
 #include "processes/redbee/detect/process_usage.hpp"
 #include "redbee/configuration/configuration_value.hpp"
+#include "redbee/configuration/process_table.hpp"
 #include "redbee/detection/detector.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
@@ -60,6 +61,14 @@ bool isInput(const Channels& channels, const std::string& channel) {
   return channel == channels.camera || channel == channels.imu || channel == channels.altimeter;
 }
 
+/// What the segmentation says of images that all were of no use, such as another camera's.
+std::string reasonOfNoFrame(const ResultCollector& collector, int64_t images) {
+  const std::string text = "none of " + std::to_string(images) + " images can be used";
+  const auto health = collector.health().find(programName(kMotionSegmentation));
+  const bool is_said = health != collector.health().end() && !health->second.message.empty();
+  return is_said ? text + ": " + health->second.message : text;
+}
+
 }  // namespace
 
 InProcessStack makeStack(Bus& bus, const Configuration& configuration) {
@@ -105,6 +114,7 @@ int64_t runDetect(const DetectOptions& options) {
   stack.publishHealth();
   progress.finish();
   if (!log.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", log.damageReport().c_str());
+  if (collector.framesWithImage() == 0) throw InputError(options.log, reasonOfNoFrame(collector, images));
   ProcessUsage usage = processUsage();
   usage.stages = stack.cpu();
   collector.writeTables(wall_s, usage);

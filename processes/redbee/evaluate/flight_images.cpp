@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "redbee/bus/codec.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
+#include "redbee/node/message_check.hpp"
 
 namespace redbee {
 
@@ -13,10 +13,7 @@ void forEachImage(const std::filesystem::path& log_file, const std::string& chan
   LogReader log(log_file);
   while (const auto event = log.next()) {
     image_t message;
-    if (event->channel == channel &&
-        decodeMessage(event->data.data(), static_cast<int>(event->data.size()), message)) {
-      take(message);
-    }
+    if (event->channel == channel && decodePlausible(event->data, message)) take(message);
   }
 }
 

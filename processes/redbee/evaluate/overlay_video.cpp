@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "redbee/bus/codec.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/files/progress.hpp"
+#include "redbee/node/message_check.hpp"
 #include "redbee/results/overlay.hpp"
 #include "redbee/results/png_file.hpp"
 #include "redbee/results/run_folder.hpp"
@@ -38,7 +38,7 @@ void forEachOverlay(const std::filesystem::path& log_file, const std::filesystem
     if (event->channel != configuration.channels.camera) continue;
     progress.update(log.position() >> 20, log.size() >> 20);
     image_t message;
-    if (!decodeMessage(event->data.data(), static_cast<int>(event->data.size()), message)) continue;
+    if (!decodePlausible(event->data, message)) continue;
     const auto image = decodeColour(message);
     if (!image || !run.has(RunMap::kMask, message.utime)) continue;
     const cv::Mat1b mask = run.readOrZeros(RunMap::kMask, message.utime, image->size());

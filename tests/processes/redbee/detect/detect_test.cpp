@@ -16,6 +16,8 @@
 #include "processes/redbee/evaluate/report.hpp"
 #include "processes/redbee/evaluate/simulate_flight.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
+#include "redbee/image_t.hpp"
 
 namespace redbee {
 namespace {
@@ -173,6 +175,46 @@ TEST_F(Commands, ALogWithoutImagesIsRefused) {
   std::ofstream(options.log) << "";
   options.out = folder_ / "none";
   EXPECT_THROW(runDetect(options), InputError);
+}
+
+/// What the error of a run says; empty without one.
+std::string refusalOf(const DetectOptions& options) {
+  try {
+    runDetect(options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(Commands, ALogOfAnotherCameraIsRefused) {
+  DetectOptions options = options_;
+  options.out = folder_ / "another";
+  options.settings = {"camera.width=320", "camera.height=240"};
+  EXPECT_EQ(
+      refusalOf(options),
+      options.log.string() +
+          ": none of 24 images can be used: CAMERA: an image of 640x480 is ignored, configured are 320x240");
+}
+
+TEST_F(Commands, ALogOfBrokenImagesIsRefused) {
+  DetectOptions options = options_;
+  options.log = folder_ / "broken.lcm";
+  LogWriter log(options.log);
+  for (int k = 0; k < 3; ++k) {
+    image_t image{};
+    image.utime = 1'000'000 + 40'000 * k;
+    image.width = 640;
+    image.height = 480;
+    image.pixelformat = image_t::GRAY;
+    image.row_stride = 640;
+    image.data = {1, 2, 3};
+    image.size = 3;
+    log.write("CAMERA", image);
+  }
+  log.close();
+  options.out = folder_ / "broken";
+  EXPECT_NE(refusalOf(options).find("none of 3 images can be used"), std::string::npos) << refusalOf(options);
 }
 
 }  // namespace

@@ -1,0 +1,102 @@
+// The camera's clock is off the IMU's, all flight long or for some seconds of it.
+#include <gtest/gtest.h>
+
+#include "tests/support/trusted_frames.hpp"
+
+namespace redbee::test {
+namespace {
+
+constexpr int kFrames = 200;
+constexpr int kOffFrom = 50;
+constexpr int kOffUntil = 110;
+
+const StackFlight& flight() {
+  static const StackFlight flight = [] {
+    StackFlight made = stackFlight(halfSize(simulation::twoPlanes(3)), kFrames);
+    made.configuration.visual.tracker.grid_px = 8;
+    return made;
+  }();
+  return flight;
+}
+
+/// The IMU's and the altimeter's clocks are set back while `is_off(utime)`, so that the camera's is ahead by
+/// `offset`; the order of arrival stays.
+StackFlight withCameraAhead(Duration offset, const std::function<bool(int64_t utime)>& is_off) {
+  StackFlight changed = flight();
+  for (SensorMessage& sent : changed.messages) {
+    if (sent.channel == "CAMERA" || !is_off(sent.utime)) continue;
+    const auto shift = [&](auto m) {
+      if (!decodeMessage(sent.data.data(), static_cast<int>(sent.data.size()), m)) {
+        throw std::logic_error("the simulated flight holds a message that does not decode");
+      }
+      m.utime -= offset.count();
+      sent = encoded(m);
+    };
+    sent.channel == "IMU" ? shift(ins_t{}) : shift(altimeter_t{});
+  }
+  return changed;
+}
+
+struct Sources {
+  int visual = 0;
+  int with_imu = 0;
+};
+Sources sourcesFrom(const StackOutput& output, int begin, int end) {
+  Sources sources;
+  for (int k = begin; k < end; ++k) {
+    const auto fused = output.fused.find(flight().frame_utimes[static_cast<size_t>(k)]);
+    if (fused == output.fused.end()) continue;
+    sources.visual += fused->second.source == fused_homography_t::VISUAL ? 1 : 0;
+    const bool with_imu = fused->second.source == fused_homography_t::FUSED ||
+                          fused->second.source == fused_homography_t::INERTIAL;
+    sources.with_imu += with_imu ? 1 : 0;
+  }
+  return sources;
+}
+
+class ClockOffset : public testing::TestWithParam<int> {};
+
+TEST_P(ClockOffset, LeavesTheImuOutAndIsNamed) {
+  const Duration offset = std::chrono::milliseconds(GetParam());
+  const StackOutput output = StackRun(withCameraAhead(offset, [](int64_t) { return true; })).run();
+  // The decision takes a second and more; where the drone hardly turns, longer.
+  const Sources sources = sourcesFrom(output, 72, kFrames);
+  EXPECT_GE(sources.visual, (kFrames - 72) * 95 / 100);
+  EXPECT_EQ(sources.with_imu, 0);
+  const TrustedFrames frames = trustedFrames(output, flight(), {}, 72);
+  EXPECT_GE(frames.trusted, frames.expected * 95 / 100);
+  EXPECT_EQ(frames.wild, 0);
+
+  const process_health_t& inertial = output.health.at("redbee-imu-integration");
+  EXPECT_EQ(inertial.state, process_health_t::DEGRADED);
+  char expected[80];
+  std::snprintf(expected, sizeof expected, "IMU and camera disagree: the camera's clock is about %.1f",
+                std::abs(GetParam()) / 1000.0);
+  EXPECT_EQ(inertial.message.substr(0, std::strlen(expected)), expected) << inertial.message;
+  EXPECT_NE(inertial.message.find(GetParam() > 0 ? "ahead" : "behind"), std::string::npos);
+  EXPECT_NE(output.health.at("redbee-homography-fusion").calibration, "fits");
+}
+
+INSTANTIATE_TEST_SUITE_P(Milliseconds, ClockOffset, testing::Values(100, -100, 200, -500, 500));
+
+TEST(ClockOffsetInFlight, TheImuIsUsedAgainOnceTheClocksAgree) {
+  const int64_t from = flight().frame_utimes[kOffFrom];
+  const int64_t until = flight().frame_utimes[kOffUntil];
+  const StackOutput output = StackRun(withCameraAhead(std::chrono::milliseconds(100), [&](int64_t utime) {
+                               return utime >= from && utime < until;
+                             })).run();
+  EXPECT_EQ(sourcesFrom(output, 1, kOffFrom).with_imu, kOffFrom - 1);
+  EXPECT_EQ(sourcesFrom(output, kOffFrom + 36, kOffUntil).with_imu, 0);
+  EXPECT_EQ(sourcesFrom(output, kFrames - 12, kFrames).with_imu, 12);
+  const TrustedFrames frames = trustedFrames(output, flight(), {}, kOffFrom + 36);
+  EXPECT_EQ(frames.wild, 0);
+  EXPECT_EQ(output.health.at("redbee-imu-integration").state, process_health_t::GOOD);
+}
+
+TEST(ClockOffsetInFlight, WithoutOneTheImuIsUsed) {
+  const StackOutput output = StackRun(flight()).run();
+  EXPECT_EQ(sourcesFrom(output, 1, kFrames).with_imu, kFrames - 1);
+}
+
+}  // namespace
+}  // namespace redbee::test
