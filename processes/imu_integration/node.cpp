@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <utility>
 
 #include "processes/conversions.hpp"
@@ -16,6 +17,7 @@ constexpr size_t kMaxPendingFrames = 256;
 /// vision contradicts should not be restored, and a process that crashes immediately must not overwrite the
 /// last good snapshot.
 constexpr int kAgreedFrames = 12;
+constexpr double kClearOffset_s = 0.1;  // more than two frames' distance
 
 }  // namespace
 
@@ -68,7 +70,9 @@ void ImuIntegrationNode::noteClockOffset(CameraTime frame) {
 std::string ImuIntegrationNode::reasonOf(InertialStatus status) const {
   const std::string& disagreement = filter_.agreement().message();
   if (!disagreement.empty()) return disagreement;
-  if (status != InertialStatus::kNoImu || !clock_offset_s_) return toString(status);
+  // A smaller one is that of an IMU that has just fallen silent.
+  const bool is_clock = clock_offset_s_ && std::abs(*clock_offset_s_) > kClearOffset_s;
+  if (status != InertialStatus::kNoImu || !is_clock) return toString(status);
   return disagreementOf(*clock_offset_s_);
 }
 

@@ -6,97 +6,12 @@
 
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <random>
 
-#include "tests/support/fault_trial.hpp"
+#include "tests/support/true_messages.hpp"
 
 namespace redbee::test {
 namespace {
-
-/// One true message of each type that is sent, with as many members valid as possible.
-struct TrueMessages {
-  StackOutput output;
-  std::optional<filter_snapshot_t> snapshot;
-
-  template <typename Message>
-  Message get() const;
-};
-
-const TrueMessages& trueMessages() {
-  static const TrueMessages* const messages = [] {
-    auto* made = new TrueMessages;
-    const auto bus = makeLcmBus("memq://");
-    const Subscription subscription = bus->subscribe<filter_snapshot_t>(
-        "FILTER_SNAPSHOT", 64, [&](const filter_snapshot_t& m) { made->snapshot = m; });
-    made->output = StackRun(undisturbedFlight(), *bus).run();
-    return made;
-  }();
-  return *messages;
-}
-
-template <typename Message>
-Message firstOn(const std::string& channel) {
-  for (const SensorMessage& sent : undisturbedFlight().messages) {
-    Message message;
-    if (sent.channel == channel &&
-        decodeMessage(sent.data.data(), static_cast<int>(sent.data.size()), message)) {
-      return message;
-    }
-  }
-  throw std::logic_error("the simulated flight has no message on " + channel);
-}
-template <typename Messages>
-auto lastOf(const Messages& messages) {
-  return messages.rbegin()->second;
-}
-
-template <>
-image_t TrueMessages::get() const {
-  return firstOn<image_t>("CAMERA");
-}
-template <>
-ins_t TrueMessages::get() const {
-  return firstOn<ins_t>("IMU");
-}
-template <>
-altimeter_t TrueMessages::get() const {
-  return firstOn<altimeter_t>("ALTIMETER");
-}
-template <>
-filter_snapshot_t TrueMessages::get() const {
-  return snapshot.value();
-}
-template <>
-inertial_homography_t TrueMessages::get() const {
-  return lastOf(output.inertial);
-}
-template <>
-visual_homography_t TrueMessages::get() const {
-  return lastOf(output.visual);
-}
-template <>
-fused_homography_t TrueMessages::get() const {
-  fused_homography_t message = lastOf(output.fused);
-  message.has_front = 1;
-  std::copy(std::begin(message.step.H), std::end(message.step.H), std::begin(message.H_front));
-  return message;
-}
-template <>
-foreground_t TrueMessages::get() const {
-  return lastOf(output.foreground);
-}
-template <>
-detections_t TrueMessages::get() const {
-  for (const auto& [utime, message] : output.detections) {
-    if (message.n > 0) return message;
-  }
-  throw std::logic_error("nothing was detected");
-}
-template <>
-process_health_t TrueMessages::get() const {
-  return output.health.at("redbee-homography-fusion");
-}
 
 /// Sets the n-th number that `Kind` selects to a value.
 template <template <typename> class Kind>

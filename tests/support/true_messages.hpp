@@ -1,0 +1,97 @@
+// True messages of every type that is sent, from a simulated flight.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "redbee/filter_snapshot_t.hpp"
+#include "redbee/node/message_check.hpp"
+#include "tests/support/fault_trial.hpp"
+
+namespace redbee::test {
+
+/// One true message of each type that is sent, with as many members valid as possible.
+struct TrueMessages {
+  StackOutput output;
+  std::optional<filter_snapshot_t> snapshot;
+
+  template <typename Message>
+  Message get() const;
+};
+
+inline const TrueMessages& trueMessages() {
+  static const TrueMessages* const messages = [] {
+    auto* made = new TrueMessages;
+    const auto bus = makeLcmBus("memq://");
+    const Subscription subscription = bus->subscribe<filter_snapshot_t>(
+        "FILTER_SNAPSHOT", 64, [&](const filter_snapshot_t& m) { made->snapshot = m; });
+    made->output = StackRun(undisturbedFlight(), *bus).run();
+    return made;
+  }();
+  return *messages;
+}
+
+template <typename Message>
+Message firstOn(const std::string& channel) {
+  for (const SensorMessage& sent : undisturbedFlight().messages) {
+    Message message;
+    if (sent.channel == channel && decodePlausible(sent.data, message)) return message;
+  }
+  throw std::logic_error("the simulated flight has no message on " + channel);
+}
+template <typename Messages>
+auto lastOf(const Messages& messages) {
+  return messages.rbegin()->second;
+}
+
+template <>
+inline image_t TrueMessages::get() const {
+  return firstOn<image_t>("CAMERA");
+}
+template <>
+inline ins_t TrueMessages::get() const {
+  return firstOn<ins_t>("IMU");
+}
+template <>
+inline altimeter_t TrueMessages::get() const {
+  return firstOn<altimeter_t>("ALTIMETER");
+}
+template <>
+inline filter_snapshot_t TrueMessages::get() const {
+  return snapshot.value();
+}
+template <>
+inline inertial_homography_t TrueMessages::get() const {
+  return lastOf(output.inertial);
+}
+template <>
+inline visual_homography_t TrueMessages::get() const {
+  return lastOf(output.visual);
+}
+template <>
+inline fused_homography_t TrueMessages::get() const {
+  fused_homography_t message = lastOf(output.fused);
+  message.has_front = 1;
+  std::copy(std::begin(message.step.H), std::end(message.step.H), std::begin(message.H_front));
+  return message;
+}
+template <>
+inline foreground_t TrueMessages::get() const {
+  return lastOf(output.foreground);
+}
+template <>
+inline detections_t TrueMessages::get() const {
+  for (const auto& [utime, message] : output.detections) {
+    if (message.n > 0) return message;
+  }
+  throw std::logic_error("nothing was detected");
+}
+template <>
+inline process_health_t TrueMessages::get() const {
+  return output.health.at("redbee-homography-fusion");
+}
+
+}  // namespace redbee::test
