@@ -1,5 +1,5 @@
 // Whether a track moves over the scene, or its path is that of a static surface of unknown depth, which the
-// camera's travel explains. libs/README.md, (36).
+// camera's travel explains. libs/README.md, (38).
 #pragma once
 
 #include <Eigen/Core>
