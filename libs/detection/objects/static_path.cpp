@@ -1,6 +1,7 @@
 #include "redbee/detection/objects/static_path.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <vector>
