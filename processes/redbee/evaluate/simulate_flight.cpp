@@ -11,6 +11,7 @@
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/progress.hpp"
 #include "redbee/importers/flight_merger.hpp"
+#include "redbee/results/png_file.hpp"
 #include "redbee/simulation/scenarios.hpp"
 
 namespace redbee {
