@@ -89,6 +89,10 @@ struct ObjectParameters {
   double confirm_s = 0.15;
 };
 
+/// For a method that decides by one threshold on P_FG: objects reach as far as it does, and whatever it
+/// decides, and half of it, is evidence for a track.
+void decideAt(double threshold, ObjectParameters& parameters);
+
 /// The paper's background (III.A): a mixture of Gaussians per pixel (Zivkovic) for each plane.
 struct TwoPlaneParameters {
   int mixture_history = 500;        ///< frames; inverse of the learning rate

@@ -1,6 +1,7 @@
 #include "redbee/geometry/small_decompositions.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -24,6 +25,11 @@ Matrix8d LdltFactors::inverse() const { return factors_.solve(Matrix8d::Identity
 
 double squaredMahalanobis(const Eigen::Vector2d& d, const Eigen::Matrix2d& S) {
   return d.dot(S.llt().solve(d));
+}
+
+double squaredMahalanobis(const Eigen::Vector3d& d, const Eigen::Matrix3d& S) {
+  const Eigen::Matrix3d inverse = S.inverse();
+  return d.dot(inverse * d);
 }
 
 // What the solver's compute() does, without the reduction to tridiagonal form: a 2x2 matrix has it.

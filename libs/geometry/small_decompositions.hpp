@@ -28,6 +28,7 @@ class LdltFactors {
 
 /// d' S^-1 d, for S positive definite.
 double squaredMahalanobis(const Eigen::Vector2d& d, const Eigen::Matrix2d& S);
+double squaredMahalanobis(const Eigen::Vector3d& d, const Eigen::Matrix3d& S);
 
 /// Of a symmetric matrix.
 double smallestEigenvalue(const Eigen::Matrix2d& M);

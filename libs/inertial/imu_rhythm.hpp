@@ -1,13 +1,11 @@
 // Tells a second IMU's samples by the rhythm of the first.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <optional>
-#include <vector>
 
+#include "redbee/geometry/gap_window.hpp"
 #include "redbee/geometry/time.hpp"
 
 namespace redbee {
@@ -30,7 +28,7 @@ class ImuRhythm {
       missed_in_a_row_ = missed ? missed_in_a_row_ + 1 : 0;
       was_passed_ = false;
       if (missed_in_a_row_ < kMissedInARow) {
-        const bool is_beat = time > *last_ && deviation(time - *last_, *period) <= kRegular;
+        const bool is_beat = time > *last_ && deviationOf(time - *last_, *period) <= kRegular;
         if (is_beat) note(time);
         return true;
       }
@@ -54,31 +52,21 @@ class ImuRhythm {
     missed_in_a_row_ = 0;
   }
   void note(ImuTime time) {
-    if (last_ && time > *last_) gaps_.push_back(time - *last_);
-    if (gaps_.size() > kGaps) gaps_.pop_front();
+    if (last_ && time > *last_) gaps_.note(time - *last_);
     last_ = time;
   }
   /// Median of the latest gaps, if all are close to a multiple of it.
   std::optional<Duration> regularPeriod() const {
-    if (gaps_.size() < kGaps) return std::nullopt;
-    std::vector<Duration> sorted(gaps_.begin(), gaps_.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const Duration period = *middle;
-    const bool is_regular = std::all_of(gaps_.begin(), gaps_.end(), [&](Duration gap) {
-      return std::round(beats(gap, period)) >= 1 && deviation(gap, period) <= kRegular;
+    if (!gaps_.isFull()) return std::nullopt;
+    const Duration period = gaps_.median();
+    const bool is_regular = gaps_.allOf([&](Duration gap) {
+      return std::round(beatsOf(gap, period)) >= 1 && deviationOf(gap, period) <= kRegular;
     });
     return is_regular ? std::optional<Duration>(period) : std::nullopt;
   }
-  static double beats(Duration gap, Duration period) {
-    return static_cast<double>(gap.count()) / static_cast<double>(period.count());
-  }
-  static double deviation(Duration gap, Duration period) {
-    return std::abs(beats(gap, period) - std::round(beats(gap, period)));
-  }
   /// A second sample on one beat is between, too.
   static bool isBetweenBeats(Duration gap, Duration period) {
-    return deviation(gap, period) > kBroken || (gap > Duration(0) && beats(gap, period) < 0.5);
+    return deviationOf(gap, period) > kBroken || (gap > Duration(0) && beatsOf(gap, period) < 0.5);
   }
   /// As doubles, so that differences cannot overflow.
   static double beatsBetween(ImuTime a, ImuTime b, Duration period) {
@@ -86,7 +74,7 @@ class ImuRhythm {
            static_cast<double>(period.count());
   }
 
-  std::deque<Duration> gaps_;
+  GapWindow gaps_{kGaps};
   std::optional<ImuTime> last_;
   bool was_passed_ = false;  ///< a sample between the beats has come since the last one
   int missed_in_a_row_ = 0;

@@ -1,11 +1,11 @@
 #include "redbee/inertial/vision_agreement.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "redbee/geometry/chi_square.hpp"
+#include "redbee/geometry/small_decompositions.hpp"
 #include "redbee/geometry/so3.hpp"
 
 namespace redbee {
@@ -21,11 +21,6 @@ constexpr double kMinOverlap_s = 1;
 /// An offset explains the rotations if it leaves less of their difference's variance.
 constexpr double kUnexplained = 0.2;
 constexpr double kDescribe_s = 1;
-
-double squaredNormalized(const Eigen::Vector3d& d, const Eigen::Matrix3d& covariance) {
-  const Eigen::Matrix3d inverse = covariance.inverse();
-  return d.dot(inverse * d);
-}
 
 }  // namespace
 
@@ -56,8 +51,8 @@ void VisionAgreement::note(const ComparedRotation& pair) {
       pair.difference.covariance + mounting * by_mounting * by_mounting.transpose();
   const Eigen::Matrix3d covariance = in_time + timeshift * by_offset * by_offset.transpose();
 
-  const double squared = squaredNormalized(pair.difference.difference, covariance);
-  const double offset_squared = squaredNormalized(parameters_.visible_offset_s * by_offset, in_time);
+  const double squared = squaredMahalanobis(pair.difference.difference, covariance);
+  const double offset_squared = squaredMahalanobis(parameters_.visible_offset_s * by_offset, in_time);
   last_ = pair.time;
   if (!std::isfinite(squared) || !std::isfinite(offset_squared)) return;
   keep({seconds(pair.time - *first_) - duration / 2, duration, rate,

@@ -1,13 +1,11 @@
 // The rhythm of a camera: the period of its frames, and whether a frame keeps it.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <optional>
-#include <vector>
 
+#include "redbee/geometry/gap_window.hpp"
 #include "redbee/geometry/time.hpp"
 
 namespace redbee {
@@ -15,19 +13,13 @@ namespace redbee {
 class FrameRhythm {
  public:
   /// Distance of two frames that followed each other.
-  void note(Duration gap) {
-    gaps_.push_back(gap);
-    if (gaps_.size() > kGaps) gaps_.pop_front();
-  }
+  void note(Duration gap) { gaps_.note(gap); }
   void clear() { gaps_.clear(); }
 
   /// Median distance of the latest frames; std::nullopt before the sixth.
   std::optional<Duration> period() const {
     if (gaps_.size() < kFewest) return std::nullopt;
-    std::vector<Duration> sorted(gaps_.begin(), gaps_.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
+    return gaps_.median();
   }
   /// Whether two distances are as close as those of a regular camera of this period.
   static bool isSameBeat(Duration a, Duration b, Duration period) {
@@ -37,11 +29,10 @@ class FrameRhythm {
   /// then of another source, or the rhythm has changed. Lost frames break none.
   bool isBrokenBy(Duration distance) const {
     const auto period = this->period();
-    if (!period || gaps_.size() < kGaps) return false;
-    const bool is_regular = std::all_of(gaps_.begin(), gaps_.end(),
-                                        [&](Duration gap) { return deviation(gap, *period) <= kRegular; });
+    if (!period || !gaps_.isFull()) return false;
+    const bool is_regular = gaps_.allOf([&](Duration gap) { return deviationOf(gap, *period) <= kRegular; });
     const bool is_between_beats = 2 * std::abs(distance.count()) < period->count();
-    return is_regular && (is_between_beats || deviation(distance, *period) > kBroken);
+    return is_regular && (is_between_beats || deviationOf(distance, *period) > kBroken);
   }
 
  private:
@@ -50,13 +41,7 @@ class FrameRhythm {
   static constexpr double kRegular = 0.02;  ///< periods; drivers that stamp exposures deviate by less
   static constexpr double kBroken = 0.1;    ///< periods
 
-  /// From a multiple of the period [periods].
-  static double deviation(Duration gap, Duration period) {
-    const double beats = static_cast<double>(gap.count()) / static_cast<double>(period.count());
-    return std::abs(beats - std::round(beats));
-  }
-
-  std::deque<Duration> gaps_;
+  GapWindow gaps_{kGaps};
 };
 
 }  // namespace redbee

@@ -11,7 +11,6 @@ constexpr double kSettled_s = 0.5;  // age from which it counts that a track sta
 constexpr double kLeftPlace = 2;
 constexpr double kStayedLogOdds = -1;  // at worst
 constexpr double kFreedomLogOdds = 1;  // expected where nothing moves: the velocity has one freedom more
-const double kMostLogOdds = std::log(kSurest / (1 - kSurest));
 
 }  // namespace
 
@@ -33,7 +32,7 @@ double stayedLogOdds(double age_s, double farthest) {
 }
 
 double movingLogOdds(double age_s, double log_likelihood_ratio) {
-  const double odds = std::min(log_likelihood_ratio - kFreedomLogOdds, kMostLogOdds);
+  const double odds = std::min(log_likelihood_ratio - kFreedomLogOdds, logOdds(kSurest));
   return std::max(odds, age_s < kSettled_s ? 0 : kStayedLogOdds);
 }
 

@@ -145,17 +145,17 @@ void ObjectTracker::assignAll(const ForegroundComponents& found) {
 
 void ObjectTracker::begin(size_t component, const ForegroundComponents& found) {
   const Component& first = found.components[component];
-  Track track{BoxFilter(measurementOf(first, found.image)), first};
+  const BoxMeasurement measured = measurementOf(first, found.image);
+  Track track{BoxFilter(measured), first};
   track.origin = track.filter.centre();
-  notePlace(track, found.image);
+  notePlace(track, measured);
   track.components.push_back(component);
   tracks_.push_back(track);
 }
 
-void ObjectTracker::notePlace(Track& track, cv::Size image) const {
-  const BoxMeasurement measured = measurementOf(track.last, image);
+void ObjectTracker::notePlace(Track& track, const BoxMeasurement& measured) const {
   track.path.push_back({camera_.current(), measured.centre(), measured.centreVariance()});
-  while (!camera_.project(track.path.front().frame, track.path.front().centre_px)) track.path.pop_front();
+  while (!camera_.remembers(track.path.front().frame)) track.path.pop_front();
 }
 
 double ObjectTracker::motionLogOdds(const Track& track) const {
@@ -166,8 +166,9 @@ double ObjectTracker::motionLogOdds(const Track& track) const {
 
 void ObjectTracker::observe(Track& track, const ForegroundComponents& found) const {
   track.last = joined(found.components, track.components);
-  track.filter.update(measurementOf(track.last, found.image));
-  notePlace(track, found.image);
+  const BoxMeasurement measured = measurementOf(track.last, found.image);
+  track.filter.update(measured);
+  notePlace(track, measured);
   const double moved_px = (track.filter.centre() - track.origin).norm();
   track.farthest = std::max(track.farthest, moved_px / track.filter.size());
   track.evidence_s +=

@@ -73,7 +73,7 @@ class ObjectTracker {
   std::vector<size_t> unassigned(Strength strength, const std::vector<Component>& components) const;
   void begin(size_t component, const ForegroundComponents& found);
   void observe(Track& track, const ForegroundComponents& found) const;
-  void notePlace(Track& track, cv::Size image) const;
+  void notePlace(Track& track, const BoxMeasurement& measured) const;
   double motionLogOdds(const Track& track) const;
   void miss(Track& track) const;
   void deleteLostTracks(cv::Size image);

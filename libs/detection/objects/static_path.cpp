@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <vector>
 
@@ -91,27 +90,30 @@ void CameraPath::propagate(double elapsed_s, const std::optional<Eigen::Matrix3d
     frames_.clear();
     return;
   }
+  const Eigen::Matrix3d& K = step->K;
+  const auto frameOf = [&](double age_s, const Eigen::Matrix3d& H, const PlaneMotion& motion) {
+    const Eigen::Vector3d epipole = K * motion.t_ba / (nearest_depth_fraction_ * motion.h_a);
+    return Frame{age_s, SceneMotion(H, motion, K), motion, epipole};
+  };
   for (Frame& frame : frames_) {
-    frame.age_s += elapsed_s;
-    frame.ground = normaliseHomography(*ground * frame.ground);
-    frame.motion = compose(step->motion, frame.motion);
+    frame = frameOf(frame.age_s + elapsed_s, normaliseHomography(*ground * frame.scene.ground),
+                    compose(step->motion, frame.motion));
   }
-  frames_.push_back({elapsed_s, *ground, step->motion});
-  K_ = step->K;
+  frames_.push_back(frameOf(elapsed_s, *ground, step->motion));
   while (frames_.front().age_s > kSpan_s) frames_.pop_front();
 }
 
-std::optional<CameraPath::Sighting> CameraPath::project(int64_t frame, const Eigen::Vector2d& pixel) const {
-  if (frame == current_) return Sighting{0, pixel, Eigen::Vector2d::Zero()};
-  const int64_t index = frame - (current_ - static_cast<int64_t>(frames_.size()));
-  if (index < 0 || frame > current_) return std::nullopt;
-  const Frame& from = frames_[static_cast<size_t>(index)];
-  const bool shows_ground = from.motion.m_a.dot(K_.inverse() * pixel.homogeneous()) > 0;
+bool CameraPath::remembers(int64_t frame) const { return oldest() <= frame && frame <= current_; }
+
+CameraPath::Sighting CameraPath::project(int64_t frame, const Eigen::Vector2d& pixel) const {
+  if (frame == current_) return {0, pixel, Eigen::Vector2d::Zero()};
+  const Frame& from = frames_[static_cast<size_t>(frame - oldest())];
+  const Eigen::Vector3d far = from.scene.far * pixel.homogeneous();
+  const bool shows_ground = from.scene.horizon.dot(far) > 0;
   Sighting seen;
   seen.age_s = from.age_s;
-  seen.base = transfer(shows_ground ? from.ground : K_ * from.motion.R_ba * K_.inverse(), pixel);
-  const Eigen::Vector3d e = K_ * from.motion.t_ba / (nearest_depth_fraction_ * from.motion.h_a);
-  seen.parallax = e.head<2>() - e.z() * seen.base;
+  seen.base = shows_ground ? transfer(from.scene.ground, pixel) : Eigen::Vector2d(far.hnormalized());
+  seen.parallax = from.epipole.head<2>() - from.epipole.z() * seen.base;
   return seen;
 }
 
@@ -119,10 +121,10 @@ std::optional<double> movingLogLikelihood(const std::deque<PathPoint>& points, c
                                           double direction_error) {
   std::vector<Observation> observations;
   for (const PathPoint& point : points) {
-    auto seen = camera.project(point.frame, point.centre_px);
-    if (!seen) continue;
-    seen->base -= points.back().centre_px;  // small numbers
-    observations.push_back({*seen, point.variance_px2.cwiseInverse()});
+    if (!camera.remembers(point.frame)) continue;
+    CameraPath::Sighting seen = camera.project(point.frame, point.centre_px);
+    seen.base -= points.back().centre_px;  // small numbers
+    observations.push_back({seen, point.variance_px2.cwiseInverse()});
   }
   if (observations.size() < kFewestPoints) return std::nullopt;
   const double span_s = observations.front().seen.age_s - observations.back().seen.age_s;

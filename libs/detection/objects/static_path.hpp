@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/imaging/warping.hpp"
 
 namespace redbee {
 
@@ -38,20 +39,24 @@ class CameraPath {
     Eigen::Vector2d base;
     Eigen::Vector2d parallax;
   };
-  /// std::nullopt if that frame is forgotten.
-  std::optional<Sighting> project(int64_t frame, const Eigen::Vector2d& pixel) const;
+  /// Whether project() knows this frame.
+  bool remembers(int64_t frame) const;
+  /// Precondition: remembers().
+  Sighting project(int64_t frame, const Eigen::Vector2d& pixel) const;
 
  private:
   struct Frame {
     double age_s;
-    Eigen::Matrix3d ground;  ///< homography, from it to the current frame [px]
-    PlaneMotion motion;      ///< likewise
+    SceneMotion scene;  ///< from it to the current frame
+    PlaneMotion motion;
+    Eigen::Vector3d epipole;  ///< [px]: of a surface at the smallest plausible depth
   };
+
+  int64_t oldest() const { return current_ - static_cast<int64_t>(frames_.size()); }
 
   double nearest_depth_fraction_;
   int64_t current_ = 0;
   std::deque<Frame> frames_;  ///< before the current one, oldest first
-  Eigen::Matrix3d K_ = Eigen::Matrix3d::Identity();
 };
 
 /// Where a track was found in one frame.

@@ -10,10 +10,7 @@ namespace redbee {
 namespace {
 
 ObjectParameters decidedByScore(ObjectParameters objects) {
-  objects.threshold = (kDecisionScore - 0.5) / 255;
-  objects.extent_threshold = objects.threshold;
-  objects.weak_threshold = 0.5 * objects.threshold;  // whatever is decided is evidence for its track
-  objects.neutral = 0.73 * objects.threshold;        // halfway between the two in log odds
+  decideAt((kDecisionScore - 0.5) / 255, objects);
   return objects;
 }
 

@@ -119,16 +119,16 @@ TEST(StaticPath, SaysNothingOfAFewFramesOrAnUnknownMotion) {
   Flight flight;
   flight.likelihood({3, 8, 0});
   const int64_t before = flight.path().current();
-  EXPECT_TRUE(flight.path().project(before, {320, 240}));
+  EXPECT_TRUE(flight.path().remembers(before));
   flight.path().propagate(kPeriod_s, Eigen::Matrix3d::Identity(), std::nullopt);
-  EXPECT_FALSE(flight.path().project(before, {320, 240}));
-  EXPECT_FALSE(flight.path().project(before + 2, {320, 240})) << "a frame to come";
+  EXPECT_FALSE(flight.path().remembers(before));
+  EXPECT_FALSE(flight.path().remembers(before + 2)) << "a frame to come";
 }
 
 TEST(StaticPath, ForgetsWhatIsOlderThanASecondAndAHalf) {
   Flight flight;
   const int64_t first = flight.path().current();
-  while (flight.path().project(first, {320, 240})) flight.step();
+  while (flight.path().remembers(first)) flight.step();
   EXPECT_NEAR(static_cast<double>(flight.path().current() - first) * kPeriod_s, 1.5, 1.01 * kPeriod_s);
 }
 
