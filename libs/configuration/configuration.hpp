@@ -34,13 +34,13 @@ struct Channels {
 
 /// Timeouts, in message time, of each process for the companions of a frame. A process that waits for another
 /// one which waits itself needs the longer timeout; otherwise the failure of one process makes both time out.
-/// Checked against the process table when a configuration is loaded.
+/// Checked against the process table when a configuration is loaded. A process that is slower than the camera
+/// falls behind by at most as much.
 struct WaitParameters {
   double inertial_s = 0.25;      ///< s, for the fused homography of the previous frame
   double visual_s = 0.25;        ///< s, for the inertial homography
   double fusion_s = 0.3;         ///< s, for either homography
   double segmentation_s = 0.45;  ///< s, for the fused homography
-  int max_backlog = 14;          ///< frames that may queue up; beyond this the oldest are skipped
 };
 
 /// For `redbee watch`.

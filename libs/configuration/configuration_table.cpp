@@ -141,7 +141,6 @@ Settings messagingSettings() {
       setting("waits.visual_s", MEMBER(waits.visual_s), notNegative),
       setting("waits.fusion_s", MEMBER(waits.fusion_s), notNegative),
       setting("waits.segmentation_s", MEMBER(waits.segmentation_s), notNegative),
-      setting("waits.max_backlog", MEMBER(waits.max_backlog), positive),
       setting("watch.hang_timeout_s", MEMBER(watch.hang_timeout_s), hangTimeout),
       setting("overlay.period_frames", MEMBER(overlay_period_frames), notNegative),
   };

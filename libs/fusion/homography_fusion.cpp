@@ -70,6 +70,12 @@ FusedHomography HomographyFusion::step(CameraTime time, const std::optional<Iner
   return out;
 }
 
+std::optional<Eigen::Matrix3d> HomographyFusion::since(CameraTime time) const {
+  const std::optional<Estimate> steps = chain_.since(time);
+  if (!steps || !isUsable(steps->H)) return std::nullopt;
+  return units_.unscale(steps->H);
+}
+
 Estimate HomographyFusion::advance(const Sources& sources, FusedHomography& out) {
   if (sources.inertial && sources.visual) return fuse(*sources.inertial, *sources.visual, out);
   if (sources.inertial) {

@@ -28,6 +28,9 @@ class HomographyFusion {
   /// source is kNone and a new epoch begins at `time`; the same for a time that does not increase.
   FusedHomography step(CameraTime time, const std::optional<InertialInput>& inertial,
                        const std::optional<VisualInput>& visual);
+  /// The homography from the frame at `time` to the newest one, ideal pixels; std::nullopt where the chain of
+  /// steps does not reach back to it.
+  std::optional<Eigen::Matrix3d> since(CameraTime time) const;
 
  private:
   /// Prediction and measurement of the anchor homography; the covariances are those of the step.

@@ -26,6 +26,8 @@ class StepChain {
   /// `since`: from the frame at `time` to the frame that follows the newest one. Returns its part after the
   /// newest frame; std::nullopt if `time` is not in this chain.
   std::optional<Estimate> stepOf(CameraTime time, const Estimate& since) const;
+  /// From the frame at `time` to the newest one; std::nullopt if `time` is not in this chain.
+  std::optional<Estimate> since(CameraTime time) const;
 
  private:
   struct Frame {

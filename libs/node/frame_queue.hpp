@@ -66,8 +66,9 @@ class FrameQueue {
   bool isInOrder(CameraTime now) const {
     const auto period = rhythm_.period();
     if (!last_ || !period) return true;
-    const bool has_gap = 2 * (frontTime() - *last_) > 3 * *period;
-    return !has_gap || now >= *last_ + *period + kReordering;
+    const CameraTime before = knownBefore(frontTime());
+    const bool has_gap = 2 * (frontTime() - before) > 3 * *period;
+    return !has_gap || now >= before + *period + kReordering;
   }
   Content pop() {
     Content content = std::move(queue_.begin()->second);
@@ -76,14 +77,19 @@ class FrameQueue {
     return content;
   }
 
-  /// Skips frames until at most `most` are left, and returns how many: evenly, each time the one whose
+  /// Skips frames until at most `most` are left, and returns their times: evenly, each time the one whose
   /// neighbours are closest to each other; never the newest.
-  int64_t limitTo(size_t most) {
-    int64_t skipped = 0;
-    for (; queue_.size() > std::max<size_t>(most, 1); ++skipped) {
-      const auto frame = leastMissed();
-      noteTaken(frame->first);
-      queue_.erase(frame);
+  std::vector<CameraTime> limitTo(size_t most) {
+    std::vector<CameraTime> skipped;
+    while (queue_.size() > std::max<size_t>(most, 1)) skipped.push_back(skip(leastMissed()));
+    return skipped;
+  }
+  /// The same of the oldest frames, until none is older than the newest by more than `longest`; frames that
+  /// come more rarely than that are no backlog: the newest two are left.
+  std::vector<CameraTime> limitDelayTo(Duration longest) {
+    std::vector<CameraTime> skipped;
+    while (queue_.size() > 2 && queue_.rbegin()->first - frontTime() > longest) {
+      skipped.push_back(skip(queue_.begin()));
     }
     return skipped;
   }
@@ -183,8 +189,23 @@ class FrameQueue {
     held_.clear();
   }
 
+  /// The latest frame taken or skipped before `time`. Precondition: one was taken.
+  CameraTime knownBefore(CameraTime time) const {
+    CameraTime latest = *last_;
+    for (const CameraTime known : taken_) {
+      if (known < time) latest = std::max(latest, known);
+    }
+    return latest;
+  }
+  CameraTime skip(typename std::map<CameraTime, Content>::iterator frame) {
+    const CameraTime time = frame->first;
+    noteTaken(time);
+    queue_.erase(frame);
+    return time;
+  }
+
   void advanceTo(CameraTime time) {
-    if (last_) rhythm_.note(time - *last_);
+    if (last_) rhythm_.note(time - knownBefore(time));
     last_ = time;
     noteTaken(time);
   }
@@ -211,7 +232,7 @@ class FrameQueue {
   std::vector<Held> held_;
   std::optional<CameraTime> last_;  ///< the last frame taken
   std::deque<CameraTime> taken_;    ///< the latest frames taken or skipped
-  FrameRhythm rhythm_;              ///< of the frames taken
+  FrameRhythm rhythm_;              ///< of the frames taken or skipped
   int held_beats_ = 0;              ///< beats in a row between which frames were held
   int even_beats_ = 0;              ///< beats in a row that held frames divided evenly
   Discarded discarded_;

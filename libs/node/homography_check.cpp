@@ -112,7 +112,7 @@ const char* faultOf(const visual_homography_t& m) {
   const char* fault =
       firstFault({{hasFrameTimes(m), "time"},
                   {m.sequence >= 0, "sequence"},
-                  {isFrom(visual_homography_t::GOOD, m.status, visual_homography_t::REPEATED), "status"},
+                  {isFrom(visual_homography_t::GOOD, m.status, visual_homography_t::SKIPPED), "status"},
                   {hasImageSize(m), "image size"},
                   {hasPointCounts(m) && isFrom(0, m.sampled, kMaxPoints), "points"},
                   {isFrom(0, m.rms, kMaxCoordinate_px), "residual"}});
@@ -125,6 +125,7 @@ const char* faultOf(const fused_homography_t& m) {
   const char* fault = firstFault(
       {{hasFrameTimes(m), "time"},
        {isTime(m.utime_anchor) && m.utime_anchor <= m.utime, "time of the anchor"},
+       {isTime(m.utime_tracks) && m.utime_tracks <= m.utime, "time of the tracks"},
        {m.sequence >= 0, "sequence"},
        {isFrom(fused_homography_t::NONE, m.source, fused_homography_t::FUSED), "source"},
        {m.epoch >= 0, "epoch"},

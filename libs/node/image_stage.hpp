@@ -2,45 +2,66 @@
 // stage.
 #pragma once
 
-#include <algorithm>
+#include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "redbee/image_t.hpp"
 #include "redbee/node/stage.hpp"
 
 namespace redbee {
 
-/// Queues at most `max_backlog` images; beyond this some are skipped, evenly, so that a slow process does not
-/// fall behind.
+/// A stage that is slower than the camera falls behind by at most its wait for a companion, in message time,
+/// and by kMostQueued images; beyond this it skips frames, evenly.
 template <typename Companion>
 class ImageStage : public Stage {
  public:
-  /// Processes the images in order, up to the first that is not in order or whose companion is pending.
-  void process() final {
-    while (!images_.empty() && isInOrder(images_) && !isWaiting(images_.frontTime())) {
-      const Arrived<image_t> image = images_.pop();
-      workOn(timeOf(image.content), image.since, [&] { work(image.content); });
+  /// Images that may queue up: half a second of a fast camera.
+  static constexpr size_t kMostQueued = 32;
+
+  /// The images in order, up to the first that is not in order or whose companion is pending.
+  bool processNext() final {
+    noteLeftOutBeforeFront();
+    if (images_.empty()) return false;
+    if (isLeftOut(images_.frontTime())) {
+      images_.pop();
+      health().noteSkipped();
+      return true;
     }
+    if (!isInOrder(images_) || isWaiting(images_.frontTime())) {
+      waited_until_ = now();
+      return false;
+    }
+    // Frames that came while others were waited for are not old because of this stage.
+    const bool is_backlog = images_.frontTime() > waited_until_;
+    if (is_backlog && noteSkipped(images_.limitDelayTo(longest_delay_))) return true;
+    const Arrived<image_t> image = images_.pop();
+    workOn(timeOf(image.content), image.since, [&] { work(image.content); });
+    return true;
   }
 
  protected:
+  /// `expected`: whether there are companions; they are waited for until message time has advanced by
+  /// `timeout`.
   ImageStage(Bus& bus, const std::string& process, const std::string& configuration_hash,
-             const std::string& camera_channel, cv::Size camera_size, int max_backlog,
-             MessageSynchronizer<Companion> companions)
-      : Stage(bus, process, configuration_hash),
-        max_backlog_(static_cast<size_t>(std::max(1, max_backlog))),
-        companions_(std::move(companions)) {
+             const std::string& camera_channel, cv::Size camera_size, Duration timeout, bool expected)
+      : Stage(bus, process, configuration_hash), longest_delay_(timeout), companions_(timeout, expected) {
     on<image_t>(camera_channel, [this, camera_channel, camera_size](const image_t& image) {
       if (!isOfCamera(image, camera_size, camera_channel)) return;
       queueFrame(images_, camera_channel, timeOf(image), Arrived<image_t>{image, {}});
-      health().noteSkipped(images_.limitTo(max_backlog_));
+      noteSkipped(images_.limitTo(kMostQueued));
     });
   }
 
   virtual void work(const image_t& image) = 0;
   /// Whether the frame's messages are pending.
   virtual bool isWaiting(CameraTime frame) { return isPending(companions_, frame); }
+  /// Whether the frame need not be processed.
+  virtual bool isLeftOut(CameraTime) const { return false; }
+  /// Called for each frame that was skipped, in order among those processed.
+  virtual void noteLeftOut(CameraTime) {}
   /// Discards the state, and messages of frames after `newest`; called when the camera's clock was set back.
   virtual void reset(CameraTime newest) = 0;
   MessageSynchronizer<Companion>& companions() { return companions_; }
@@ -49,14 +70,31 @@ class ImageStage : public Stage {
   CameraTime now() const final { return images_.newest().value_or(CameraTime::min()); }
 
  private:
+  /// Whether there are any.
+  bool noteSkipped(const std::vector<CameraTime>& frames) {
+    health().noteSkipped(static_cast<int64_t>(frames.size()));
+    skipped_.insert(frames.begin(), frames.end());
+    return !frames.empty();
+  }
+  void noteLeftOutBeforeFront() {
+    while (!skipped_.empty() && (images_.empty() || *skipped_.begin() < images_.frontTime())) {
+      noteLeftOut(*skipped_.begin());
+      skipped_.erase(skipped_.begin());
+    }
+  }
+
   void restart(CameraTime newest) final {
     companions_.eraseAfter(newest);
+    skipped_.clear();
+    waited_until_ = CameraTime::min();
     reset(newest);
   }
 
-  size_t max_backlog_;
+  Duration longest_delay_;
   MessageSynchronizer<Companion> companions_;
   FrameQueue<Arrived<image_t>> images_;
+  std::set<CameraTime> skipped_;                 ///< of which noteLeftOut() is to be called
+  CameraTime waited_until_ = CameraTime::min();  ///< the newest frame then
 };
 
 }  // namespace redbee

@@ -23,10 +23,12 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only
 extern "C" void requestStop(int) { stop_requested = true; }
 
 /// An exception while one frame is processed must not end the flight: the node reports it and continues with
-/// the next frame. A process that is out of memory would keep failing: it ends, and supervisor restarts it.
-void guarded(Node& node, void (Node::*work)()) {
+/// the next frame. Returns whether there may be more to do. A process that is out of memory would keep
+/// failing: it ends, and supervisor restarts it.
+template <typename Work>
+bool guarded(Node& node, const Work& work) {
   try {
-    (node.*work)();
+    return work();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -34,6 +36,7 @@ void guarded(Node& node, void (Node::*work)()) {
     if (from_opencv != nullptr && from_opencv->code == cv::Error::StsNoMem) throw std::bad_alloc();
     spdlog::error("a frame could not be processed: {}", error.what());
     node.health().setState(HealthState::kDegraded, std::string("internal error: ") + error.what());
+    return true;  // the frames behind it
   }
 }
 
@@ -61,19 +64,23 @@ void runNode(Bus& bus, Node& node, const std::string& health_channel, const std:
   int64_t failures = 0;
   Heartbeat heartbeat;
   node.health().onProgress([&] { heartbeat.beat(); });
+  bool may_have_more = false;
   while (!stop) {
-    bus.handle(kPollTimeout);
+    bus.handle(may_have_more ? std::chrono::milliseconds(0) : kPollTimeout);
     heartbeat.beat();
     node.health().noteDamaged(bus.handlerFailures() - failures);
     failures = bus.handlerFailures();
-    guarded(node, &Node::process);
+    may_have_more = guarded(node, [&] { return node.processNext(); });
     const auto now = std::chrono::steady_clock::now();
     node.health().setInputSilence(silence.seconds(node.health().inputs(), now));
     const bool due = now >= next_health;
     if (node.health().consumeChange() || due) bus.publish(health_channel, node.health().nextMessage());
     if (due) next_health = now + kHealthPeriod;
   }
-  guarded(node, &Node::finish);
+  guarded(node, [&] {
+    node.finish();
+    return false;
+  });
   node.health().onProgress({});
   node.health().setState(HealthState::kStopping);
   bus.publish(health_channel, node.health().nextMessage());

@@ -10,13 +10,18 @@
 
 namespace redbee {
 
-/// A node subscribes in its constructor. Handlers only store messages; process() does the work, so that all
-/// messages of a burst are received before the first one is processed.
+/// A node subscribes in its constructor. Handlers only store messages; processNext() does the work, frame by
+/// frame, so that all messages that have arrived are received before each.
 class Node {
  public:
   virtual ~Node() = default;
-  /// Processes what is ready. Called after every batch of messages.
-  virtual void process() = 0;
+  /// Processes the next frame that is ready, or skips it; false if none is ready.
+  virtual bool processNext() = 0;
+  /// Processes all frames that are ready.
+  void process() {
+    while (processNext()) {
+    }
+  }
   /// No more messages will arrive: processes what is left without waiting for companions.
   virtual void finish() = 0;
   virtual HealthMonitor& health() = 0;
@@ -24,7 +29,7 @@ class Node {
   virtual void keepStateIn(const std::filesystem::path&) {}
 };
 
-/// The main loop of a process: until `stop` is set, dispatches messages, lets the node process them and
+/// The main loop of a process: until `stop` is set, dispatches messages, lets the node process a frame and
 /// publishes its health. An exception costs one frame; only std::bad_alloc propagates.
 void runNode(Bus& bus, Node& node, const std::string& health_channel, const std::atomic<bool>& stop);
 

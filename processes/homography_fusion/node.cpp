@@ -62,7 +62,7 @@ void HomographyFusionNode::queue(const std::string& channel, const Message& mess
 
 void HomographyFusionNode::expect(const std::string& channel, CameraTime time) {
   queueFrame(pending_, channel, time, WorkTimer());
-  health().noteSkipped(pending_.limitTo(kMaxPending));
+  health().noteSkipped(static_cast<int64_t>(pending_.limitTo(kMaxPending).size()));
   if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
 }
 
@@ -87,13 +87,13 @@ bool HomographyFusionNode::isReadyFor(CameraTime time) {
   return !waits_for_inertial && !waits_for_visual;
 }
 
-void HomographyFusionNode::process() {
+bool HomographyFusionNode::processNext() {
   publishWarmStart();  // before the fused message of its first frame, which it waits for
-  while (!pending_.empty() && isInOrder(pending_) && isReadyFor(pending_.frontTime())) {
-    const CameraTime frame = pending_.frontTime();
-    const WorkTimer arrival = pending_.pop();
-    workOn(frame, arrival, [&] { fuse(frame); });
-  }
+  if (pending_.empty() || !isInOrder(pending_) || !isReadyFor(pending_.frontTime())) return false;
+  const CameraTime frame = pending_.frontTime();
+  const WorkTimer arrival = pending_.pop();
+  workOn(frame, arrival, [&] { fuse(frame); });
+  return true;
 }
 
 void HomographyFusionNode::fuse(CameraTime time) {
@@ -109,36 +109,47 @@ void HomographyFusionNode::fuse(CameraTime time) {
   if (inertial != nullptr) {
     calibration_.setDisagreement(inertial->status == inertial_homography_t::VISION_DISAGREES);
   }
+  const bool is_skipped = visual != nullptr && visual->status == visual_homography_t::SKIPPED;
+  if (is_skipped && !inertial_input) return leaveOut(time, *visual);
   const FusedHomography fused = fusion_.step(time, inertial_input, visual_input);
   if (fused.has_innovation && inertial_input && visual_input) {
     validateCalibration(fused, *inertial_input, *visual_input);
   }
   if (inertial != nullptr) health().setCalibration(calibration_.status());
-  const bool same_step = visual != nullptr && previousTimeOf(*visual) == fused.time_previous;
-  const PointTracks tracks = same_step ? tracksOf(visual->tracks) : PointTracks{};
-  std::optional<HomographyEstimate> front;
-  if (same_step && fused.source != FusionSource::kNone) front = front_plane_.estimate(tracks, fused.H_step);
-
   fused_homography_t message = messageOf(fused);
+  if (visual != nullptr) addTracked(message, *visual, fused);
   const bool has_motion = inertial_input && inertial->motion.distance > 0;  // a restored message has none
   if (has_motion && inertial_input->time_previous == fused.time_previous) {
     message.has_motion = 1;
     message.motion = inertial->motion;
   }
-  fill(message.tracks, tracks);
+  // Whether the fusion rejected it or not: the inertial filter has its own gate, and a diverged filter could
+  // otherwise never be corrected.
   if (fused.visual_step) {
     message.has_observation = 1;
     fill(message.observed, fused.visual_step->H, fused.visual_step->covariance);
   }
-  if (front) addFrontPlane(message, *front);
-  noteResultReady();
-  publish(configuration_.channels.fused_homography, message);
-  inertial_.eraseThrough(time);
-  visual_.eraseThrough(time);
+  publishAndForget(time, message);
   const bool good = fused.source == FusionSource::kFused ||
                     (!configuration_.has_imu && fused.source == FusionSource::kVisual);
   health().setState(good ? HealthState::kGood : HealthState::kDegraded,
                     good ? "" : std::string("homography from: ") + toString(fused.source));
+}
+
+void HomographyFusionNode::leaveOut(CameraTime time, const visual_homography_t& visual) {
+  FusedHomography none;
+  none.time_previous = previousTimeOf(visual);
+  none.time_anchor = none.time_previous;
+  none.H_step = none.H_anchor = Eigen::Matrix3d::Identity();
+  none.covariance_step = none.covariance_anchor = Matrix8d::Zero();
+  publishAndForget(time, messageOf(none));
+}
+
+void HomographyFusionNode::publishAndForget(CameraTime time, const fused_homography_t& message) {
+  noteResultReady();
+  publish(configuration_.channels.fused_homography, message);
+  inertial_.eraseThrough(time);
+  visual_.eraseThrough(time);
 }
 
 void HomographyFusionNode::validateCalibration(const FusedHomography& fused, const InertialInput& inertial,
@@ -155,6 +166,7 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
   message.utime_anchor = toUtime(fused.time_anchor);
   message.width = camera_.width;
   message.height = camera_.height;
+  message.utime_tracks = message.utime_previous;
   message.calibration = calibration_.status();
   fill(message.step, fused.H_step, fused.covariance_step);
   fill(message.anchor, fused.H_anchor, fused.covariance_anchor);
@@ -167,10 +179,21 @@ fused_homography_t HomographyFusionNode::messageOf(const FusedHomography& fused)
   return message;
 }
 
-void HomographyFusionNode::addFrontPlane(fused_homography_t& message, const HomographyEstimate& front) {
+void HomographyFusionNode::addTracked(fused_homography_t& message, const visual_homography_t& visual,
+                                      const FusedHomography& fused) {
+  const CameraTime from = previousTimeOf(visual);
+  const bool is_step = from == fused.time_previous;
+  const std::optional<Eigen::Matrix3d> ground = is_step ? fused.H_step : fusion_.since(from);
+  if (!ground) return;
+  const PointTracks tracks = tracksOf(visual.tracks);
+  message.utime_tracks = visual.utime_previous;
+  fill(message.tracks, tracks);
+  if (fused.source == FusionSource::kNone) return;
+  const std::optional<HomographyEstimate> front = front_plane_.estimate(tracks, *ground);
+  if (!front) return;
   message.has_front = 1;
-  fill(message.H_front, front.H);
-  message.front_inliers = front.inliers;
+  fill(message.H_front, front->H);
+  message.front_inliers = front->inliers;
 }
 
 }  // namespace redbee

@@ -24,7 +24,7 @@ namespace redbee {
 class HomographyFusionNode : public Stage {
  public:
   HomographyFusionNode(Bus& bus, const Configuration& configuration);
-  void process() override;
+  bool processNext() override;
 
  private:
   void onInertial(const inertial_homography_t& message);
@@ -43,9 +43,12 @@ class HomographyFusionNode : public Stage {
   /// Updates the calibration monitor with the two sources' homographies of one pair of frames.
   void validateCalibration(const FusedHomography& fused, const InertialInput& inertial,
                            const VisualInput& visual);
-  /// Adds vision's own homography, whether the fusion rejected it or not: the inertial filter has its own
-  /// gate, and a diverged filter could otherwise never be corrected.
-  static void addFrontPlane(fused_homography_t& message, const HomographyEstimate& front);
+  /// Vision has skipped the frame and no IMU bridges it: the chain of steps goes on with the next one.
+  void leaveOut(CameraTime time, const visual_homography_t& visual);
+  /// Adds vision's tracks and the front plane found in them.
+  void addTracked(fused_homography_t& message, const visual_homography_t& visual,
+                  const FusedHomography& fused);
+  void publishAndForget(CameraTime time, const fused_homography_t& message);
   /// Offers the snapshot to an inertial process at its first frame, which may have been restarted and
   /// validates the snapshot itself.
   void publishWarmStart();

@@ -45,7 +45,7 @@ void ImuIntegrationNode::onFrame(const image_t& message) {
   if (!isOfCamera(message, {camera.width, camera.height}, configuration_.channels.camera)) return;
   noteClockOffset(timeOf(message));
   queueFrame(pending_, configuration_.channels.camera, timeOf(message), WorkTimer());
-  health().noteSkipped(pending_.limitTo(kMaxPendingFrames));
+  health().noteSkipped(static_cast<int64_t>(pending_.limitTo(kMaxPendingFrames).size()));
   if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
 }
 
@@ -129,12 +129,12 @@ void ImuIntegrationNode::publishSnapshot() {
                           messageOf(*filter_.snapshot(), configuration_hash_));
 }
 
-void ImuIntegrationNode::process() {
-  while (!pending_.empty() && isInOrder(pending_) && isReadyFor(pending_.frontTime())) {
-    const CameraTime frame = pending_.frontTime();
-    const WorkTimer arrival = pending_.pop();
-    workOn(frame, arrival, [&] { integrate(frame); });
-  }
+bool ImuIntegrationNode::processNext() {
+  if (pending_.empty() || !isInOrder(pending_) || !isReadyFor(pending_.frontTime())) return false;
+  const CameraTime frame = pending_.frontTime();
+  const WorkTimer arrival = pending_.pop();
+  workOn(frame, arrival, [&] { integrate(frame); });
+  return true;
 }
 
 void ImuIntegrationNode::integrate(CameraTime frame) {

@@ -28,7 +28,7 @@ namespace redbee {
 class ImuIntegrationNode : public Stage {
  public:
   ImuIntegrationNode(Bus& bus, const Configuration& configuration);
-  void process() override;
+  bool processNext() override;
 
  private:
   void onFrame(const image_t& message);

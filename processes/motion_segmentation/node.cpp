@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "processes/conversions.hpp"
+#include "processes/motion_segmentation/frame_step.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/geometry/time.hpp"
@@ -29,8 +30,7 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
                                                std::unique_ptr<Detector> detector)
     : ImageStage(bus, programName(kMotionSegmentation), configurationHash(configuration),
                  configuration.channels.camera, {configuration.camera.width, configuration.camera.height},
-                 configuration.waits.max_backlog,
-                 {fromSeconds(configuration.waits.segmentation_s), detector->needs().camera_motion}),
+                 fromSeconds(configuration.waits.segmentation_s), detector->needs().camera_motion),
       configuration_(configuration),
       detector_(std::move(detector)),
       needs_(detector_->needs()),
@@ -56,12 +56,17 @@ void MotionSegmentationNode::reset(CameraTime newest) {
   last_.reset();
 }
 
+bool MotionSegmentationNode::isLeftOut(CameraTime frame) const {
+  const visual_homography_t* visual = visual_.find(frame);
+  return visual != nullptr && visual->status == visual_homography_t::SKIPPED;
+}
+
 bool MotionSegmentationNode::isWaiting(CameraTime frame) {
   if (ImageStage::isWaiting(frame)) return true;
   return needs_.camera_motion && last_ && !fusedPathTo(frame) && isPending(visual_, frame);
 }
 
-FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_homography_t* fused) {
+FrameInput MotionSegmentationNode::inputFor(const image_t& message) {
   FrameInput input;
   input.time = timeOf(message);
   input.time_previous = last_.value_or(input.time);
@@ -69,15 +74,11 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message, const fused_
   input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
   input.sample_grid_px = configuration_.visual.tracker.grid_px;
   if (!last_) return input;
-  const bool is_step =
-      fused != nullptr && fused->source != fused_homography_t::NONE && previousTimeOf(*fused) == *last_;
-  if (is_step) {
-    input.ground = matrix3(fused->step.H);
-    input.tracks = tracksOf(fused->tracks);
-    if (fused->has_front != 0) input.front = matrix3(fused->H_front);
-    if (fused->has_motion != 0) {
-      input.motion = motionOf(fused->motion);
-    }
+  if (std::optional<FrameStep> step = stepAlong(companions(), *last_, input.time)) {
+    input.ground = step->ground;
+    input.front = step->front;
+    input.motion = step->motion;
+    input.tracks = std::move(step->tracks);
   } else {
     input.ground = fusedPathTo(input.time);
     if (!input.ground && !addVisual(input)) {
@@ -108,7 +109,7 @@ bool MotionSegmentationNode::addVisual(FrameInput& input) const {
 
 void MotionSegmentationNode::work(const image_t& message) {
   const fused_homography_t* fused = companions().find(timeOf(message));
-  FrameInput input = inputFor(message, fused);
+  FrameInput input = inputFor(message);
   decodeInto(input, message);
   const DetectorOutput output = detector_->step(input);
   noteResultReady();

@@ -29,10 +29,11 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
  private:
   MotionSegmentationNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Detector> detector);
   void work(const image_t& message) override;
+  /// Whether vision has skipped the frame: one that both skip costs less than two.
+  bool isLeftOut(CameraTime frame) const override;
   /// Vision's homography is waited for as well where the fused ones say nothing about the frame.
   bool isWaiting(CameraTime frame) override;
-  /// `fused`: of this frame, or nullptr.
-  FrameInput inputFor(const image_t& message, const fused_homography_t* fused);
+  FrameInput inputFor(const image_t& message);
   /// While the fusion is not running or has no estimate yet after a restart, vision's own homography
   /// preserves background and identities. False if there is none.
   bool addVisual(FrameInput& input) const;

@@ -9,8 +9,7 @@ namespace redbee {
 VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& configuration)
     : ImageStage(bus, programName(kVisualHomography), configurationHash(configuration),
                  configuration.channels.camera, {configuration.camera.width, configuration.camera.height},
-                 configuration.waits.max_backlog,
-                 {fromSeconds(configuration.waits.visual_s), configuration.has_imu}),
+                 fromSeconds(configuration.waits.visual_s), configuration.has_imu),
       configuration_(configuration),
       camera_(configuration.camera),
       rectifier_(camera_),
@@ -48,7 +47,8 @@ void VisualHomographyNode::work(const image_t& message) {
   const auto grey = decodeGrey(message);
   if (!grey) {
     health().noteDamaged();
-    return refuse(message);
+    publishNone(timeOf(message), visual_homography_t::IMAGE_DOES_NOT_FIT);
+    return health().setState(HealthState::kDegraded, "the image is damaged");
   }
   const CameraTime time = timeOf(message);
   const auto predicted = prediction(time);
@@ -60,14 +60,19 @@ void VisualHomographyNode::work(const image_t& message) {
   companions().eraseThrough(estimator_->previousTime().value_or(time));
 }
 
-void VisualHomographyNode::refuse(const image_t& image) {
+void VisualHomographyNode::publishNone(CameraTime frame, int8_t status) {
   visual_homography_t message{};
-  message.utime_previous = toUtime(estimator_->previousTime().value_or(timeOf(image)));
-  message.status = visual_homography_t::IMAGE_DOES_NOT_FIT;
+  message.utime_previous = toUtime(estimator_->previousTime().value_or(frame));
+  message.status = status;
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
+  message.earlier = earlier_;
   publish(configuration_.channels.visual_homography, message);
-  health().setState(HealthState::kDegraded, "the image is damaged");
+}
+
+void VisualHomographyNode::noteLeftOut(CameraTime frame) {
+  publisher().beginFrame(frame);
+  publishNone(frame, visual_homography_t::SKIPPED);
 }
 
 void VisualHomographyNode::publishResult(const VisualHomography& result) {

@@ -26,8 +26,9 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
   /// The composed inertial homographies from the reference frame to this one; std::nullopt if one is missing.
   std::optional<HomographyPrediction> prediction(CameraTime time) const;
   void work(const image_t& message) override;
-  /// For an image that cannot be decoded.
-  void refuse(const image_t& image);
+  /// So that nobody waits for the homography.
+  void noteLeftOut(CameraTime frame) override;
+  void publishNone(CameraTime frame, int8_t status);
   void publishResult(const VisualHomography& result);
   void reset(CameraTime newest) override;
 

@@ -53,7 +53,7 @@ TEST_F(ConfigurationLoader, FaultsAreReportedWithFileLineAndKey) {
       {"channels: {imu: ''}\n", "2: channels.imu: ", "1 to 63"},
       {"channels: {imu: CAMERA}\n", "2: channels.imu: ", "used twice"},
       {"channels: {camera: IMU}\n", "2: channels.camera: ", "used twice"},
-      {"waits: {max_backlog: 0}\n", "2: waits.max_backlog: ", "above 0"},
+      {"waits: {visual_s: -1}\n", "2: waits.visual_s: ", "negative"},
       {"waits: {fusion_s: 0.25}\n", "2: waits.fusion_s: ", "must be longer than waits.visual_s (0.25 s)"},
       {"waits:\n  visual_s: 0.4\n", "3: waits.visual_s: ", "waits.fusion_s (0.3 s) must be longer"},
       {"waits: {fusion_s: 0.5}\n", "2: waits.fusion_s: ", "waits.segmentation_s (0.45 s) must be longer"},

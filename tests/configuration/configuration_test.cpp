@@ -113,9 +113,9 @@ TEST_F(ConfigurationTest, TheHashDependsOnTheContentAlone) {
   const auto plain = configurationHash(load(kCamera));
   EXPECT_EQ(plain.size(), 16U);
   EXPECT_EQ(configurationHash(load("# a comment\ncamera:\n  cy: 239.50\n  cx: 319.5\n  fy: 5e2\n  fx: 500.0\n"
-                                   "  height: 480\n  width: 640\nwaits: {max_backlog: 14}\n")),
+                                   "  height: 480\n  width: 640\nwatch: {hang_timeout_s: 2.0}\n")),
             plain);
-  EXPECT_NE(configurationHash(load(std::string(kCamera) + "waits: {max_backlog: 9}\n")), plain);
+  EXPECT_NE(configurationHash(load(std::string(kCamera) + "watch: {hang_timeout_s: 3.0}\n")), plain);
 }
 
 }  // namespace

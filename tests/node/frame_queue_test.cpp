@@ -166,7 +166,7 @@ TEST(FrameQueue, SkipsEvenly) {
   Queue queue;
   run(queue, 0, 10);
   for (int k = 10; k < 30; ++k) queue.put(at(k), k);
-  EXPECT_EQ(queue.limitTo(10), 10);
+  EXPECT_EQ(queue.limitTo(10).size(), 10U);
   int last = 9;
   while (!queue.empty()) {
     const int frame = queue.pop();

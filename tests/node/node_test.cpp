@@ -33,15 +33,16 @@ class RecordingBus : public Bus {
   int64_t failures = 0;
 };
 
-/// Does one thing per call of process(), then sets the stop flag.
+/// Does one thing per call of processNext(), then sets the stop flag.
 class ScriptedNode : public Node {
  public:
   explicit ScriptedNode(std::vector<std::function<void(HealthMonitor&)>> script)
       : script_(std::move(script)) {}
-  void process() override {
+  bool processNext() override {
     const size_t step = step_++;
     stop = step + 1 >= script_.size();
     script_[step](health_);
+    return false;
   }
   void finish() override { finished = true; }
   HealthMonitor& health() override { return health_; }

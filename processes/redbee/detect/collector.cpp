@@ -122,7 +122,8 @@ void ResultCollector::writeHomographies() const {
     FrameHomographies row;
     row.epoch = fused.epoch;
     if (fused.source != fused_homography_t::NONE) row.ground = matrix3(fused.step.H);
-    if (fused.has_front != 0) row.front = matrix3(fused.H_front);
+    if (fused.has_front != 0 && fused.utime_tracks == fused.utime_previous)
+      row.front = matrix3(fused.H_front);
     row.source = toString(static_cast<FusionSource>(fused.source));
     csv.write(utime, row);
   }
