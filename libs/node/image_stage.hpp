@@ -34,7 +34,7 @@ class ImageStage : public Stage {
       waited_until_ = now();
       return false;
     }
-    // Frames that came while others were waited for are not old because of this stage.
+    // What came while others were waited for is not old because of this stage.
     const bool is_backlog = images_.frontTime() > waited_until_;
     if (is_backlog && noteSkipped(images_.limitDelayTo(longest_delay_))) return true;
     const Arrived<image_t> image = images_.pop();
@@ -50,7 +50,9 @@ class ImageStage : public Stage {
       : Stage(bus, process, configuration_hash), longest_delay_(timeout), companions_(timeout, expected) {
     on<image_t>(camera_channel, [this, camera_channel, camera_size](const image_t& image) {
       if (!isOfCamera(image, camera_size, camera_channel)) return;
+      const size_t before = images_.size();
       queueFrame(images_, camera_channel, timeOf(image), Arrived<image_t>{image, {}});
+      if (images_.size() > before + 1) waited_until_ = now();  // frames that were held until now
       noteSkipped(images_.limitTo(kMostQueued));
     });
   }

@@ -120,6 +120,21 @@ TEST_F(StageTest, SkipsNothingThatHasWaitedForOthers) {
   EXPECT_EQ(stage_->health().skipped(), 0);
 }
 
+TEST_F(StageTest, SkipsNoFrameThatWasHeldUntilItWasBelieved) {
+  for (int k = 0; k < 10; ++k) {
+    publishAltitude(k, k);
+    publishImage(k);
+    settle();
+  }
+  for (int k = 300; k < 325; k += 5) {
+    publishAltitude(k, k);
+    publishImage(k);
+    settle();
+  }
+  EXPECT_EQ(stage_->heights.size(), 15U) << "five at once, 0.8 s from first to last";
+  EXPECT_EQ(stage_->health().skipped(), 0);
+}
+
 TEST_F(StageTest, ACameraSlowerThanTheWaitIsNoBacklog) {
   for (int k = 0; k < 40; k += 10) {
     publishImage(k);
