@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "processes/redbee/vehicle/sender_rule.hpp"
 #include "processes/redbee/vehicle/stack_network.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/bus.hpp"
@@ -97,8 +98,11 @@ std::vector<Finding> findSensors(const DoctorOptions& options) {
 }
 
 int runDoctor(const DoctorOptions& options) {
-  const StackNetwork network = stackNetwork(supervisorPidFile());
+  StackNetwork network = stackNetwork(supervisorPidFile());
   const bool is_inside = network.is_ours || (network.supervisor && enterNetworkOf(*network.supervisor));
+  if (const auto port = portOf(options.url); port && is_inside) {
+    network.only_sender = onlySender(readRuleset(), *port);
+  }
   std::vector<Finding> findings = {findNetwork(network, is_inside), findReceiveBuffer(options.url),
                                    findMulticast(options.url), findSpy()};
   for (Finding& finding : findSensors(options)) findings.push_back(std::move(finding));

@@ -108,10 +108,16 @@ Finding findNetwork(const StackNetwork& network, bool is_inside) {
       return {false, "network: " + who + " has its own, and what follows is about another",
               "as root: scripts/fly inside redbee doctor"};
     case NetworkOwner::kHost:
+      if (network.only_sender) {
+        return {true,
+                "network: " + who + " shares the host's, and nftables keep every user but " +
+                    *network.only_sender + " from sending to it; all can hear it",
+                ""};
+      }
       return {false,
               "network: " + who +
                   " shares the host's: every user of this host can hear it, and end it by a packet",
-              own};
+              own + "; or a rule of nftables keeps others from sending: SECURITY.md"};
     case NetworkOwner::kUnknown:
       break;
   }

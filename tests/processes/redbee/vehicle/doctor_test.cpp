@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "processes/redbee/vehicle/sender_rule.hpp"
 #include "processes/redbee/vehicle/stack_network.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -46,6 +47,39 @@ TEST(Doctor, SaysWhoCanHearTheStack) {
   }
   EXPECT_FALSE(findNetwork({42, false, NetworkOwner::kStack}, false).good)
       << "what follows is about another network";
+}
+
+/// What `nft -j list ruleset` of nftables 1.0.6 prints of a chain on `hook` with one rule.
+std::string ruleset(const std::string& hook, const std::string& expressions) {
+  return R"({"nftables": [{"metainfo": {"version": "1.0.6", "json_schema_version": 1}},
+    {"table": {"family": "inet", "name": "redbee", "handle": 1}},
+    {"chain": {"family": "inet", "table": "redbee", "name": "output", "handle": 1, "type": "filter", "hook": ")" +
+         hook + R"(", "prio": 0, "policy": "accept"}},
+    {"rule": {"family": "inet", "table": "redbee", "chain": "output", "handle": 2, "expr": [)" +
+         expressions + "]}}]}";
+}
+
+TEST(Doctor, FindsTheRuleThatKeepsOthersFromSending) {
+  const std::string port =
+      R"({"match": {"op": "==", "left": {"payload": {"protocol": "udp", "field": "dport"}}, "right": 7667}},)";
+  const std::string user = R"({"match": {"op": "!=", "left": {"meta": {"key": "skuid"}}, "right": 0}},)";
+  const std::string drop = R"({"drop": null})";
+  EXPECT_EQ(onlySender(ruleset("output", port + user + drop), 7667), "0");
+  EXPECT_FALSE(onlySender(ruleset("output", port + user + drop), 7668)) << "another port";
+  EXPECT_FALSE(onlySender(ruleset("input", port + user + drop), 7667)) << "there no user is known";
+  EXPECT_FALSE(onlySender(ruleset("output", port + user + R"({"accept": null})"), 7667));
+  EXPECT_FALSE(onlySender(ruleset("output", port + drop), 7667));
+  EXPECT_FALSE(onlySender(ruleset("output", R"({"limit": {"rate": 1}},)" + port + user + drop), 7667))
+      << "a rule that does not always hold";
+  for (const char* other : {"", "{", "[]", R"({"nftables": []})"}) EXPECT_FALSE(onlySender(other, 7667));
+  EXPECT_EQ(portOf("udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304"), 7667);
+  EXPECT_FALSE(portOf("memq://"));
+
+  StackNetwork network{42, true, NetworkOwner::kHost};
+  network.only_sender = "redbee";
+  const Finding finding = findNetwork(network, true);
+  EXPECT_TRUE(finding.good);
+  EXPECT_NE(finding.what.find("every user but redbee"), std::string::npos) << finding.what;
 }
 
 TEST(Doctor, AStackThatIsNotUpHasNoSupervisor) {
