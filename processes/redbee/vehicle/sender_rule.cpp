@@ -59,7 +59,7 @@ std::optional<std::string> onlySender(const std::string& ruleset, int port) {
     if (on_output.count({rule.value("family", ""), rule.value("table", ""), rule.value("chain", "")}) == 0) {
       continue;
     }
-    if (const auto user = onlySenderOf(rule["expr"], port)) return user;
+    if (auto user = onlySenderOf(rule["expr"], port)) return user;
   }
   return std::nullopt;
 }
