@@ -96,7 +96,7 @@ class ImageStage : public Stage {
   MessageSynchronizer<Companion> companions_;
   FrameQueue<Arrived<image_t>> images_;
   std::set<CameraTime> skipped_;                 ///< of which noteLeftOut() is to be called
-  CameraTime waited_until_ = CameraTime::min();  ///< the newest frame then
+  CameraTime waited_until_ = CameraTime::min();  ///< frames up to this one have waited for others
 };
 
 }  // namespace redbee

@@ -13,12 +13,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-struct Chain {
-  std::string family, table, name;
-  bool operator<(const Chain& other) const {
-    return std::tie(family, table, name) < std::tie(other.family, other.table, other.name);
-  }
-};
+using Chain = std::tuple<std::string, std::string, std::string>;  // family, table, name
+
+/// `name`: the member of `of` that names the chain.
+Chain chainOf(const Json& of, const char* name) {
+  return {of.value("family", ""), of.value("table", ""), of.value(name, "")};
+}
 
 bool isMatch(const Json& expression, const char* op, const Json& left) {
   return expression.contains("match") && expression["match"].value("op", "") == op &&
@@ -51,14 +51,11 @@ std::optional<std::string> onlySender(const std::string& ruleset, int port) {
   std::set<Chain> on_output;
   for (const Json& entry : json["nftables"]) {
     if (entry.contains("chain") && entry["chain"].value("hook", "") == "output") {
-      const Json& chain = entry["chain"];
-      on_output.insert({chain.value("family", ""), chain.value("table", ""), chain.value("name", "")});
+      on_output.insert(chainOf(entry["chain"], "name"));
     }
     if (!entry.contains("rule") || !entry["rule"].contains("expr")) continue;
     const Json& rule = entry["rule"];
-    if (on_output.count({rule.value("family", ""), rule.value("table", ""), rule.value("chain", "")}) == 0) {
-      continue;
-    }
+    if (on_output.count(chainOf(rule, "chain")) == 0) continue;
     if (auto user = onlySenderOf(rule["expr"], port)) return user;
   }
   return std::nullopt;

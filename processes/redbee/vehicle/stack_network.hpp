@@ -21,8 +21,7 @@ struct StackNetwork {
   std::optional<pid_t> supervisor;  ///< std::nullopt: the stack is not up
   bool is_ours = true;              ///< this process is in the same network
   NetworkOwner owner = NetworkOwner::kUnknown;
-  std::optional<std::string>
-      only_sender{};  ///< the user whom alone the host's rules allow to send (sender_rule.hpp)
+  std::optional<std::string> only_sender{};  ///< see sender_rule.hpp
 };
 
 /// Of the stack whose supervisor wrote `pid_file`; of this process where there is none.
