@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <set>
 
+#include "tests/support/forgery.hpp"
 #include "tests/support/trusted_frames.hpp"
 
 namespace redbee::test {
@@ -11,30 +12,6 @@ namespace {
 
 constexpr int64_t kHour = 3'600'000'000;
 constexpr int64_t kAhead = 1'900'000;
-
-template <typename Message, typename = void>
-struct HasPublisher : std::false_type {};
-template <typename Message>
-struct HasPublisher<Message, std::void_t<decltype(std::declval<Message&>().publisher)>> : std::true_type {};
-
-template <typename Message>
-void signAs(Message& message, int64_t publisher) {
-  if constexpr (HasPublisher<Message>::value) message.publisher = publisher;
-}
-
-/// Answers each message of a channel with a forged copy.
-template <typename Message>
-Subscription forge(Bus& bus, const std::string& channel, const std::function<void(Message&)>& change) {
-  constexpr int32_t kMarked = 1'000'000;
-  return bus.subscribe<Message>(channel, 64, [&bus, channel, change](const Message& m) {
-    if (m.sequence >= kMarked) return;
-    Message forged = m;
-    forged.sequence += kMarked;
-    signAs(forged, 4711);
-    change(forged);
-    bus.publish(channel, forged);
-  });
-}
 
 struct Flown {
   TrustedFrames frames;

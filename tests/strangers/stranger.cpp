@@ -17,6 +17,7 @@
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/process_health_t.hpp"
+#include "tests/support/forgery.hpp"
 
 namespace redbee::test {
 namespace {
@@ -101,20 +102,10 @@ class Packets {
 
 /// Random bytes on every channel.
 void flood(Bus& bus, double seconds_long) {
-  const Channels channels;
   std::mt19937 random(1);
   const auto end = Clock::now() + std::chrono::duration<double>(seconds_long);
   int64_t messages = 0;
-  while (Clock::now() < end) {
-    for (const std::string& channel :
-         {channels.camera, channels.imu, channels.inertial_homography, channels.visual_homography,
-          channels.fused_homography, channels.health}) {
-      std::vector<uint8_t> data(1 + random() % 3000);
-      for (uint8_t& byte : data) byte = static_cast<uint8_t>(random());
-      bus.publish(channel, data);
-      ++messages;
-    }
-  }
+  while (Clock::now() < end) messages += sendRandomBytes(bus, random);
   std::printf("%.0f messages a second\n", static_cast<double>(messages) / seconds_long);
 }
 

@@ -1,0 +1,148 @@
+// disturbed_trial: publishes the endless flight to a running stack, disturbs it, and compares the output with
+// the truth: one line a disturbance. Exit status 1 where a mask is wild, too few frames are trusted, or a
+// process was started again. With --relay, the stack's processes have the LCM groups that are given, and
+// everything passes through a lossy relay.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+
+#include "processes/common_options.hpp"
+#include "tests/restarts/trial_report.hpp"
+#include "tests/strangers/disturbance.hpp"
+#include "tests/strangers/live_relay.hpp"
+#include "tests/support/live_player.hpp"
+#include "tests/support/trusted_frames.hpp"
+
+namespace redbee::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kSettling_s = 3;
+constexpr double kLongestSettling_s = 30;
+constexpr double kLastAnswer_s = 1.5;  ///< after a phase
+constexpr int kSettledFrames = 30;
+
+struct Options {
+  std::string url;
+  std::vector<std::string> disturbances = {"none"};
+  double seconds = 6;
+  double speed = 1;
+  double least = 0.95;  ///< of the frames whose image arrived
+  std::vector<std::string> relay;
+  RelayFaults faults;
+};
+
+class Trial {
+ public:
+  explicit Trial(const Options& options)
+      : options_(options),
+        bus_(makeLcmBus(options.url)),
+        observer_(*bus_, flight_),
+        player_(*bus_, flight_,
+                kSettling_s + kLongestSettling_s +
+                    static_cast<double>(options.disturbances.size()) * (options.seconds + kLastAnswer_s),
+                options.speed) {
+    if (options.relay.empty()) return;
+    std::vector<std::string> urls = {options.url};
+    urls.insert(urls.end(), options.relay.begin(), options.relay.end());
+    relay_.emplace(urls, options.faults, options.speed);
+  }
+
+  bool fly() {
+    runFor(kSettling_s);
+    const auto end = Clock::now() + std::chrono::duration<double>(kLongestSettling_s / options_.speed);
+    while (!observer_.allGood(0, kSettledFrames)) {
+      if (Clock::now() > end) return fail("the stack does not fly undisturbed");
+      step();
+    }
+    bool good = true;
+    for (const std::string& name : options_.disturbances) good = disturb(name) && good;
+    return noneStartedAgain() && good;
+  }
+
+ private:
+  void step() {
+    player_.publishDue();
+    bus_->handle(std::chrono::milliseconds(2));
+  }
+  /// Of flight time.
+  void runFor(double seconds) {
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds / options_.speed);
+    while (Clock::now() < end) step();
+  }
+
+  bool disturb(const std::string& name) {
+    const int64_t first = player_.frames();
+    const int64_t skipped = framesSkipped();
+    {
+      const Stranger stranger(options_.url, name, flight_);
+      runFor(options_.seconds);
+    }
+    const int64_t last = player_.frames();
+    runFor(kLastAnswer_s);
+    const TrustedFrames frames = compare(first, last);
+    frames.print(name.c_str());
+    if (framesSkipped() > skipped)
+      std::printf("  of them skipped for want of time: %lld\n",
+                  static_cast<long long>(framesSkipped() - skipped));
+    return (frames.wild == 0 || fail("wild masks")) &&
+           (frames.trusted >= options_.least * frames.expected || fail("too few trusted frames"));
+  }
+
+  TrustedFrames compare(int64_t first, int64_t last) const {
+    const std::set<int64_t> without_image = relay_ ? relay_->imagesLost() : std::set<int64_t>();
+    TrustedFrames frames;
+    for (int64_t k = first; k < last; ++k) {
+      if (without_image.count(flight_.utime(k)) > 0) continue;
+      ++frames.expected;
+      const auto it = observer_.frames().find(flight_.utime(k));
+      if (it == observer_.frames().end() || it->second.status != 0) continue;
+      ++frames.trusted;
+      frames.wild += it->second.false_fraction > kWildFraction ? 1 : 0;
+    }
+    return frames;
+  }
+
+  int64_t framesSkipped() const {
+    int64_t skipped = 0;
+    for (const auto& [process, health] : observer_.health()) skipped += health.skipped;
+    return skipped;
+  }
+
+  bool noneStartedAgain() const {
+    bool good = true;
+    for (const std::string& process : allPrograms()) {
+      const size_t lives = observer_.pids(process).size();
+      if (lives != 1) good = fail(process + " lived " + std::to_string(lives) + " times");
+    }
+    return good;
+  }
+
+  Options options_;
+  EndlessFlight flight_;
+  std::unique_ptr<Bus> bus_;
+  Observer observer_;
+  LivePlayer player_;
+  std::optional<LiveRelay> relay_;
+};
+
+}  // namespace
+}  // namespace redbee::test
+
+// For tests: an exception ends it with its message. NOLINTNEXTLINE(bugprone-exception-escape)
+int main(int argc, char** argv) {
+  CLI::App app("flies into a running stack and disturbs it");
+  redbee::test::Options options;
+  redbee::addLcmUrlOption(app, options.url);
+  app.add_option("--disturb", options.disturbances, "one after the other, by name")->delimiter(',');
+  app.add_option("--seconds", options.seconds, "of flight, for each disturbance");
+  app.add_option("--speed", options.speed, "times the flight's own speed");
+  app.add_option("--least", options.least, "of the frames whose image arrived, that are trusted");
+  app.add_option("--relay", options.relay, "the LCM URL of each process, the segmentation's last")
+      ->delimiter(',');
+  app.add_option("--lost", options.faults.lost);
+  app.add_option("--duplicated", options.faults.duplicated);
+  app.add_option("--delayed", options.faults.delayed);
+  CLI11_PARSE(app, argc, argv);
+  return redbee::test::Trial(options).fly() ? 0 : 1;
+}
