@@ -60,6 +60,11 @@ struct DetectorOutput {
   cv::Mat1b mask;         ///< 0 or 255; of ours, what the seen detections consist of
   cv::Mat1b unknown;      ///< 255 where no earlier frame shows the scene; the mask is 0 there
   std::vector<Detection> detections;
+
+  /// Nothing is known: all pixels are unknown, the mask is empty.
+  static DetectorOutput empty(CameraTime time, cv::Size size, DetectorStatus status) {
+    return {time, status, cv::Mat1b::zeros(size), cv::Mat1b::zeros(size), cv::Mat1b(size, 255), {}};
+  }
 };
 
 class Detector {

@@ -57,7 +57,7 @@ DetectorOutput GroundDetector::process(const FrameInput& input, bool continues, 
   const bool is_camera_known = continues && input.motion;
   tracker_.propagate(elapsed, continues ? input.ground : std::nullopt,
                      is_camera_known ? std::optional(CameraStep{*input.motion, input.K}) : std::nullopt);
-  DetectorOutput output = emptyOutput(input);
+  DetectorOutput output = DetectorOutput::empty(input.time, size_, DetectorStatus::kLearning);
   if (content == ImageContent::kUnusable || content == ImageContent::kFrozen) {
     output.status = DetectorStatus::kBadImage;
     output.detections = tracker_.skip(size_);
@@ -94,15 +94,6 @@ void GroundDetector::reset() {
 void GroundDetector::propagate(const FrameInput& input) {
   warpBackground(input);
   probability_.propagate(*input.ground);
-}
-
-DetectorOutput GroundDetector::emptyOutput(const FrameInput& input) const {
-  DetectorOutput output;
-  output.time = input.time;
-  output.probability = cv::Mat1b::zeros(size_);
-  output.mask = cv::Mat1b::zeros(size_);
-  output.unknown = cv::Mat1b(size_, 255);
-  return output;
 }
 
 cv::Mat1b GroundDetector::refined(const cv::Mat1b& foreground, const FrameInput& input) {

@@ -33,7 +33,6 @@ class GroundDetector : public Detector {
   bool isConsecutive(const FrameInput& input) const;
   void reset();
   void propagate(const FrameInput& input);
-  DetectorOutput emptyOutput(const FrameInput& input) const;
   cv::Mat1b refined(const cv::Mat1b& foreground, const FrameInput& input);
   void findObjects(cv::Mat1b probability, const ForegroundMaps& maps, DetectorOutput& output);
 

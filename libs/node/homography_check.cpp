@@ -112,7 +112,7 @@ const char* faultOf(const visual_homography_t& m) {
   const char* fault =
       firstFault({{hasFrameTimes(m), "time"},
                   {m.sequence >= 0, "sequence"},
-                  {isFrom(visual_homography_t::GOOD, m.status, visual_homography_t::SKIPPED), "status"},
+                  {isFrom(visual_homography_t::GOOD, m.status, visual_homography_t::NO_IMAGE), "status"},
                   {hasImageSize(m), "image size"},
                   {hasPointCounts(m) && isFrom(0, m.sampled, kMaxPoints), "points"},
                   {isFrom(0, m.rms, kMaxCoordinate_px), "residual"}});

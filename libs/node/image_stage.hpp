@@ -2,6 +2,7 @@
 // stage.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -30,7 +31,9 @@ class ImageStage : public Stage {
       health().noteSkipped();
       return true;
     }
-    if (!isInOrder(images_) || isWaiting(images_.frontTime())) {
+    const bool is_in_order = isInOrder(images_);
+    if (is_in_order) noteMissingBeforeFront();
+    if (!is_in_order || isWaiting(images_.frontTime())) {
       waited_until_ = now();
       return false;
     }
@@ -64,6 +67,8 @@ class ImageStage : public Stage {
   virtual bool isLeftOut(CameraTime) const { return false; }
   /// Called for each frame that was skipped, in order among those processed.
   virtual void noteLeftOut(CameraTime) {}
+  /// Called for each frame before the next one that there is a companion of, but no image: it was lost.
+  virtual void noteMissing(CameraTime) {}
   /// Discards the state, and messages of frames after `newest`; called when the camera's clock was set back.
   virtual void reset(CameraTime newest) = 0;
   MessageSynchronizer<Companion>& companions() { return companions_; }
@@ -81,21 +86,32 @@ class ImageStage : public Stage {
   void noteLeftOutBeforeFront() {
     while (!skipped_.empty() && (images_.empty() || *skipped_.begin() < images_.frontTime())) {
       noteLeftOut(*skipped_.begin());
+      announced_ = std::max(announced_, *skipped_.begin());
       skipped_.erase(skipped_.begin());
     }
+  }
+  void noteMissingBeforeFront() {
+    if (!images_.last()) return;
+    announced_ = std::max(announced_, *images_.last());
+    companions_.forEach([&](CameraTime time, const Companion&) {
+      if (time <= announced_ || time >= images_.frontTime()) return;
+      noteMissing(time);
+      announced_ = time;
+    });
   }
 
   void restart(CameraTime newest) final {
     companions_.eraseAfter(newest);
     skipped_.clear();
-    waited_until_ = CameraTime::min();
+    waited_until_ = announced_ = CameraTime::min();
     reset(newest);
   }
 
   Duration longest_delay_;
   MessageSynchronizer<Companion> companions_;
   FrameQueue<Arrived<image_t>> images_;
-  std::set<CameraTime> skipped_;                 ///< of which noteLeftOut() is to be called
+  std::set<CameraTime> skipped_;              ///< of which noteLeftOut() is to be called
+  CameraTime announced_ = CameraTime::min();  ///< frames up to this one were processed, left out or missing
   CameraTime waited_until_ = CameraTime::min();  ///< frames up to this one have waited for others
 };
 

@@ -1,7 +1,10 @@
 #include "processes/motion_segmentation/node.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <chrono>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <utility>
 
 #include "processes/conversions.hpp"
@@ -12,6 +15,9 @@
 
 namespace redbee {
 namespace {
+
+/// Messages about earlier frames are kept for this long.
+constexpr Duration kLinking = std::chrono::milliseconds(500);
 
 /// How much smaller an image may be decoded.
 int imageDownscale(const DetectorNeeds& needs, const CameraIntrinsics& camera) {
@@ -82,12 +88,26 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message) {
   } else {
     input.ground = fusedPathTo(input.time);
     if (!input.ground && !addVisual(input)) {
-      std::vector<HomographyLink> links = linksOf(companions());
-      for (const HomographyLink& link : linksOf(visual_)) links.push_back(link);
-      input.ground = homographyAlong(links, *last_, input.time);
+      input.ground = homographyAlong(allLinks(), *last_, input.time);
     }
   }
   return input;
+}
+
+std::vector<HomographyLink> MotionSegmentationNode::allLinks() const {
+  std::vector<HomographyLink> links = linksOf(companions());
+  for (const HomographyLink& link : linksOf(visual_)) links.push_back(link);
+  return links;
+}
+
+bool MotionSegmentationNode::isBridged(CameraTime frame) const {
+  const std::vector<HomographyLink> links = allLinks();
+  std::set<CameraTime> later;
+  for (const HomographyLink& link : links) {
+    if (link.to > frame) later.insert(link.to);
+  }
+  return std::any_of(later.begin(), later.end(),
+                     [&](CameraTime time) { return homographyAlong(links, *last_, time).has_value(); });
 }
 
 std::optional<Eigen::Matrix3d> MotionSegmentationNode::fusedPathTo(CameraTime frame) {
@@ -110,16 +130,22 @@ bool MotionSegmentationNode::addVisual(FrameInput& input) const {
 void MotionSegmentationNode::work(const image_t& message) {
   const fused_homography_t* fused = companions().find(timeOf(message));
   FrameInput input = inputFor(message);
+  if (needs_.camera_motion && last_ && !input.ground && isBridged(input.time)) {
+    noteResultReady();
+    updateState(DetectorStatus::kNoHomography, false);
+    return publishOutput(message, input,
+                         DetectorOutput::empty(input.time, input.size, DetectorStatus::kNoHomography));
+  }
   decodeInto(input, message);
   const DetectorOutput output = detector_->step(input);
   noteResultReady();
   publishOutput(message, input, output);
   updateState(output.status, fused != nullptr);
   last_ = input.time;
-  // This frame's messages link the next one.
-  companions().eraseBefore(timeOf(message));
+  // This frame's messages link the next one; earlier ones do where some were lost.
+  companions().eraseBefore(timeOf(message) - kLinking);
   fused_path_.reset();
-  visual_.eraseBefore(timeOf(message));
+  visual_.eraseBefore(timeOf(message) - kLinking);
 }
 
 void MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "processes/foreground_publisher.hpp"
 #include "processes/motion_segmentation/homography_path.hpp"
@@ -37,6 +38,11 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   /// While the fusion is not running or has no estimate yet after a restart, vision's own homography
   /// preserves background and identities. False if there is none.
   bool addVisual(FrameInput& input) const;
+  /// What all homographies that have arrived say.
+  std::vector<HomographyLink> allLinks() const;
+  /// Whether the motion from the last processed frame to one after this is known: vision has not seen this
+  /// one, but background and tracks go on with the next.
+  bool isBridged(CameraTime frame) const;
   /// The homography from the last processed frame, by the fused homographies alone: asked for again and again
   /// while a frame waits, computed once for what has arrived.
   std::optional<Eigen::Matrix3d> fusedPathTo(CameraTime frame);

@@ -75,6 +75,11 @@ void VisualHomographyNode::noteLeftOut(CameraTime frame) {
   publishNone(frame, visual_homography_t::SKIPPED);
 }
 
+void VisualHomographyNode::noteMissing(CameraTime frame) {
+  publisher().beginFrame(frame);
+  publishNone(frame, visual_homography_t::NO_IMAGE);
+}
+
 void VisualHomographyNode::publishResult(const VisualHomography& result) {
   visual_homography_t message{};
   message.utime_previous = toUtime(result.time_previous);

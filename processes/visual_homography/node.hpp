@@ -28,6 +28,7 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
   void work(const image_t& message) override;
   /// So that nobody waits for the homography.
   void noteLeftOut(CameraTime frame) override;
+  void noteMissing(CameraTime frame) override;
   void publishNone(CameraTime frame, int8_t status);
   void publishResult(const VisualHomography& result);
   void reset(CameraTime newest) override;
