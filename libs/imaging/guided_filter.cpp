@@ -13,14 +13,16 @@ namespace {
 /// cv::blur() with a window of `side` pixels, which the image holds both ways.
 cv::Mat1f boxMean(const cv::Mat1f& of, int side) {
   cv::Mat1f mean(of.size());
-  std::vector<double> sums(static_cast<size_t>(of.cols + side));
-  std::vector<const float*> rows(static_cast<size_t>(side));
-  for (int y = 0; y < of.rows; ++y) {
-    for (int k = 0; k < side; ++k) {
-      const int row = std::abs(y + k - side / 2);
-      rows[static_cast<size_t>(k)] = of[std::min(row, 2 * (of.rows - 1) - row)];
-    }
-    boxMeanRow(rows.data(), side, static_cast<size_t>(of.cols), sums.data(), mean[y]);
+  std::vector<double> sums(static_cast<size_t>(of.cols + side), 0.0);
+  const auto mirrored = [&](int y) {
+    const int row = std::abs(y);
+    return of[std::min(row, 2 * (of.rows - 1) - row)];
+  };
+  const int radius = side / 2;
+  for (int y = -2 * radius; y < of.rows; ++y) {
+    const float* leaving = y > 0 ? mirrored(y - radius - 1) : nullptr;
+    boxMeanRow({static_cast<size_t>(of.cols), side, mirrored(y + radius), leaving, sums.data(),
+                y < 0 ? nullptr : mean[y]});
   }
   return mean;
 }

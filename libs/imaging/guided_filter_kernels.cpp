@@ -19,26 +19,37 @@ HWY_INLINE void forLanes(T, size_t width, const Work& work) {
   for (; i < width; ++i) work(hn::CappedTag<T, 1>(), i);
 }
 
-void boxMean(const float* const* rows, int side, size_t width, double* sums, float* mean) {
+/// The window's sides of the default settings have loops of known length.
+template <int known_side>
+HWY_INLINE void boxMeanOf(const BoxRow& row) {
+  const int side = known_side > 0 ? known_side : row.side;
   const auto radius = static_cast<size_t>(side / 2);
-  double* const inner = sums + radius;
+  const size_t width = row.width;
+  double* const inner = row.sums + radius;
   forLanes(0.0, width, [&](auto d, size_t i) HWY_ATTR {
     const hn::Rebind<float, decltype(d)> narrow;
-    auto sum = hn::PromoteTo(d, hn::LoadU(narrow, rows[0] + i));
-    for (int k = 1; k < side; ++k) sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(narrow, rows[k] + i)));
-    hn::StoreU(sum, d, inner + i);
+    auto sum = hn::LoadU(d, inner + i);
+    if (row.leaving != nullptr) sum = hn::Sub(sum, hn::PromoteTo(d, hn::LoadU(narrow, row.leaving + i)));
+    hn::StoreU(hn::Add(sum, hn::PromoteTo(d, hn::LoadU(narrow, row.entering + i))), d, inner + i);
   });
+  if (row.mean == nullptr) return;
   for (size_t i = 1; i <= radius; ++i) {
-    sums[radius - i] = inner[i];
+    row.sums[radius - i] = inner[i];
     inner[width - 1 + i] = inner[width - 1 - i];
   }
   const double scale = 1.0 / (side * side);
   forLanes(0.0, width, [&](auto d, size_t i) HWY_ATTR {
     const hn::Rebind<float, decltype(d)> narrow;
-    auto sum = hn::LoadU(d, sums + i);
-    for (int k = 1; k < side; ++k) sum = hn::Add(sum, hn::LoadU(d, sums + i + k));
-    hn::StoreU(hn::DemoteTo(narrow, hn::Mul(sum, hn::Set(d, scale))), narrow, mean + i);
+    auto sum = hn::LoadU(d, row.sums + i);
+    for (int k = 1; k < side; ++k) sum = hn::Add(sum, hn::LoadU(d, row.sums + i + k));
+    hn::StoreU(hn::DemoteTo(narrow, hn::Mul(sum, hn::Set(d, scale))), narrow, row.mean + i);
   });
+}
+
+void boxMean(const BoxRow& row) {
+  if (row.side == 7) return boxMeanOf<7>(row);
+  if (row.side == 5) return boxMeanOf<5>(row);
+  boxMeanOf<0>(row);
 }
 
 void linearModel(const LinearModelRow& row, float contrast2) {
@@ -70,9 +81,7 @@ HWY_EXPORT(boxMean);
 HWY_EXPORT(linearModel);
 HWY_EXPORT(applyModel);
 
-void boxMeanRow(const float* const* rows, int side, size_t width, double* sums, float* mean) {
-  HWY_DYNAMIC_DISPATCH(boxMean)(rows, side, width, sums, mean);
-}
+void boxMeanRow(const BoxRow& row) { HWY_DYNAMIC_DISPATCH(boxMean)(row); }
 void linearModelRow(const LinearModelRow& row, float contrast2) {
   HWY_DYNAMIC_DISPATCH(linearModel)(row, contrast2);
 }

@@ -5,10 +5,17 @@
 
 namespace redbee {
 
-/// Mean over a window of `side` pixels both ways, as cv::blur() computes it: sums in double precision,
-/// mirrored at the border. `rows`: `side` rows of `width` >= side pixels; `sums`: room for width + side
-/// doubles.
-void boxMeanRow(const float* const* rows, int side, size_t width, double* sums, float* mean);
+/// A step of a running mean over a window of `side` pixels both ways, as cv::blur() computes it: sums in
+/// double precision, mirrored at the border.
+struct BoxRow {
+  size_t width;
+  int side;               ///< at most `width`
+  const float* entering;  ///< row
+  const float* leaving;   ///< null: none yet
+  double* sums;           ///< of columns: width + side doubles, 0 at first
+  float* mean;            ///< null: not yet
+};
+void boxMeanRow(const BoxRow& row);
 
 /// The means of guide and map, of the guide's square and of their product; the map as a linear function of
 /// the guide.

@@ -3,6 +3,8 @@
 // multiplications are never fused.
 #pragma once
 
+#undef HWY_DISABLED_TARGETS
+#undef HWY_BROKEN_EMU128
 // Little is gained by these over SSE4 and AVX-512, and each costs a compilation.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 // Processors without any of them run plain loops over 16 bytes. GCC before 12.3 compiles those of a high half

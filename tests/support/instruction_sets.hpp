@@ -2,11 +2,14 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <string>
 
-#include "redbee/imaging/simd.hpp"  // before Highway, whose targets it chooses
+// The targets are chosen before Highway is included.
+// clang-format off
+#include "redbee/imaging/simd.hpp"
+#include <hwy/targets.h>
+// clang-format on
 
 namespace redbee::test {
 

@@ -14,7 +14,7 @@ struct EarlierImage {
 
 struct AlignedRow {
   int y, begin, end;  ///< px, of the current view
-  int32_t* places;    ///< room for two times end - begin
+  int32_t* places;    ///< room for four times end - begin
   uint8_t* grey;
   uint8_t* unknown;
 };

@@ -67,7 +67,7 @@ AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int
   const std::array<double, 9> ground = inverseOf(scene.ground), far = inverseOf(scene.far);
   const cv::Size size = frame.grey.size();
   AlignedImage aligned{cv::Mat1b(size), cv::Mat1b(size)};
-  std::vector<int32_t> places(2 * static_cast<size_t>(size.width));
+  std::vector<int32_t> places(4 * static_cast<size_t>(size.width));
   const EarlierImage image{frame.grey[0], frame.grey.step[0], size.width, size.height};
   for (int y = 0; y < size.height; ++y) {
     const SceneMotion::HorizonCut cut = scene.cutAtHorizon(y, size.width);

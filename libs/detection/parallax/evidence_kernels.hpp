@@ -44,8 +44,10 @@ struct PropagationRow {
   const float* previous;     ///< E, V (2) and L of the previous frame; null: 0
   int previous_rows;
   const uint8_t* unknown;
-  int32_t* places;  ///< room for two rows
-  float* moving;    ///< E, V, L
+  int32_t* places;       ///< room for two rows
+  double* sums;          ///< room for two rows and four more
+  float* mean_residual;  ///< room for two rows
+  float* moving;         ///< E, V, L
   float* motion;
 };
 

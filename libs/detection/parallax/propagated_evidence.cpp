@@ -35,7 +35,10 @@ void PropagatedEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d&
   const bool has_previous = !previous_.empty();
   moving_.create(residual.size());
   motion_.create(residual.size());
-  places_.resize(2 * static_cast<size_t>(residual.cols));
+  const size_t values = 2 * static_cast<size_t>(residual.cols);
+  places_.resize(values);
+  sums_.resize(values + 4);
+  mean_residual_.resize(values);
   // Mirrored beyond the border.
   const int last = residual.rows - 1, inside = std::min(1, last);
   for (int y = 0; y <= last; ++y) {
@@ -49,6 +52,8 @@ void PropagatedEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d&
                       residual.rows,
                       unknown[y],
                       places_.data(),
+                      sums_.data(),
+                      mean_residual_.data(),
                       moving_.ptr<float>(y),
                       motion_[y]});
   }

@@ -35,6 +35,8 @@ class PropagatedEvidence {
   cv::Mat4f previous_;  ///< the same, one frame earlier
   cv::Mat1f motion_;
   std::vector<int32_t> places_;
+  std::vector<double> sums_;
+  std::vector<float> mean_residual_;
 };
 
 }  // namespace redbee

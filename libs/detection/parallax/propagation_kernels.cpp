@@ -54,6 +54,13 @@ HWY_INLINE hn::Vec<Four> fetch(const PropagationRow& row, int32_t x32, int32_t y
   const float lower = static_cast<float>(y32 & (kSubpixels - 1)) * (1.0F / kSubpixels), upper = 1 - lower;
   const float* at = row.previous + 4 * (static_cast<ptrdiff_t>(y) * columns + x);
   const float* below = at + 4 * columns;
+  if (static_cast<unsigned>(x) < static_cast<unsigned>(columns - 1) &&
+      static_cast<unsigned>(y) < static_cast<unsigned>(rows - 1)) {
+    const auto of = [&](const float* from, float weight)
+                        HWY_ATTR { return hn::Mul(hn::LoadU(d, from), hn::Set(d, weight)); };
+    const auto above = hn::Add(of(at, upper * left), of(at + 4, upper * right));
+    return hn::Add(hn::Add(above, of(below, lower * left)), of(below + 4, lower * right));
+  }
   const auto term = [&](bool is_inside, const float* from, float weight) HWY_ATTR {
     return hn::Mul(is_inside ? hn::LoadU(d, from) : hn::Zero(d), hn::Set(d, weight));
   };
@@ -75,54 +82,47 @@ HWY_INLINE void fetchRow(const PropagationRow& row) {
   for (size_t i = 0; i < row.width; ++i) hn::StoreU(fetch(row, x[i], y[i]), Four(), row.moving + 4 * i);
 }
 
-/// Mean of one component over 3x3 pixels around pixel i; mirrored at the border, like the rows.
-HWY_INLINE double meanAround(const PropagationRow& row, size_t i, size_t component) {
-  const size_t last = row.width - 1;
-  const size_t before = row.width == 1 ? 0
-                        : i == 0       ? 1
-                                       : i - 1,
-               after = row.width == 1 ? 0
-                       : i == last    ? last - 1
-                                      : i + 1;
-  double sum = 0;
-  for (const float* of : row.residual) {
-    sum += static_cast<double>(of[2 * before + component]) + static_cast<double>(of[2 * i + component]) +
-           static_cast<double>(of[2 * after + component]);
-  }
-  return sum * (1.0 / 9);
-}
-
-/// Squared length of the mean residual around each pixel, as cv::blur() averages: in double precision.
-HWY_INLINE void squaredMeans(const PropagationRow& row, float* to) {
-  const auto squared = [&](size_t i, auto mean) {
-    const float x = static_cast<float>(mean(row, i, 0)), y = static_cast<float>(mean(row, i, 1));
-    to[i] = x * x + y * y;
+/// Mean residual over 3x3 pixels, as cv::blur() averages: in double precision, mirrored at the border like
+/// the rows. `sums`: room for the row and two pixels.
+HWY_INLINE void meanResiduals(const PropagationRow& row, double* sums, float* mean) {
+  const size_t values = 2 * row.width;
+  double* const inner = sums + 2;
+  const hn::ScalableTag<double> d;
+  const auto forValues = [&](const auto& work) HWY_ATTR {
+    size_t i = 0;
+    for (; i + hn::Lanes(d) <= values; i += hn::Lanes(d)) work(d, i);
+    for (; i < values; ++i) work(hn::CappedTag<double, 1>(), i);
   };
-  squared(0, meanAround);
-  for (size_t i = 1; i + 1 < row.width; ++i) {
-    squared(i, [](const PropagationRow& of, size_t at, size_t component) {
-      double sum = 0;
-      for (const float* r : of.residual) {
-        const float* p = r + 2 * at + component;
-        sum += static_cast<double>(p[-2]) + static_cast<double>(p[0]) + static_cast<double>(p[2]);
-      }
-      return sum * (1.0 / 9);
-    });
+  forValues([&](auto of, size_t i) HWY_ATTR {
+    const hn::Rebind<float, decltype(of)> narrow;
+    const auto value = [&](int k)
+                           HWY_ATTR { return hn::PromoteTo(of, hn::LoadU(narrow, row.residual[k] + i)); };
+    hn::StoreU(hn::Add(hn::Add(value(0), value(1)), value(2)), of, inner + i);
+  });
+  const size_t neighbour = row.width > 1 ? 2 : 0;
+  for (size_t k = 0; k < 2; ++k) {
+    sums[k] = inner[neighbour + k];
+    inner[values + k] = inner[values - 2 - neighbour + k];
   }
-  if (row.width > 1) squared(row.width - 1, meanAround);
+  forValues([&](auto of, size_t i) HWY_ATTR {
+    const hn::Rebind<float, decltype(of)> narrow;
+    const auto sum =
+        hn::Add(hn::Add(hn::LoadU(of, sums + i), hn::LoadU(of, sums + i + 2)), hn::LoadU(of, sums + i + 4));
+    hn::StoreU(hn::DemoteTo(narrow, hn::Mul(sum, hn::Set(of, 1.0 / 9))), narrow, mean + i);
+  });
 }
 
 template <typename D>
-HWY_INLINE void accumulate(D d, const Propagation& by, const PropagationRow& row, const float* around2,
-                           size_t i) {
+HWY_INLINE void accumulate(D d, const Propagation& by, const PropagationRow& row, size_t i) {
   const auto constant = [&](float value) HWY_ATTR { return hn::Set(d, value); };
   const auto squares = [&](hn::Vec<D> a, hn::Vec<D> b)
                            HWY_ATTR { return hn::Add(hn::Mul(a, a), hn::Mul(b, b)); };
-  hn::Vec<D> evidence, u, v, length, off_u, off_v;
+  hn::Vec<D> evidence, u, v, length, off_u, off_v, mean_u, mean_v;
   hn::LoadInterleaved4(d, row.moving + 4 * i, evidence, u, v, length);
   hn::LoadInterleaved2(d, row.residual[1] + 2 * i, off_u, off_v);
+  hn::LoadInterleaved2(d, row.mean_residual + 2 * i, mean_u, mean_v);
   const auto half2 = constant(by.half2);
-  const auto around = hn::Add(hn::Mul(constant(kKeptBelow), hn::LoadU(d, around2 + i)), half2);
+  const auto around = hn::Add(hn::Mul(constant(kKeptBelow), squares(mean_u, mean_v)), half2);
   // Background that an object has just uncovered is static where the object moved: it inherits no evidence.
   const auto kept = hn::Min(constant(1), hn::Div(around, hn::Add(squares(u, v), half2)));
   const auto old = hn::Mul(kept, constant(1 - by.rate)), rate = constant(by.rate);
@@ -156,8 +156,8 @@ HWY_INLINE void forLanes(size_t width, const Work& work) {
 void propagate(const Propagation& by, const PropagationRow& row) {
   forLanes(row.width, [&](auto d, size_t i) HWY_ATTR { places(d, by, row, i); });
   fetchRow(row);
-  squaredMeans(row, row.motion);
-  forLanes(row.width, [&](auto d, size_t i) HWY_ATTR { accumulate(d, by, row, row.motion, i); });
+  meanResiduals(row, row.sums, row.mean_residual);
+  forLanes(row.width, [&](auto d, size_t i) HWY_ATTR { accumulate(d, by, row, i); });
 }
 
 }  // namespace HWY_NAMESPACE

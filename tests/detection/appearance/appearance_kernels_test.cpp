@@ -106,7 +106,7 @@ TEST_P(AppearanceKernels, LearningIsTheScalarOne) {
 TEST_P(AppearanceKernels, ShadowsAreTheScalarOnes) {
   constexpr double kNoise = 8;
   image_ = 0.6 * model_ + 0.02 * image_;
-  cv::Mat3f products(kSize), sums;
+  cv::Mat3f products = cv::Mat3f::zeros(kSize), sums;
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
       for (int i = 0; i < 3; ++i) {
