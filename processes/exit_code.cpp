@@ -1,5 +1,6 @@
 #include "processes/exit_code.hpp"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -49,6 +50,12 @@ int fail(int code, const std::string& line) {
 }  // namespace
 
 void endWhereMemoryIsShort() { std::set_new_handler(endWithoutMemory); }
+
+void keepFreedMemory() {
+  constexpr int kLarge = 32 << 20;  // bytes: more than any image takes, and the most that glibc accepts
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_TRIM_THRESHOLD, kLarge);
+}
 
 int exitCodeOf(const CLI::App& app, const std::function<void()>& work) {
   const std::string& program = app.get_name();

@@ -13,6 +13,11 @@ namespace redbee {
 /// throw: code of C libraries and of handlers cannot go on from there, and would abort.
 void endWhereMemoryIsShort();
 
+/// From now on freed memory stays with the process. Images of each frame are as large as those of the one
+/// before; by default the C library returns such memory at once, and every frame's pages are mapped and
+/// cleared again.
+void keepFreedMemory();
+
 /// Runs `work`, which may parse the command line with `app`. Returns 0 on success; otherwise prints one line
 /// on stderr and returns 2 for bad use or bad input, 1 for any other failure, as where standard output cannot
 /// be written. For a CLI::RuntimeError it returns its code and prints nothing.

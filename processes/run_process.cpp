@@ -13,6 +13,7 @@ namespace redbee {
 
 int runProcess(int argc, char** argv, const ProcessDescription& process, const NodeFactory& factory) {
   endWhereMemoryIsShort();
+  keepFreedMemory();
   const std::string name = programName(process);
   CLI::App app(std::string("REDBEE ") + releaseVersion() + ", " + name, name);
   std::filesystem::path configuration_file;

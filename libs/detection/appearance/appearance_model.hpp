@@ -4,6 +4,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "redbee/detection/appearance/appearance_kernels.hpp"
+#include "redbee/detection/appearance/background_warp.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/imaging/warping.hpp"
 
@@ -33,14 +35,13 @@ class AppearanceModel {
   void learn(const cv::Mat4f& image, const cv::Mat1f& moving, const SurfaceSpeed& speed, double elapsed_s);
 
  private:
-  float movedAway(float learned_speed, const cv::Vec2f& speed) const;
+  SurfaceReset surfaceReset() const;
 
   AppearanceParameters parameters_;
   ShadowParameters shadow_;
   double evidence_sigmas_;
-  cv::Mat4f model_;  ///< mean colour (3, grey levels), variance (per channel)
-  cv::Mat1f speed_;  ///< px: speed of the surface that a pixel's model was learned from
-  cv::Mat1b age_;    ///< number of images that a pixel was learned from, at most 255
+  BackgroundMaps maps_;
+  BackgroundMaps warped_;  ///< those of the frame before; their memory is used again
 };
 
 }  // namespace redbee

@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "redbee/detection/appearance/appearance_kernels.hpp"
+
 namespace redbee {
 
 class ShadowTest {
@@ -17,18 +19,18 @@ class ShadowTest {
   const std::vector<float>& row(int y);
 
  private:
-  /// Sums over three neighbours of a row: image squared, image times background, background squared.
+  /// Of one row, over three neighbours.
   struct Sums {
-    std::vector<float> pp, pb, bb;
+    std::vector<float> values;
+    ShadowSums of(size_t width) { return {values.data(), values.data() + width, values.data() + 2 * width}; }
   };
   void add(int y);
-  float score(float pp, float pb, float bb) const;
 
   cv::Mat4f image_;
   cv::Mat4f background_;
   float noise_variance_;
   int next_ = 0;
-  Sums products_;
+  std::vector<float> products_;
   Sums rows_[3];
   std::vector<float> shadow_;
 };

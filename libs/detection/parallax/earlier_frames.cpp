@@ -2,24 +2,25 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
+#include "redbee/detection/parallax/alignment_kernels.hpp"
 #include "redbee/geometry/compose_motion.hpp"
 #include "redbee/imaging/warping.hpp"
 
 namespace redbee {
 namespace {
 
-/// 255 above the horizon.
-cv::Mat1b aboveHorizon(cv::Size size, const SceneMotion& scene) {
-  cv::Mat1b above(size);
-  for (int y = 0; y < size.height; ++y) {
-    const SceneMotion::HorizonCut cut = scene.cutAtHorizon(y, size.width);
-    std::fill_n(above[y], cut.at, uint8_t(cut.ground_first ? 0 : 255));
-    std::fill(above[y] + cut.at, above[y] + size.width, uint8_t(cut.ground_first ? 255 : 0));
-  }
-  return above;
+/// Current to earlier, row by row.
+std::array<double, 9> inverseOf(const Eigen::Matrix3d& H) {
+  cv::Matx33d back;
+  cv::invert(toMatx(H), back);
+  std::array<double, 9> entries{};
+  std::copy_n(back.val, entries.size(), entries.begin());
+  return entries;
 }
 
 void growUnknown(cv::Mat1b& unknown, int margin_px) {
@@ -63,12 +64,19 @@ const EarlierFrame* EarlierFrames::aged(CameraTime now, double age_s) const {
 
 AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px) {
   const SceneMotion scene(frame.ground, frame.motion, K);
-  AlignedImage aligned{warpToCurrent(frame.grey, scene.ground, cv::INTER_LINEAR),
-                       ~overlapMask(frame.grey.size(), scene.ground)};
-  const cv::Mat1b above = aboveHorizon(frame.grey.size(), scene);
-  if (cv::countNonZero(above) > 0) {
-    warpToCurrent(frame.grey, scene.far, cv::INTER_LINEAR).copyTo(aligned.grey, above);
-    cv::Mat1b(~overlapMask(frame.grey.size(), scene.far)).copyTo(aligned.unknown, above);
+  const std::array<double, 9> ground = inverseOf(scene.ground), far = inverseOf(scene.far);
+  const cv::Size size = frame.grey.size();
+  AlignedImage aligned{cv::Mat1b(size), cv::Mat1b(size)};
+  std::vector<int32_t> places(4 * static_cast<size_t>(size.width));
+  const EarlierImage image{frame.grey[0], frame.grey.step[0], size.width, size.height};
+  for (int y = 0; y < size.height; ++y) {
+    const SceneMotion::HorizonCut cut = scene.cutAtHorizon(y, size.width);
+    const auto align = [&](bool is_ground, int begin, int end) {
+      alignRow(image, (is_ground ? ground : far).data(),
+               {y, begin, end, places.data(), aligned.grey[y], aligned.unknown[y]});
+    };
+    align(cut.ground_first, 0, cut.at);
+    align(!cut.ground_first, cut.at, size.width);
   }
   growUnknown(aligned.unknown, margin_px);
   return aligned;

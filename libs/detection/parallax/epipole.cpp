@@ -80,9 +80,10 @@ std::vector<Sample> significantFlow(const EpipoleInput& input, Coverage& known) 
       const cv::Vec2f back = input.flow(y, x);
       const cv::Vec2f forth = -back - input.error.at(pixel[0], pixel[1]);
       const float length2 = forth.dot(forth);
-      if (length2 < kSignificant * kSignificant * input.variance(y, x)) continue;
+      const float variance = input.noise.largest(y, x);
+      if (length2 < kSignificant * kSignificant * variance) continue;
       samples.push_back({(pixel + back - input.error.middle) * (1 / input.error.unit), forth,
-                         input.variance(y, x) + kDirectionError * kDirectionError * length2});
+                         variance + kDirectionError * kDirectionError * length2});
     }
   }
   return samples;

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "redbee/detection/parallax/flow_covariance.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
 
 namespace redbee {
@@ -13,7 +14,7 @@ namespace redbee {
 /// What the epipole is estimated from, between an earlier frame and the current one.
 struct EpipoleInput {
   cv::Mat2f flow;        ///< px, from the current image to the earlier one aligned to it
-  cv::Mat1f variance;    ///< px^2, of the flow
+  FlowCovariance noise;  ///< px^2, of the flow
   cv::Mat1b unknown;     ///< not 0 where the flow is undefined
   HomographyFlow error;  ///< of the alignment, earlier image to current one
   cv::Matx33d ground;    ///< homography of the ground, earlier frame to current one [px]

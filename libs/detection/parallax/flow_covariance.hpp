@@ -2,11 +2,54 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace redbee {
 
 /// A symmetric 2x2 matrix: xx, xy, yy.
 using Symmetric2f = cv::Vec3f;
+
+/// The variance along the direction in which it is the largest.
+float largestVariance(const Symmetric2f& covariance);
+
+/// Covariances of all pixels of an image, interpolated from a smaller map.
+class FlowCovariance {
+ public:
+  FlowCovariance(const cv::Mat3f& map, cv::Size size);
+  /// The same variance everywhere, in all directions.
+  FlowCovariance(cv::Size size, float variance);
+
+  cv::Size size() const { return size_; }
+  Symmetric2f operator()(int y, int x) const;
+  float largest(int y, int x) const { return largestVariance((*this)(y, x)); }
+
+  /// A row of pixels lies between two rows of the map; these are interpolated along the row, xx, xy and yy
+  /// apart.
+  struct Rows {
+    const float* upper[3];
+    const float* lower[3];
+    float upper_weight, lower_weight;
+  };
+  /// Valid until the next call; fast for rows in order.
+  Rows rows(int y);
+
+ private:
+  struct Column {
+    int left, right;
+    float right_weight;
+  };
+  struct InterpolatedRow {
+    int row = -1;
+    std::vector<float> values;  ///< xx, xy, yy
+  };
+  Symmetric2f along(const Symmetric2f* row, const Column& column) const;
+  InterpolatedRow& interpolated(int row);
+
+  cv::Mat3f map_;
+  cv::Size size_;
+  std::vector<Column> columns_;
+  InterpolatedRow kept_[2];
+};
 
 struct FlowNoise {
   double sigma_px;      ///< px at full size, of the flow over good texture
@@ -22,16 +65,12 @@ class FlowTexture {
 
   /// Covariance [px^2], of grey's size: sigma^2 (I + min_gradient^2 S^-1), S the gradient matrix (structure
   /// tensor; Foerstner and Guelch 1987) around each pixel.
-  cv::Mat3f covariance(const FlowNoise& noise) const;
+  FlowCovariance covariance(const FlowNoise& noise) const;
 
  private:
   cv::Mat3f gradients_;  ///< S, quarter-size
   cv::Size size_;
   double scale_;
 };
-
-/// The variance along the direction in which it is the largest.
-float largestVariance(const Symmetric2f& covariance);
-cv::Mat1f largestVariance(const cv::Mat3f& covariance);
 
 }  // namespace redbee

@@ -45,11 +45,13 @@ cv::Mat4f ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Ma
                                              cv::Size full) const {
   cv::Mat3b image = colour;
   if (image.empty()) cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
-  cv::Mat3b small;
-  cv::resize(image, small, shrunkSize(full, downscale_), 0, 0, cv::INTER_AREA);
+  if (const cv::Size size = shrunkSize(full, downscale_); image.size() != size) {
+    cv::resize(image, image, size, 0, 0, cv::INTER_AREA);
+  }
   // Suppresses the noise of single pixels and of JPEG blocks.
   constexpr double kSigmaPx = 0.6;
-  cv::GaussianBlur(small, small, {3, 3}, kSigmaPx);
+  cv::Mat3b small;
+  cv::GaussianBlur(image, small, {3, 3}, kSigmaPx);
   cv::Mat4b with_fourth;
   cv::cvtColor(small, with_fourth, cv::COLOR_BGR2BGRA);
   cv::Mat4f compared;
@@ -67,6 +69,15 @@ void ForegroundEvidence::fillRegions(const cv::Mat4f& image, cv::Mat1f& foregrou
   foreground = cv::min(cv::max(foreground, 0), 1);
 }
 
+/// What the background model knows of the flow: foreground before its appearance counts, and the surfaces'
+/// speed.
+void ForegroundEvidence::resizeToBackground(cv::Mat1f& foreground, SurfaceSpeed& speed, cv::Size size) const {
+  speed = motion_.speed();
+  if (speed.size() == size) return;
+  cv::resize(motion_.speed(), speed, size, 0, 0, cv::INTER_LINEAR);
+  cv::resize(foreground, foreground, size, 0, 0, cv::INTER_LINEAR);
+}
+
 ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey, const cv::Mat3b& colour,
                                          const Eigen::Matrix3d& K, cv::Size full) {
   const double elapsed_s = seconds(time - last_time_);
@@ -76,11 +87,13 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   if (!motion.empty()) foreground = motion / (motion + parallax_.motion_half);
   if (appearance_.enabled) {
     const cv::Mat4f image = imageToCompare(grey, colour, full);
-    cv::Mat1f moving = cv::Mat1f::zeros(image.size());
-    SurfaceSpeed speed(image.size(), cv::Vec2f(0, kUnknownVariance));
-    if (!motion.empty()) {
-      cv::resize(motion_.speed(), speed, image.size(), 0, 0, cv::INTER_LINEAR);
-      cv::resize(foreground, foreground, image.size(), 0, 0, cv::INTER_LINEAR);
+    cv::Mat1f moving;
+    SurfaceSpeed speed;
+    if (motion.empty()) {
+      moving = cv::Mat1f::zeros(image.size());
+      speed = SurfaceSpeed(image.size(), cv::Vec2f(0, kUnknownVariance));
+    } else {
+      resizeToBackground(foreground, speed, image.size());
       cv::Mat1f foreign = foreground.mul(background_.appearanceDifference(image, speed));
       if (parallax_.use_hole_filling) {
         const double gap_px = parallax_.outline_gap_px / downscale_;

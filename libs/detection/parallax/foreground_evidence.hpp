@@ -31,6 +31,7 @@ class ForegroundEvidence {
                        const Eigen::Matrix3d& K, cv::Size full);
 
  private:
+  void resizeToBackground(cv::Mat1f& foreground, SurfaceSpeed& speed, cv::Size size) const;
   void fillRegions(const cv::Mat4f& image, cv::Mat1f& foreground) const;
   cv::Mat4f imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour, cv::Size full) const;
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parallax/border_structure.hpp"
+#include "redbee/detection/parallax/evidence_kernels.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
 #include "redbee/imaging/guided_filter.hpp"
 #include "redbee/imaging/warping.hpp"
@@ -24,35 +26,49 @@ int halvings(int from_downscale, int to_downscale) {
   return times;
 }
 
-/// Bounded, so that few pixels of a wild flow do not make the mean of many.
-cv::Mat1f squaredLength(const cv::Mat2f& vectors) {
-  constexpr float kMost = 100;
-  cv::Mat1f squared(vectors.size());
-  for (int y = 0; y < vectors.rows; ++y) {
-    for (int x = 0; x < vectors.cols; ++x) {
-      squared(y, x) = std::min(vectors(y, x).dot(vectors(y, x)), kMost);
+SmoothFlow smoothFlow(const HomographyFlow& flow) {
+  const auto& a = flow.affine;
+  return {{flow.middle[0], flow.middle[1]},
+          flow.unit,
+          {a(0, 0), a(0, 1), a(0, 2), a(1, 0), a(1, 1), a(1, 2)},
+          {flow.perspective[0], flow.perspective[1]}};
+}
+
+/// residualRow() for any segment.
+void residualRowAlong(const ParallaxSegment& segment, const HomographyFlow& error, const ResidualRow& row) {
+  for (size_t i = 0; i < row.width; ++i) {
+    const cv::Vec2f pixel(static_cast<float>(i), static_cast<float>(row.y)),
+        back(row.flow[2 * i], row.flow[2 * i + 1]);
+    const auto entry = [&](size_t k) {
+      return row.upper[k][i] * row.upper_weight + row.lower[k][i] * row.lower_weight;
+    };
+    const Symmetric2f noise(entry(0), entry(1), entry(2));
+    const cv::Vec2f forth = -back - error.at(pixel[0], pixel[1]);
+    const ParallaxSegment::Residual found = segment.residual(pixel + back, forth, noise);
+    const bool is_known = row.unknown[i] == 0;
+    row.squared[i] = is_known ? std::min(found.squaredMahalanobis(), kMostSquaredResidual) : kNotCompared;
+    for (int k = 0; k < 2; ++k) {
+      row.normalized_residual[2 * i + static_cast<size_t>(k)] = is_known ? found.normalized_residual[k] : 0;
+      row.nearest[2 * i + static_cast<size_t>(k)] = found.nearest[k];
     }
+    row.speed[2 * i] = std::sqrt(forth.dot(forth));
+    row.speed[2 * i + 1] = largestVariance(noise);
   }
-  return squared;
 }
 
 }  // namespace
 
-cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const ParallaxParameters& parameters) {
-  constexpr int kIterations = 4;
-  constexpr int kStride = 5;
-  auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
-  dis->setFinestScale(halvings(parameters.work_downscale, parameters.flow_downscale));
-  dis->setGradientDescentIterations(kIterations);
-  dis->setPatchStride(kStride);
-  return dis;
+InverseSearch makeMotionFlow(const ParallaxParameters& parameters) {
+  InverseSearchParameters search;
+  search.finest_scale = halvings(parameters.work_downscale, parameters.flow_downscale);
+  return InverseSearch(search);
 }
 
 ParallaxEvidence::ParallaxEvidence(const ParallaxParameters& parameters)
     : parameters_(parameters),
       scale_(std::max(parameters.work_downscale, 1)),
       work_(downscaling(scale_)),
-      dis_(makeMotionFlow(parameters)),
+      search_(makeMotionFlow(parameters)),
       propagated_(parameters) {}
 
 void ParallaxEvidence::reset() {
@@ -96,33 +112,27 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
 cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b& grey,
                                      const Eigen::Matrix3d& K, double frames) {
   // Within half a patch of unknown pixels the flow is extrapolated.
-  const int margin = (dis_->getPatchSize() / 2) << dis_->getFinestScale();
-  const AlignedImage reference = alignImage(frame, K, margin);
+  const AlignedImage reference = alignImage(frame, K, search_.patch() / 2);
   unknown_ = reference.unknown;
-  cv::Mat2f flow;
-  dis_->calc(grey, reference.grey, flow);
+  const cv::Mat2f& flow = search_.flow(grey, reference.grey);
   const FlowTexture texture(grey, scale_);
-  const cv::Mat3f covariance = texture.covariance({parameters_.noise_px, parameters_.min_gradient});
-  const cv::Mat1f variance = largestVariance(texture.covariance({parameters_.noise_px, kFitGradient}));
+  FlowCovariance covariance = texture.covariance({parameters_.noise_px, parameters_.min_gradient});
+  const FlowCovariance fit_noise = texture.covariance({parameters_.noise_px, kFitGradient});
   ParallaxSegment segment(frame.motion, K, parameters_);
-  HomographyFlow error = registration(flow, variance, segment);
+  HomographyFlow error = registration(flow, fit_noise, segment);
   bool direction_known = frame.motion && parameters_.use_epipolar;
   if (!frame.motion) {
-    if (const auto estimated = segmentWithoutMotion(frame, K, flow, variance, error)) {
+    if (const auto estimated = segmentWithoutMotion(frame, K, flow, fit_noise, error)) {
       segment = *estimated;
-      error = registration(flow, variance, segment);
+      error = registration(flow, fit_noise, segment);
       direction_known = true;
     }
   }
-  cv::Mat2f nearest(flow.size());
-  FrameEvidence now = frameEvidence(segment, error, covariance, flow, frames, nearest);
+  compareWithSegment(segment, error, covariance, flow);
   if (direction_known && parameters_.photometric_noise > 0)
-    compared_.emplace(ImagePair{grey, reference.grey, flow, nearest, error});
-  fast_ = parameters_.use_short_baseline && hasFastMovers(flow, now.normalized_residual, frames);
-  residual_ = squaredLength(now.normalized_residual);
-  residual_.setTo(kNotCompared, unknown_);
-  now.normalized_residual.setTo(cv::Scalar::all(0), unknown_);
-  propagated_.update(now, last_step_, unknown_);
+    compared_.emplace(ImagePair{grey, reference.grey, flow, nearest_, error});
+  fast_ = parameters_.use_short_baseline && hasFastMovers(flow, frames);
+  propagated_.update({normalized_residual_, flow, static_cast<float>(1 / frames)}, last_step_, unknown_);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
   cv::Mat1f motion = guidedFilter(grey, propagated_.motion(), radius, parameters_.fill_contrast);
   motion = cv::min(cv::max(motion, 0), 1);
@@ -133,10 +143,10 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
 std::optional<ParallaxSegment> ParallaxEvidence::segmentWithoutMotion(const EarlierFrame& frame,
                                                                       const Eigen::Matrix3d& K,
                                                                       const cv::Mat2f& flow,
-                                                                      const cv::Mat1f& variance,
+                                                                      const FlowCovariance& noise,
                                                                       const HomographyFlow& error) {
   if (parameters_.use_epipolar && parameters_.use_epipole) {
-    const EpipoleInput input{flow, variance, unknown_, error, toMatx(frame.ground), toMatx(K)};
+    const EpipoleInput input{flow, noise, unknown_, error, toMatx(frame.ground), toMatx(K)};
     if (const auto epipole = epipole_.update(input, elapsed_s_))
       return ParallaxSegment(*epipole, parameters_);
   }
@@ -152,8 +162,7 @@ cv::Mat1f ParallaxEvidence::photometricGain(const cv::Mat1f& foreground) const {
   return redbee::photometricGain(*compared_, at_work > kCompared, parameters_.photometric_noise);
 }
 
-bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual,
-                                     double frames) const {
+bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, double frames) const {
   // At this speed an object moves by a whole flow patch within two frames, and the halos of the flow at
   // occlusions are as wide.
   constexpr double kFastPx = 8;  // full-size px a frame
@@ -166,7 +175,7 @@ bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& nor
     for (int x = kStep / 2; x < flow.cols; x += kStep) {
       if (unknown_(y, x) != 0) continue;
       ++known;
-      const bool moves = cv::norm(normalized_residual(y, x)) > kSureSigmas;
+      const bool moves = cv::norm(normalized_residual_(y, x)) > kSureSigmas;
       if (moves && cv::norm(flow(y, x)) > fast) ++fast_movers;
     }
   }
@@ -180,33 +189,38 @@ void ParallaxEvidence::suppressBorderStructure(cv::Mat1f& motion) const {
   motion = motion.mul(inside).mul(inside);
 }
 
-HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const cv::Mat1f& variance,
+HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const FlowCovariance& noise,
                                               const ParallaxSegment& segment) const {
   if (!parameters_.use_registration) return HomographyFlow(flow.size());
-  return registrationError(flow, variance, unknown_, segment, static_cast<float>(kExpectedErrorPx / scale_));
+  return registrationError(flow, noise, unknown_, segment, static_cast<float>(kExpectedErrorPx / scale_));
 }
 
-FrameEvidence ParallaxEvidence::frameEvidence(const ParallaxSegment& segment, const HomographyFlow& error,
-                                              const cv::Mat3f& covariance, const cv::Mat2f& flow,
-                                              double frames, cv::Mat2f& nearest) {
-  FrameEvidence evidence{cv::Mat2f(flow.size()), flow * (1 / frames)};
-  speed_.create(flow.size());
+void ParallaxEvidence::compareWithSegment(const ParallaxSegment& segment, const HomographyFlow& error,
+                                          FlowCovariance& noise, const cv::Mat2f& flow) {
+  for (cv::Mat2f* map : {&normalized_residual_, &nearest_, &speed_}) map->create(flow.size());
+  residual_.create(flow.size());
+  const SmoothFlow smooth_error = smoothFlow(error);
+  const std::optional<cv::Vec3f> epipole = segment.epipole();
   for (int y = 0; y < flow.rows; ++y) {
-    const cv::Vec2f* back = flow[y];
-    const Symmetric2f* noise = covariance[y];
-    cv::Vec2f* residual = evidence.normalized_residual[y];
-    cv::Vec2f* speed = speed_[y];
-    cv::Vec2f* at = nearest[y];
-    for (int x = 0; x < flow.cols; ++x) {
-      const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
-      const cv::Vec2f forth = -back[x] - error.at(pixel[0], pixel[1]);
-      const ParallaxSegment::Residual found = segment.residual(pixel + back[x], forth, noise[x]);
-      residual[x] = found.normalized_residual;
-      at[x] = found.nearest;
-      speed[x] = {std::sqrt(forth.dot(forth)), largestVariance(noise[x])};
+    const FlowCovariance::Rows rows = noise.rows(y);
+    const ResidualRow row{y,
+                          static_cast<size_t>(flow.cols),
+                          flow.ptr<float>(y),
+                          {rows.upper[0], rows.upper[1], rows.upper[2]},
+                          {rows.lower[0], rows.lower[1], rows.lower[2]},
+                          rows.upper_weight,
+                          rows.lower_weight,
+                          unknown_[y],
+                          normalized_residual_.ptr<float>(y),
+                          residual_[y],
+                          nearest_.ptr<float>(y),
+                          speed_.ptr<float>(y)};
+    if (epipole) {
+      residualRow(smooth_error, epipole->val, segment.directionVariance(), row);
+    } else {
+      residualRowAlong(segment, error, row);
     }
   }
-  return evidence;
 }
 
 }  // namespace redbee

@@ -9,7 +9,6 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <opencv2/video/tracking.hpp>
 #include <optional>
 #include <vector>
 
@@ -21,11 +20,12 @@
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/time.hpp"
+#include "redbee/imaging/inverse_search.hpp"
 
 namespace redbee {
 
-/// Dense inverse search (DIS) flow for images at work_downscale, computed at flow_downscale.
-cv::Ptr<cv::DISOpticalFlow> makeMotionFlow(const ParallaxParameters& parameters);
+/// Dense flow for images at work_downscale, computed at flow_downscale.
+InverseSearch makeMotionFlow(const ParallaxParameters& parameters);
 
 class ParallaxEvidence {
  public:
@@ -56,22 +56,22 @@ class ParallaxEvidence {
                      double frames);
   /// By the epipole, or else by the front plane. `error`: of the registration without parallax.
   std::optional<ParallaxSegment> segmentWithoutMotion(const EarlierFrame& frame, const Eigen::Matrix3d& K,
-                                                      const cv::Mat2f& flow, const cv::Mat1f& variance,
+                                                      const cv::Mat2f& flow, const FlowCovariance& noise,
                                                       const HomographyFlow& error);
-  HomographyFlow registration(const cv::Mat2f& flow, const cv::Mat1f& variance,
+  HomographyFlow registration(const cv::Mat2f& flow, const FlowCovariance& noise,
                               const ParallaxSegment& segment) const;
-  FrameEvidence frameEvidence(const ParallaxSegment& segment, const HomographyFlow& error,
-                              const cv::Mat3f& covariance, const cv::Mat2f& flow, double frames,
-                              cv::Mat2f& nearest);
+  /// Sets the residual maps and speed_.
+  void compareWithSegment(const ParallaxSegment& segment, const HomographyFlow& error, FlowCovariance& noise,
+                          const cv::Mat2f& flow);
   /// True if much of the image moves so fast that the previous frame is a better reference than an earlier
   /// one.
-  bool hasFastMovers(const cv::Mat2f& flow, const cv::Mat2f& normalized_residual, double frames) const;
+  bool hasFastMovers(const cv::Mat2f& flow, double frames) const;
   void suppressBorderStructure(cv::Mat1f& motion) const;
 
   ParallaxParameters parameters_;
   double scale_;          ///< full-size pixels per pixel at work_downscale
   Eigen::Matrix3d work_;  ///< full-size pixels to those at work_downscale
-  cv::Ptr<cv::DISOpticalFlow> dis_;
+  InverseSearch search_;
   EarlierFrames frames_;
   EpipoleEstimator epipole_;
   PropagatedEvidence propagated_;
@@ -80,6 +80,7 @@ class ParallaxEvidence {
   bool fast_ = false;                                        ///< the last frame had fast movers
   cv::Mat1b unknown_;
   cv::Mat2f speed_;
+  cv::Mat2f normalized_residual_, nearest_;  ///< ParallaxSegment::Residual
   cv::Mat1f residual_;
   std::optional<ImagePair> compared_;  ///< if the direction of travel is known
 };

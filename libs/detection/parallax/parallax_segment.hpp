@@ -41,6 +41,9 @@ class ParallaxSegment {
   /// `ground`: position of the scene point in the current image if it lay on the ground [px]; `flow`: from
   /// there to its actual position [px], of covariance `noise` [px^2]. The direction's error adds to it.
   Residual residual(const cv::Vec2f& ground, const cv::Vec2f& flow, const Symmetric2f& noise) const;
+  /// The epipole, 0 without parallax; std::nullopt if the segment is the front plane's.
+  std::optional<cv::Vec3f> epipole() const { return to_front_ ? std::nullopt : std::optional(epipole_); }
+  float directionVariance() const { return direction_variance_; }
   /// Unit vector of the parallax at `ground`; 0 where there is none.
   cv::Vec2f direction(const cv::Vec2f& ground) const;
 

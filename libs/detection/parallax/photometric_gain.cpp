@@ -1,6 +1,7 @@
 #include "redbee/detection/parallax/photometric_gain.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
 namespace redbee {
@@ -30,13 +31,28 @@ float sample(const cv::Mat1b& image, const cv::Vec2f& at) {
   return along(above) + fy * (along(below) - along(above));
 }
 
+/// Over the window; mirrored at the border.
+cv::Vec3f meanAround(const cv::Mat3f& of, int x, int y) {
+  constexpr int kHalf = kWindow_px / 2;
+  const auto inside = [](int at, int size) {
+    const int mirrored = std::abs(at);
+    return std::max(std::min(mirrored, 2 * (size - 1) - mirrored), 0);
+  };
+  cv::Vec3d sum;
+  for (int v = y - kHalf; v <= y + kHalf; ++v) {
+    const cv::Vec3f* row = of[inside(v, of.rows)];
+    for (int u = x - kHalf; u <= x + kHalf; ++u) sum += cv::Vec3d(row[inside(u, of.cols)]);
+  }
+  return sum * (1.0 / (kWindow_px * kWindow_px));
+}
+
 }  // namespace
 
 cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, double noise) {
   const cv::Size size = images.current.size();
   cv::Mat1f gain(size, kNotCompared);
   if (cv::countNonZero(where) == 0) return gain;
-  cv::Mat3f squared = cv::Mat3f::zeros(size);  // by the flow, the segment's nearest point, the ground
+  cv::Mat3f squared(size);  // where needed: by the flow, the segment's nearest point, the ground
   cv::Mat1b needed;
   cv::dilate(where, needed, cv::Mat1b::ones(kWindow_px, kWindow_px));
   for (int y = 0; y < size.height; ++y) {
@@ -51,13 +67,12 @@ cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, doubl
       squared(y, x) = difference.mul(difference);
     }
   }
-  cv::blur(squared, squared, {kWindow_px, kWindow_px});
   const auto noise2 = static_cast<float>(std::clamp(noise * noise, kLeastNoise2, kMostNoise2));
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       if (where(y, x) == 0) continue;
-      const cv::Vec3f& mean = squared(y, x);
-      const float by_flow = std::max(0.0F, mean[0]);  // the blur's running sums round
+      const cv::Vec3f mean = meanAround(squared, x, y);
+      const float by_flow = mean[0];
       gain(y, x) = std::max(0.0F, std::min(mean[1], mean[2]) - by_flow) / (noise2 + by_flow);
     }
   }

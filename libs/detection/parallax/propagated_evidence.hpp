@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "redbee/detection/parameters.hpp"
 
@@ -12,7 +14,8 @@ namespace redbee {
 /// Evidence of one frame, per pixel.
 struct FrameEvidence {
   cv::Mat2f normalized_residual;  ///< of the flow from the parallax segment
-  cv::Mat2f back_step;            ///< px: back along the flow by one frame, ground motion compensated
+  cv::Mat2f flow;                 ///< px: back along the flow, ground motion compensated
+  float step = 1;                 ///< of the flow that is one frame's
 };
 
 class PropagatedEvidence {
@@ -24,11 +27,16 @@ class PropagatedEvidence {
   void update(const FrameEvidence& now, const Eigen::Matrix3d& ground, const cv::Mat1b& unknown);
 
   /// 0..1: steady motion in one direction.
-  cv::Mat1f motion() const;
+  const cv::Mat1f& motion() const { return motion_; }
 
  private:
   ParallaxParameters parameters_;
-  cv::Mat4f moving_;  ///< E, V (2 channels) and L of equation 28
+  cv::Mat4f moving_;    ///< E, V (2 channels) and L of equation 28
+  cv::Mat4f previous_;  ///< the same, one frame earlier
+  cv::Mat1f motion_;
+  std::vector<int32_t> places_;
+  std::vector<double> sums_;
+  std::vector<float> mean_residual_;
 };
 
 }  // namespace redbee

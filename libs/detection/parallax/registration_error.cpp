@@ -22,7 +22,7 @@ struct Constraint {
   float variance;  ///< px^2
 };
 
-std::vector<Constraint> constraintsOf(const cv::Mat2f& flow, const cv::Mat1f& variance,
+std::vector<Constraint> constraintsOf(const cv::Mat2f& flow, const FlowCovariance& noise,
                                       const cv::Mat1b& unknown, const ParallaxSegment& segment) {
   const HomographyFlow units(flow.size());
   std::vector<Constraint> constraints;
@@ -33,11 +33,12 @@ std::vector<Constraint> constraintsOf(const cv::Mat2f& flow, const cv::Mat1f& va
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const float u = (pixel[0] - units.middle[0]) / units.unit;
       const float v = (pixel[1] - units.middle[1]) / units.unit;
+      const float variance = noise.largest(y, x);
       const auto add = [&](const cv::Vec2f& n) {
         Vector8f J;
         const float outwards = n[0] * u + n[1] * v;
         J << n[0] * u, n[0] * v, n[0], n[1] * u, n[1] * v, n[1], outwards * u, outwards * v;
-        constraints.push_back({J, -n.dot(back), variance(y, x)});
+        constraints.push_back({J, -n.dot(back), variance});
       };
       const cv::Vec2f along = segment.direction(pixel + back);
       if (along == cv::Vec2f(0, 0)) {
@@ -71,9 +72,9 @@ Vector8f solve(const std::vector<Constraint>& constraints, float expected_px) {
 
 }  // namespace
 
-HomographyFlow registrationError(const cv::Mat2f& flow, const cv::Mat1f& variance, const cv::Mat1b& unknown,
+HomographyFlow registrationError(const cv::Mat2f& flow, const FlowCovariance& noise, const cv::Mat1b& unknown,
                                  const ParallaxSegment& segment, float expected_px) {
-  const Vector8f h = solve(constraintsOf(flow, variance, unknown, segment), expected_px);
+  const Vector8f h = solve(constraintsOf(flow, noise, unknown, segment), expected_px);
   HomographyFlow error(flow.size());
   error.affine << h[0], h[1], h[2], h[3], h[4], h[5];
   error.perspective = {h[6], h[7]};

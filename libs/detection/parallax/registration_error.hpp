@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "redbee/detection/parallax/flow_covariance.hpp"
 #include "redbee/detection/parallax/parallax_segment.hpp"
 
 namespace redbee {
@@ -31,10 +32,10 @@ struct HomographyFlow {
 
 /// Robust fit of a homography's flow to the flow component perpendicular to the parallax (to both components
 /// without parallax): static surfaces at any depth agree on it, moving objects do not. `flow`: px, from the
-/// current image to the aligned earlier one; `variance`: px^2, of the flow; `unknown`: not 0 where the flow
+/// current image to the aligned earlier one; `noise`: of the flow; `unknown`: not 0 where the flow
 /// is undefined; `expected_px`: sigma of a weak prior on the error. The result is from the earlier image to
 /// the current one, like the flow of `segment`.
-HomographyFlow registrationError(const cv::Mat2f& flow, const cv::Mat1f& variance, const cv::Mat1b& unknown,
+HomographyFlow registrationError(const cv::Mat2f& flow, const FlowCovariance& noise, const cv::Mat1b& unknown,
                                  const ParallaxSegment& segment, float expected_px);
 
 }  // namespace redbee

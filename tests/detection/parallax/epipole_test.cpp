@@ -24,7 +24,7 @@ cv::Vec2f parallax(const cv::Vec3f& e, const cv::Vec2f& ground) {
 /// The ground without residual flow.
 EpipoleInput emptyGround() {
   EpipoleInput input{cv::Mat2f(kSize),
-                     cv::Mat1f(kSize, kNoise_px * kNoise_px),
+                     FlowCovariance(kSize, kNoise_px * kNoise_px),
                      cv::Mat1b::zeros(kSize),
                      HomographyFlow(kSize),
                      kCamera * (cv::Matx33d::eye() + kTravel * kNormal.t()) * kCamera.inv(),

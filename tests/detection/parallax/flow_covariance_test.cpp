@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
 namespace redbee {
 namespace {
 
@@ -56,7 +58,27 @@ TEST(FlowCovariance, WithoutTextureItIsFiniteAndLarge) {
 
 TEST(FlowCovariance, TheLargestVarianceIsThatAlongTheEdge) {
   const cv::Mat3f covariance(1, 2, Symmetric2f(12.625F, 12.375F, 12.625F));
-  EXPECT_NEAR(largestVariance(covariance)(0, 1), 25, 1e-4);
+  EXPECT_NEAR(FlowCovariance(covariance, covariance.size()).largest(0, 1), 25, 1e-4);
+}
+
+/// The scalar reference: cv::resize().
+TEST(FlowCovariance, IsInterpolatedAsByOpenCv) {
+  for (const cv::Size size : {cv::Size(64, 48), cv::Size(128, 96), cv::Size(256, 192), cv::Size(131, 95)}) {
+    cv::Mat3f map(48, 64), resized;
+    cv::RNG(5).fill(map, cv::RNG::UNIFORM, 0, 100);
+    cv::resize(map, resized, size, 0, 0, cv::INTER_LINEAR);
+    FlowCovariance covariance(map, size);
+    for (int y = 0; y < size.height; ++y) {
+      const FlowCovariance::Rows rows = covariance.rows(y);
+      for (int x = 0; x < size.width; ++x) {
+        const auto value = [&](int i) {
+          return rows.upper[i][x] * rows.upper_weight + rows.lower[i][x] * rows.lower_weight;
+        };
+        ASSERT_EQ(resized(y, x), covariance(y, x));
+        ASSERT_EQ(resized(y, x), Symmetric2f(value(0), value(1), value(2)));
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -40,15 +40,16 @@ cv::Vec2f flowOfSmallMover(int work_downscale, int flow_downscale) {
   cv::GaussianBlur(ground, ground, {0, 0}, 2);
   random.fill(paint, cv::RNG::UNIFORM, 128, 255);
   cv::GaussianBlur(paint, paint, {0, 0}, 1);
-  cv::Mat then = ground.clone(), now = ground.clone(), flow;
+  cv::Mat then = ground.clone(), now = ground.clone();
   paint.copyTo(then(cv::Rect(70, 75, 10, 10)));
   paint.copyTo(now(cv::Rect(73, 75, 10, 10)));
   ParallaxParameters parameters;
   parameters.work_downscale = work_downscale;
   parameters.flow_downscale = flow_downscale;
-  makeMotionFlow(parameters)->calc(now, then, flow);
+  InverseSearch search = makeMotionFlow(parameters);
+  const cv::Mat2f& flow = search.flow(now, then);
   EXPECT_EQ(flow.size(), now.size());
-  return flow.at<cv::Vec2f>(80, 78);
+  return flow(80, 78);
 }
 
 TEST(MotionFlow, AFinerOneSeesAMoverThatAPatchOfACoarserOneHides) {

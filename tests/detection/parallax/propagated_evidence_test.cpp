@@ -16,7 +16,7 @@ class PropagatedEvidenceTest : public testing::Test {
     FrameEvidence now{cv::Mat2f::zeros(kSize, kSize), cv::Mat2f::zeros(kSize, kSize)};
     const cv::Rect square(x, 20, 9, 9);
     now.normalized_residual(square).setTo(cv::Scalar(off, 0));
-    now.back_step(square).setTo(cv::Scalar(-step, 0));
+    now.flow(square).setTo(cv::Scalar(-step, 0));
     evidence_.update(now, kStill, cv::Mat::zeros(kSize, kSize, CV_8U));
   }
   float motionAt(int x) const { return evidence_.motion().at<float>(24, x); }

@@ -9,7 +9,7 @@ namespace {
 
 const cv::Size kSize(320, 240);
 const cv::Mat kAllKnown = cv::Mat::zeros(kSize, CV_8U);
-const cv::Mat kVariance(kSize, CV_32F, cv::Scalar(0.06));
+const FlowCovariance kVariance(kSize, 0.06F);
 constexpr float kExpected_px = 0.25F;
 
 const Eigen::Matrix3d kCamera = (Eigen::Matrix3d() << 250, 0, 159.5, 0, 250, 119.5, 0, 0, 1).finished();
