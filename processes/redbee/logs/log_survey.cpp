@@ -75,8 +75,11 @@ std::string faultsOf(const ChannelSurvey& channel) {
 
 std::string damageText(const LogSurvey& survey) {
   if (survey.damage_report.empty()) return "none";
-  return fmt::format("{} place{} skipped{}; {}", survey.damaged, survey.damaged == 1 ? "" : "s",
-                     survey.truncated ? ", the end is cut short" : "", survey.damage_report);
+  std::string text;
+  if (survey.damaged > 0)
+    text = fmt::format("{} place{} skipped, ", survey.damaged, survey.damaged == 1 ? "" : "s");
+  if (survey.truncated) text += "the end is cut short, ";
+  return text + "first: " + survey.damage_report;
 }
 
 }  // namespace
