@@ -1,49 +1,14 @@
 // redbee import KIND: one subcommand for each importer.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "processes/common_options.hpp"
 #include "processes/redbee/commands/command.hpp"
-#include "processes/redbee/vehicle/vehicle_file.hpp"
-#include "redbee/files/progress.hpp"
-#include "redbee/files/user_error.hpp"
-#include "redbee/geometry/time.hpp"
+#include "processes/redbee/vehicle/import_flight.hpp"
 #include "redbee/importers/importer.hpp"
 
 namespace redbee {
 namespace {
-
-/// A log beside a configuration that does not fit it would be of no use.
-std::string comparedWith(const std::filesystem::path& configuration, const ImportSummary& summary,
-                         const std::filesystem::path& log) {
-  try {
-    return compareVehicleFile(configuration, summary.vehicle);
-  } catch (const UserError&) {
-    std::filesystem::remove(log);
-    throw;
-  }
-}
-
-void printSummary(ImportSummary summary, const std::filesystem::path& log) {
-  std::filesystem::path configuration = log;
-  configuration.replace_extension(".yaml");
-  const bool exists = std::filesystem::exists(configuration);
-  if (!exists) {
-    writeVehicleFile(summary.vehicle, log);
-  } else if (const std::string line = comparedWith(configuration, summary, log); !line.empty()) {
-    summary.warnings.push_back(line);
-  }
-  for (const std::string& warning : summary.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  std::printf("%s: %lld frames of %dx%d in %.3f s, %lld IMU samples (%.1f Hz), %lld altitudes\n", log.c_str(),
-              static_cast<long long>(summary.frames), summary.vehicle.width, summary.vehicle.height,
-              seconds(fromUtime(summary.last_utime - summary.first_utime)),
-              static_cast<long long>(summary.imu_samples), summary.imu_rate_hz,
-              static_cast<long long>(summary.altitudes));
-  std::printf(exists ? "%s: exists and is left as it is\n"
-                     : "%s: the vehicle as the recording describes it; check it before use\n",
-              configuration.c_str());
-}
 
 constexpr int kMostPixels = 16384;  ///< per side, of an image_t
 constexpr double kLeastFps = 0.01;
@@ -86,10 +51,7 @@ void addImporter(CLI::App& import, const Importer& importer) {
                       "the camera's calibration: Kalibr's camchain.yaml or camchain-imucam.yaml");
   command->add_option("--camera", options->camchain_camera, "the camera's section of the camchain")
       ->capture_default_str();
-  command->callback([options, importer] {
-    Progress progress("importing " + options->source.string(), "frames");
-    printSummary(importRecording(importer, *options, progress), options->log);
-  });
+  command->callback([options, importer] { printFlight(importFlight(importer, *options), options->log); });
 }
 
 const Command kImportCommand(CommandGroup::kFlights, "import",

@@ -48,7 +48,7 @@ TEST(CommandLine, HelpListsEveryCommand) {
   EXPECT_EQ(help.exit_code, 0);
   for (const char* name :
        {"calibrate", "collect", "compare", "configuration", "detect", "doctor", "evaluate", "import", "log",
-        "overlay", "record", "reference-extrinsics", "report", "simulate", "top", "watch"}) {
+        "overlay", "record", "reference-extrinsics", "report", "simulate", "top", "try", "watch"}) {
     EXPECT_NE(help.out.find(std::string("\n  ") + name + " "), std::string::npos) << name;
     if (std::string(name) == "calibrate") continue;  // replaces the process
     const ToolOutput own = run({name, "--help"});
