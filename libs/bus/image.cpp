@@ -5,6 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/bus/raw_format.hpp"
+
 namespace redbee {
 namespace {
 
@@ -20,14 +22,17 @@ bool canShrink(const image_t& message, int downscale) {
          message.height % downscale == 0;
 }
 
+/// The camera's matrix and mounting are those of the sensor, whatever orientation the JPEG states.
 int jpegFlags(bool colour, int downscale) {
   switch (downscale) {
     case 2:
-      return colour ? cv::IMREAD_REDUCED_COLOR_2 : cv::IMREAD_REDUCED_GRAYSCALE_2;
+      return cv::IMREAD_IGNORE_ORIENTATION |
+             (colour ? cv::IMREAD_REDUCED_COLOR_2 : cv::IMREAD_REDUCED_GRAYSCALE_2);
     case 4:
-      return colour ? cv::IMREAD_REDUCED_COLOR_4 : cv::IMREAD_REDUCED_GRAYSCALE_4;
+      return cv::IMREAD_IGNORE_ORIENTATION |
+             (colour ? cv::IMREAD_REDUCED_COLOR_4 : cv::IMREAD_REDUCED_GRAYSCALE_4);
     default:
-      return colour ? cv::IMREAD_COLOR : cv::IMREAD_GRAYSCALE;
+      return cv::IMREAD_IGNORE_ORIENTATION | (colour ? cv::IMREAD_COLOR : cv::IMREAD_GRAYSCALE);
   }
 }
 
@@ -66,29 +71,12 @@ std::optional<cv::Mat> decodeJpeg(const image_t& message, bool colour, int downs
   return decoded;
 }
 
-/// The message's bytes as an image, without a copy.
-std::optional<cv::Mat> viewRaw(const image_t& message, int channels) {
-  const int64_t row = static_cast<int64_t>(message.width) * channels;
-  if (message.row_stride < row || static_cast<int64_t>(message.row_stride) * message.height != message.size) {
-    return std::nullopt;
-  }
-  // cv::Mat has no read-only view; the callers below only read.
-  auto* data = const_cast<uint8_t*>(message.data.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-  return cv::Mat(message.height, message.width, CV_8UC(channels), data,
-                 static_cast<size_t>(message.row_stride));
-}
-
-std::optional<cv::Mat> convertRaw(const image_t& message, int channels, int code, int downscale) {
-  const auto view = viewRaw(message, channels);
-  if (!view) return std::nullopt;
-  cv::Mat converted;
-  if (code < 0) {
-    view->copyTo(converted);
-  } else {
-    cv::cvtColor(*view, converted, code);
-  }
-  if (downscale > 1) cv::resize(converted, converted, view->size() / downscale, 0, 0, cv::INTER_AREA);
-  return converted;
+std::optional<cv::Mat> decode(const image_t& message, bool colour, int downscale) {
+  if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
+  if (message.pixelformat == image_t::MJPEG) return decodeJpeg(message, colour, downscale);
+  auto image = decodeRaw(message, colour);
+  if (image && downscale > 1) cv::resize(*image, *image, image->size() / downscale, 0, 0, cv::INTER_AREA);
+  return image;
 }
 
 }  // namespace
@@ -109,35 +97,21 @@ std::optional<cv::Mat1b> decodeGrey(const image_t& message) { return decodeGrey(
 std::optional<cv::Mat3b> decodeColour(const image_t& message) { return decodeColour(message, 1); }
 
 std::optional<cv::Mat1b> decodeGrey(const image_t& message, int downscale) {
-  if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
-  switch (message.pixelformat) {
-    case image_t::GRAY:
-      return convertRaw(message, 1, -1, downscale);
-    case image_t::RGB:
-      return convertRaw(message, 3, cv::COLOR_RGB2GRAY, downscale);
-    case image_t::BGR:
-      return convertRaw(message, 3, cv::COLOR_BGR2GRAY, downscale);
-    case image_t::MJPEG:
-      return decodeJpeg(message, false, downscale);
-    default:
-      return std::nullopt;
-  }
+  return decode(message, false, downscale);
 }
 
 std::optional<cv::Mat3b> decodeColour(const image_t& message, int downscale) {
-  if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
-  switch (message.pixelformat) {
-    case image_t::GRAY:
-      return convertRaw(message, 1, cv::COLOR_GRAY2BGR, downscale);
-    case image_t::RGB:
-      return convertRaw(message, 3, cv::COLOR_RGB2BGR, downscale);
-    case image_t::BGR:
-      return convertRaw(message, 3, -1, downscale);
-    case image_t::MJPEG:
-      return decodeJpeg(message, true, downscale);
-    default:
-      return std::nullopt;
-  }
+  return decode(message, true, downscale);
+}
+
+std::string faultOfImage(const image_t& message) {
+  if (decode(message, false, 1)) return "";
+  const std::string name = formatName(message.pixelformat);
+  if (message.pixelformat != image_t::MJPEG && !isRawFormat(message.pixelformat))
+    return "pixel format " + name + " is not read; those that are: " + readableFormats();
+  return std::to_string(message.data.size()) + " bytes are no " + name + " image of " +
+         std::to_string(message.width) + "x" + std::to_string(message.height) + ", row stride " +
+         std::to_string(message.row_stride);
 }
 
 image_t rawGreyMessage(int64_t utime, const cv::Mat1b& grey) {

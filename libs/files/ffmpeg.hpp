@@ -7,8 +7,13 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee::ffmpeg {
 
@@ -44,5 +49,22 @@ inline std::string explain(int error) {
 
 /// Disables ffmpeg's own messages on stderr; errors are reported as exceptions.
 inline void silence() { av_log_set_level(AV_LOG_QUIET); }
+
+/// Opens a recording and finds its streams. `options`: of the demuxer. Throws InputError.
+inline Input openInput(const std::filesystem::path& path,
+                       const std::map<std::string, std::string>& options = {}) {
+  silence();
+  requireFile(path);
+  AVDictionary* dictionary = nullptr;
+  for (const auto& [key, value] : options) av_dict_set(&dictionary, key.c_str(), value.c_str(), 0);
+  AVFormatContext* raw = nullptr;
+  const int opened = avformat_open_input(&raw, path.c_str(), nullptr, &dictionary);
+  av_dict_free(&dictionary);
+  if (opened < 0) throw InputError(path, "is no video or is cut short: " + explain(opened));
+  Input input(raw);
+  const int found = avformat_find_stream_info(input.get(), nullptr);
+  if (found < 0) throw InputError(path, "its streams cannot be read: " + explain(found));
+  return input;
+}
 
 }  // namespace redbee::ffmpeg

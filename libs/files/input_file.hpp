@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "redbee/files/input_error.hpp"
 
@@ -35,6 +36,16 @@ inline std::string faultOfFile(const std::filesystem::path& file) {
 /// Throws InputError unless it is a regular file. To be called before any file of the user's is opened.
 inline void requireFile(const std::filesystem::path& file) {
   if (const std::string fault = faultOfFile(file); !fault.empty()) throw InputError(file, fault);
+}
+
+/// Throws InputError if `output` is one of `inputs`, under whatever name: writing would destroy it.
+inline void requireNoInput(const std::filesystem::path& output,
+                           const std::vector<std::filesystem::path>& inputs) {
+  for (const std::filesystem::path& input : inputs) {
+    std::error_code error;
+    if (std::filesystem::equivalent(output, input, error))
+      throw InputError(output, "is also the input, and would be overwritten: give --out another name");
+  }
 }
 
 }  // namespace redbee

@@ -59,7 +59,7 @@ void SplitLog::sync() {
 void SplitLog::openNext() {
   do {
     path_ = prefix_;
-    path_ += fmt::format(".{:02}", file_number_++);
+    path_ += fmt::format(".{:04}", file_number_++);
     file_ = createFile(path_);
   } while (!file_.isOpen() && errno == EEXIST);
   if (!file_.isOpen()) fail();

@@ -1,5 +1,5 @@
-// A log split into files while it is recorded: LCM logs NAME.00, NAME.01, ..., each readable by itself;
-// concatenated in order they are one log.
+// A log split into files while it is recorded: LCM logs NAME.0000, NAME.0001, ..., each readable by itself;
+// concatenated in order they are one log. Four digits, so that a shell lists them in order.
 #pragma once
 
 #include <cstdint>

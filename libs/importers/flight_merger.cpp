@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "redbee/altimeter_t.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/importers/imu_check.hpp"
 #include "redbee/ins_t.hpp"
 
 namespace redbee {
@@ -39,7 +41,21 @@ void FlightMerger::addFrame(const image_t& frame) {
   last_utime_ = frame.utime;
 }
 
+void FlightMerger::requirePlausibleImu(const std::filesystem::path& file, const ImuUnits& units) {
+  imu_file_ = file;
+  units_ = units;
+}
+
+void FlightMerger::check(ImportSummary& summary) const {
+  const ImuFindings findings =
+      checkImu(imu_, CameraTime(fromUtime(first_utime_)), CameraTime(fromUtime(last_utime_)), units_);
+  if (imu_file_ && !findings.faults.empty()) throw InputError(*imu_file_, findings.faults.front());
+  for (const auto* lines : {&findings.faults, &findings.warnings})
+    summary.warnings.insert(summary.warnings.end(), lines->begin(), lines->end());
+}
+
 void FlightMerger::close(ImportSummary& summary) {
+  check(summary);
   writeUpTo(Duration::max());
   log_.close();
   summary.frames = frames_;
@@ -49,9 +65,6 @@ void FlightMerger::close(ImportSummary& summary) {
   summary.last_utime = last_utime_;
   summary.imu_rate_hz = meanRate(imu_);
   summary.vehicle.has_imu = !imu_.empty();
-  const auto warning =
-      imuCoverageWarning(imu_, CameraTime(fromUtime(first_utime_)), CameraTime(fromUtime(last_utime_)));
-  if (warning) summary.warnings.push_back(*warning);
 }
 
 void FlightMerger::writeUpTo(Duration time) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "redbee/image_t.hpp"
@@ -15,19 +16,25 @@ class FlightMerger {
  public:
   FlightMerger(const std::filesystem::path& log, ImportChannels channels, std::vector<ImuSample> imu,
                std::vector<AltitudeSample> altitudes);
+  /// The file of the IMU's samples and the units in which it was read: what makes them useless (checkImu())
+  /// is then an InputError of close(), and a warning of the summary otherwise.
+  void requirePlausibleImu(const std::filesystem::path& file, const ImuUnits& units);
 
   void addFrame(const image_t& frame);
-  /// Writes the remaining samples, closes the log and fills counts, times and the coverage warning of the
+  /// Writes the remaining samples, closes the log and fills counts, times and the IMU's warnings of the
   /// summary.
   void close(ImportSummary& summary);
 
  private:
   void writeUpTo(Duration time);
+  void check(ImportSummary& summary) const;
 
   LogWriter log_;
   ImportChannels channels_;
   std::vector<ImuSample> imu_;
   std::vector<AltitudeSample> altitudes_;
+  std::optional<std::filesystem::path> imu_file_;
+  ImuUnits units_;
   size_t next_imu_ = 0;
   size_t next_altitude_ = 0;
   int64_t frames_ = 0;

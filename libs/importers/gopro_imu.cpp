@@ -1,5 +1,8 @@
 #include "redbee/importers/gopro_imu.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -115,6 +118,34 @@ Eigen::Vector3d toImuFrame(const GpmfSamples& samples, const std::array<double, 
   return {-axis('Y'), axis('X'), axis('Z')};
 }
 
+/// Seconds of the recorder's clock in one of the video's; 1 where it is not stamped.
+double recorderSpeed(const std::vector<Batch>& all) {
+  if (all.size() < 2 || !allStamped(all)) return 1;
+  std::vector<double> video;
+  std::vector<double> recorder;
+  for (const Batch& batch : all) {
+    video.push_back(batch.start_s);
+    recorder.push_back(*batch.samples.stamp_s);
+  }
+  const double speed = fitLine(video, recorder).slope;
+  return std::isfinite(speed) ? speed : 1;
+}
+
+/// The largest rotation of an image against the first one's, both against the camera. 0 without IORI.
+double imageTurn_deg(const std::vector<DataPacket>& packets) {
+  std::optional<Eigen::Quaterniond> first;
+  double largest = 0;
+  for (const DataPacket& packet : packets) {
+    for (const auto& [w, x, y, z] : gpmfQuaternions(packet.bytes, "IORI")) {
+      const Eigen::Quaterniond image = Eigen::Quaterniond(w, x, y, z).normalized();
+      if (!first) first = image;
+      const double angle = image.angularDistance(*first);
+      if (std::isfinite(angle)) largest = std::max(largest, angle);
+    }
+  }
+  return largest * 180 / M_PI;
+}
+
 std::vector<TimedVector> timed(const std::vector<Batch>& all, const std::string& key,
                                const std::optional<double>& stamp_offset) {
   const Line clock = sampleClock(all, stamp_offset);
@@ -140,6 +171,30 @@ GoproStreams readGoproStreams(const std::vector<DataPacket>& packets) {
   std::optional<double> offset;
   if (allStamped(gyro) && allStamped(accel)) offset = (stampOffset(gyro) + stampOffset(accel)) / 2;
   return {timed(gyro, "GYRO", offset), timed(accel, "ACCL", offset)};
+}
+
+std::optional<std::string> reasonToLeaveOut(const std::vector<DataPacket>& packets) {
+  const double turned = imageTurn_deg(packets);
+  // Half a degree of the mounting already shows (config/README.md).
+  if (turned > 0.5) {
+    return fmt::format(
+        "the IMU is left out: the camera stabilised the video and turned its images by up to {:.1f} "
+        "degrees; record with stabilisation off to use the IMU",
+        turned);
+  }
+  const std::vector<Batch> gyro = batches(packets, "GYRO");
+  const std::string advice = ", as in time lapse or slow motion: record at normal speed to use the IMU";
+  const double speed = recorderSpeed(gyro);
+  if (std::abs(speed - 1) > 0.05) {
+    return fmt::format("the IMU is left out: a second of the video is {:.3g} s of the motion track{}", speed,
+                       advice);
+  }
+  // Hz; GoPro's gyros have 180 to 3200.
+  const double rate = 1 / sampleClock(gyro, std::nullopt).slope;
+  if (rate < 100 || rate > 6400) {
+    return fmt::format("the IMU is left out: on the video's clock its gyro has {:.3g} Hz{}", rate, advice);
+  }
+  return std::nullopt;
 }
 
 std::vector<ImuSample> mergeAtGyroTimes(const GoproStreams& streams) {

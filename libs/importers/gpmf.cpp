@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 namespace redbee {
 namespace {
@@ -170,15 +171,18 @@ void describe(StreamContext& context, const GpmfRecord& record) {
   if (key == "STMP" && record.size() >= 8) context.samples.stamp_s = 1e-6 * elements(record).at(0);
 }
 
-void collect(const std::vector<GpmfRecord>& records, const std::string& key, int depth,
-             std::vector<GpmfSamples>& found) {
+using TakeStream = std::function<void(const StreamContext&, const GpmfRecord&)>;
+
+/// Calls `take` for each record of this key, with the description that precedes it.
+void forEachStream(const std::vector<GpmfRecord>& records, const std::string& key, int depth,
+                   const TakeStream& take) {
   StreamContext context;
   for (const GpmfRecord& record : records) {
     if (record.isContainer()) {
       if (depth >= kMaxGpmfDepth) throw GpmfError(at(record.offset) + "containers are nested too deep");
-      collect(gpmfRecords(record.data, record.size(), record.offset), key, depth + 1, found);
+      forEachStream(gpmfRecords(record.data, record.size(), record.offset), key, depth + 1, take);
     } else if (record.key == key) {
-      found.push_back(scaled(context, record));
+      take(context, record);
     } else {
       describe(context, record);
     }
@@ -213,7 +217,27 @@ std::vector<GpmfRecord> gpmfRecords(const uint8_t* data, size_t size, size_t off
 
 std::vector<GpmfSamples> gpmfSensor(const std::vector<uint8_t>& payload, const std::string& key) {
   std::vector<GpmfSamples> found;
-  collect(gpmfRecords(payload.data(), payload.size()), key, 0, found);
+  forEachStream(gpmfRecords(payload.data(), payload.size()), key, 0,
+                [&](const StreamContext& context, const GpmfRecord& record) {
+                  found.push_back(scaled(context, record));
+                });
+  return found;
+}
+
+std::vector<std::array<double, 4>> gpmfQuaternions(const std::vector<uint8_t>& payload,
+                                                   const std::string& key) {
+  std::vector<std::array<double, 4>> found;
+  forEachStream(gpmfRecords(payload.data(), payload.size()), key, 0,
+                [&](const StreamContext& context, const GpmfRecord& record) {
+                  const std::vector<double> raw = elements(record);
+                  const double scale = context.scale.empty() ? 0 : context.scale.front();
+                  if (raw.size() != record.count * 4 || !std::isfinite(scale) || scale == 0)
+                    throw GpmfError(at(record.offset) + key + " holds no quaternions");
+                  for (size_t i = 0; i < record.count; ++i) {
+                    const double* q = raw.data() + 4 * i;
+                    found.push_back({q[0] / scale, q[1] / scale, q[2] / scale, q[3] / scale});
+                  }
+                });
   return found;
 }
 

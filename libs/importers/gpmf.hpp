@@ -51,4 +51,9 @@ struct GpmfSamples {
 constexpr int kMaxGpmfDepth = 8;
 std::vector<GpmfSamples> gpmfSensor(const std::vector<uint8_t>& payload, const std::string& key);
 
+/// All samples of a stream of quaternions ("IORI", "CORI"), as stored: w first, SCAL applied. Throws
+/// GpmfError.
+std::vector<std::array<double, 4>> gpmfQuaternions(const std::vector<uint8_t>& payload,
+                                                   const std::string& key);
+
 }  // namespace redbee

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "redbee/bus/image.hpp"
@@ -47,12 +49,34 @@ image_t untouchedJpeg(const std::filesystem::path& file, int64_t utime, std::vec
   return message;
 }
 
-}  // namespace
+/// Only a JPEG with EXIF data can state an orientation.
+bool holdsExif(const std::vector<uint8_t>& bytes) {
+  const std::string marker = "Exif";
+  const auto end = bytes.begin() + static_cast<long>(std::min<size_t>(bytes.size(), 64 << 10));
+  return std::search(bytes.begin(), end, marker.begin(), marker.end()) != end;
+}
 
-image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options) {
-  std::vector<uint8_t> bytes = readWhole(file);
-  if (startsWith(bytes, {0xFF, 0xD8})) return untouchedJpeg(file, utime, std::move(bytes));
-  if (!startsWith(bytes, {0x89, 'P', 'N', 'G'})) throw InputError(file, "is neither JPEG nor PNG");
+/// OpenCV applies the orientation, but does not say it: a small image shows whether it is one.
+bool isTurnedByExif(const std::vector<uint8_t>& bytes) {
+  if (!holdsExif(bytes)) return false;
+  const cv::Mat shown = cv::imdecode(bytes, cv::IMREAD_REDUCED_GRAYSCALE_8);
+  const cv::Mat stored = cv::imdecode(bytes, cv::IMREAD_REDUCED_GRAYSCALE_8 | cv::IMREAD_IGNORE_ORIENTATION);
+  if (shown.empty() || stored.empty()) return false;
+  return shown.size() != stored.size() || cv::norm(shown, stored, cv::NORM_INF) > 0;
+}
+
+LoadedImage loadJpeg(const std::filesystem::path& file, int64_t utime, std::vector<uint8_t> bytes,
+                     const ImageOptions& options) {
+  const bool is_turned = isTurnedByExif(bytes);
+  LoadedImage loaded{untouchedJpeg(file, utime, std::move(bytes)), is_turned};
+  if (!is_turned) return loaded;
+  const cv::Mat image = cv::imdecode(loaded.message.data, cv::IMREAD_COLOR);
+  if (image.empty()) throw InputError(file, "JPEG cannot be decoded");
+  loaded.message = jpegMessage(utime, image, options.jpeg_quality);
+  return loaded;
+}
+
+cv::Mat decodePng(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   // The decoder silently fills the rest of a truncated file with grey; the end chunk shows that it is
   // complete.
   const std::string end_chunk = "IEND";
@@ -60,13 +84,62 @@ image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageO
   if (std::search(tail, bytes.end(), end_chunk.begin(), end_chunk.end()) == bytes.end()) {
     throw InputError(file, "PNG is cut short: no end chunk");
   }
-  const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  cv::Mat image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   if (image.empty()) throw InputError(file, "PNG cannot be decoded");
-  if (image.type() != CV_8UC1 && image.type() != CV_8UC3) {
-    throw InputError(file, "PNG is neither 8-bit grey nor 8-bit colour");
+  if (image.channels() == 4) cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
+  return image;
+}
+
+bool isPng(const std::vector<uint8_t>& bytes) { return startsWith(bytes, {0x89, 'P', 'N', 'G'}); }
+
+/// By the header, without decoding.
+bool isPng16(const std::vector<uint8_t>& bytes) {
+  constexpr size_t kBitDepthAt = 24;
+  return isPng(bytes) && bytes.size() > kBitDepthAt && bytes[kBitDepthAt] == 16;
+}
+
+}  // namespace
+
+LoadedImage loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options) {
+  std::vector<uint8_t> bytes = readWhole(file);
+  if (startsWith(bytes, {0xFF, 0xD8})) return loadJpeg(file, utime, std::move(bytes), options);
+  if (!isPng(bytes)) throw InputError(file, "is neither JPEG nor PNG");
+  cv::Mat image = decodePng(file, bytes);
+  if (image.depth() == CV_16U) {
+    const GreyRange range = options.range.value_or(GreyRange{});
+    const double scale = 255 / (range.white - range.black);
+    image.convertTo(image, CV_8U, scale, -scale * range.black);
   }
-  if (image.channels() == 1 && options.lossless_grey) return rawGreyMessage(utime, image);
-  return jpegMessage(utime, image, options.jpeg_quality);
+  if (image.channels() == 1 && options.lossless_grey) return {rawGreyMessage(utime, image), false};
+  return {jpegMessage(utime, image, options.jpeg_quality), false};
+}
+
+std::optional<GreyRange> rangeOf(const std::vector<std::filesystem::path>& files) {
+  if (files.empty() || !isPng16(readWhole(files.front()))) return std::nullopt;
+  std::vector<int64_t> histogram(1 << 16);
+  int64_t values = 0;
+  for (const std::filesystem::path& file : files) {
+    const std::vector<uint8_t> bytes = readWhole(file);
+    if (!isPng16(bytes)) throw InputError(file, "is no 16-bit PNG, as the images before it are");
+    cv::Mat image = decodePng(file, bytes);
+    image = image.reshape(1);
+    for (int row = 0; row < image.rows; ++row) {
+      const auto* pixels = image.ptr<uint16_t>(row);
+      for (int column = 0; column < image.cols; ++column) ++histogram[pixels[column]];
+    }
+    values += static_cast<int64_t>(image.total());
+  }
+  const auto valueAt = [&](double fraction) {
+    int64_t below = 0;
+    size_t value = 0;
+    while (value + 1 < histogram.size() &&
+           (below += histogram[value]) <= fraction * static_cast<double>(values))
+      ++value;
+    return static_cast<double>(value);
+  };
+  constexpr double kEnd = 1e-3;
+  const GreyRange range{valueAt(kEnd), valueAt(1 - kEnd)};
+  return range.white > range.black ? range : GreyRange{range.black, range.black + 255};
 }
 
 void ResolutionCheck::check(const std::filesystem::path& file, const image_t& image) {

@@ -3,20 +3,39 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "redbee/image_t.hpp"
 
 namespace redbee {
 
+/// Of a sequence of 16-bit images; what lies outside becomes 0 or 255.
+struct GreyRange {
+  double black = 0;
+  double white = 65535;
+};
+
 struct ImageOptions {
   bool lossless_grey = true;  ///< grey PNGs become raw GRAY (JPEG would add compression noise); false: MJPEG
   int jpeg_quality = 95;      ///< of images that are encoded here
+  std::optional<GreyRange> range;  ///< of 16-bit images, see rangeOf()
 };
 
-/// A JPEG is copied unchanged; a PNG becomes raw grey or MJPEG. Throws InputError if the file is missing,
-/// truncated or not an 8-bit image.
-image_t loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options);
+struct LoadedImage {
+  image_t message;
+  bool is_turned = false;  ///< as its EXIF orientation says
+};
+
+/// A JPEG is copied unchanged, unless its EXIF orientation turns it; a PNG becomes raw grey or MJPEG, one of
+/// 16 bits by `options.range`, an alpha channel is left out. Throws InputError if the file is missing,
+/// truncated or neither JPEG nor PNG.
+LoadedImage loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options);
+
+/// The range of values of a sequence whose first image is a 16-bit PNG, but for 0.1 % at each end, where dead
+/// and saturated pixels lie; otherwise std::nullopt. Reads every file. Throws InputError.
+std::optional<GreyRange> rangeOf(const std::vector<std::filesystem::path>& files);
 
 /// check() throws InputError for an image whose size differs from the first one's.
 class ResolutionCheck {

@@ -10,6 +10,7 @@
 
 #include "redbee/files/log.hpp"
 #include "redbee/geometry/camera.hpp"
+#include "redbee/importers/imu_units.hpp"
 #include "redbee/inertial/imu.hpp"
 
 namespace redbee {
@@ -29,16 +30,18 @@ enum class FrameFormat {
 /// Options of all importers; each ignores those that do not apply to its recordings (importer.hpp).
 struct ImportOptions {
   std::filesystem::path source;  ///< file or folder
-  std::filesystem::path log;     ///< to be written
+  /// Further files of the same recording, as a camera splits it.
+  std::vector<std::filesystem::path> further_sources;
+  std::filesystem::path log;  ///< to be written
   ImportChannels channels;
   FrameFormat format = FrameFormat::kMjpeg;  ///< of frames that are decoded
   int jpeg_quality = 90;                     ///< of frames that are encoded here
-  int width = 0;   ///< px, even; the height follows from the aspect ratio; 0: as recorded. Video files only
-  double fps = 0;  ///< Hz, of a folder of images; a file has its own times
-  /// CSV with a header line that names its columns, in any order: t_s [s, on the video's clock], gx gy gz
-  /// [rad/s], ax ay az [m/s^2, specific force]. Other columns are ignored. The axes are the IMU's; the
-  /// vehicle's R_CI relates the camera to them.
+  int width = 0;  ///< px, at most; the height follows from the aspect ratio; 0: as recorded. Video files only
+  double fps = 0;           ///< Hz, of a folder of images or a raw stream; other files have their own times
+  bool keep_going = false;  ///< damage of a video is passed over
+  /// See readImuCsv(). The axes are the IMU's; the vehicle's R_CI relates the camera to them.
   std::optional<std::filesystem::path> imu;
+  ImuUnits units;  ///< of the IMU's samples where the recording does not state them
   /// Kalibr's camchain.yaml or camchain-imucam.yaml; what it states counts before what the recording states.
   std::optional<std::filesystem::path> camchain;
   std::string camchain_camera = "cam0";  ///< its section of the camchain

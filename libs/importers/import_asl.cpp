@@ -31,6 +31,7 @@ fs::path findVehicleFolder(const fs::path& folder) {
 
 std::vector<NamedFrame> readFrameList(const fs::path& file) {
   CsvReader csv(file);
+  csv.skipHeader();
   IncreasingTimeCheck times;
   std::vector<NamedFrame> frames;
   while (csv.next(2)) {
@@ -43,8 +44,11 @@ std::vector<NamedFrame> readFrameList(const fs::path& file) {
   return frames;
 }
 
-std::vector<ImuSample> readImu(const fs::path& file) {
+std::vector<ImuSample> readImu(const fs::path& file, const ImuUnits& units) {
+  const double to_rad_s = factorOf(gyroUnits(), units.gyro, "--gyro-unit");
+  const double to_m_s2 = factorOf(accelUnits(), units.accel, "--accel-unit");
   CsvReader csv(file);
+  csv.skipHeader();
   IncreasingTimeCheck times;
   std::vector<ImuSample> samples;
   while (csv.next(7)) {
@@ -52,8 +56,8 @@ std::vector<ImuSample> readImu(const fs::path& file) {
     sample.time = ImuTime(fromNanoseconds(csv.integer(0)));
     times.check(csv, toUtime(sample.time));
     for (int axis = 0; axis < 3; ++axis) {
-      sample.gyro[axis] = csv.number(static_cast<size_t>(1 + axis));
-      sample.accel[axis] = csv.number(static_cast<size_t>(4 + axis));
+      sample.gyro[axis] = to_rad_s * csv.number(static_cast<size_t>(1 + axis));
+      sample.accel[axis] = to_m_s2 * csv.number(static_cast<size_t>(4 + axis));
     }
     samples.push_back(sample);
   }
@@ -65,6 +69,7 @@ std::vector<AltitudeSample> readAltitudes(const fs::path& folder) {
   if (!fs::is_directory(folder)) return {};
   const double sigma = readAltimeterSigma(folder / "sensor.yaml");
   CsvReader csv(folder / "data.csv");
+  csv.skipHeader();
   IncreasingTimeCheck times;
   std::vector<AltitudeSample> samples;
   while (csv.next(2)) {
@@ -113,10 +118,14 @@ void describeVehicle(const fs::path& mav, bool has_imu, ImportSummary& summary) 
   if (camera.pose) describeExtrinsics(*camera.pose, imu.pose.value_or(SensorPose{}), summary.vehicle);
 }
 
-image_t loadListed(const fs::path& list, const NamedFrame& frame, const ImageOptions& options) {
-  const fs::path file = list.parent_path() / "data" / frame.name;
-  if (!fs::exists(file)) throw InputError(list, frame.line, "image " + file.string() + " is missing");
-  return loadImage(file, toUtime(frame.time), options);
+std::vector<fs::path> listedFiles(const fs::path& list, const std::vector<NamedFrame>& frames) {
+  std::vector<fs::path> files;
+  for (const NamedFrame& frame : frames) {
+    files.push_back(list.parent_path() / "data" / frame.name);
+    if (!fs::exists(files.back()))
+      throw InputError(list, frame.line, "image " + files.back().string() + " is missing");
+  }
+  return files;
 }
 
 void checkAgainstCalibration(const fs::path& camera_folder, const image_t& first,
@@ -130,13 +139,32 @@ void checkAgainstCalibration(const fs::path& camera_folder, const image_t& first
   }
 }
 
+void addListedFrames(const fs::path& list, const std::vector<NamedFrame>& frames,
+                     const ImportOptions& options, FlightMerger& merger, ImportSummary& summary,
+                     Progress& progress) {
+  const std::vector<fs::path> files = listedFiles(list, frames);
+  const ImageOptions images{true, options.jpeg_quality, rangeOf(files)};
+  ResolutionCheck resolution;
+  for (size_t i = 0; i < files.size(); ++i) {
+    const image_t image = loadImage(files[i], toUtime(frames[i].time), images).message;
+    resolution.check(files[i], image);
+    if (i == 0) {
+      checkAgainstCalibration(list.parent_path(), image, summary.vehicle);
+      summary.vehicle.width = image.width;
+      summary.vehicle.height = image.height;
+    }
+    merger.addFrame(image);
+    progress.update(static_cast<int64_t>(i) + 1, static_cast<int64_t>(files.size()));
+  }
+}
+
 ImportSummary importAsl(const ImportOptions& options, Progress& progress) {
-  const ImageOptions images{true, options.jpeg_quality};
   const fs::path mav = findVehicleFolder(options.source);
   const fs::path list = mav / "cam0" / "data.csv";
   const std::vector<NamedFrame> frames = readFrameList(list);
+  const fs::path imu_file = mav / "imu0" / "data.csv";
   const bool has_imu = fs::is_directory(mav / "imu0");
-  const std::vector<ImuSample> imu = has_imu ? readImu(mav / "imu0" / "data.csv") : std::vector<ImuSample>{};
+  const std::vector<ImuSample> imu = has_imu ? readImu(imu_file, options.units) : std::vector<ImuSample>{};
   const std::vector<AltitudeSample> altitudes = readAltitudes(mav / "altimeter0");
 
   ImportSummary summary;
@@ -146,18 +174,8 @@ ImportSummary importAsl(const ImportOptions& options, Progress& progress) {
   summary.vehicle.start_height = altitudeAt(altitudes, toImu(frames.front().time, Duration(0)));
 
   FlightMerger merger(options.log, options.channels, imu, altitudes);
-  ResolutionCheck resolution;
-  for (const NamedFrame& frame : frames) {
-    const image_t image = loadListed(list, frame, images);
-    resolution.check(list.parent_path() / "data" / frame.name, image);
-    if (&frame == &frames.front()) {
-      checkAgainstCalibration(mav / "cam0", image, summary.vehicle);
-      summary.vehicle.width = image.width;
-      summary.vehicle.height = image.height;
-    }
-    merger.addFrame(image);
-    progress.update(&frame - frames.data() + 1, static_cast<int64_t>(frames.size()));
-  }
+  if (has_imu) merger.requirePlausibleImu(imu_file, options.units);
+  addListedFrames(list, frames, options, merger, summary, progress);
   merger.close(summary);
   return summary;
 }
@@ -169,6 +187,7 @@ Importer aslImporter() {
   importer.name = "asl";
   importer.description = "folder in EuRoC's layout (mav0/cam0, imu0, altimeter0)";
   importer.source = "folder that holds mav0";
+  importer.takes.units = true;
   importer.defaults.jpeg_quality = 95;
   importer.import = importAsl;
   return importer;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 #include "redbee/importers/import_asl.hpp"
 #include "redbee/importers/import_gopro.hpp"
 #include "redbee/importers/import_video.hpp"
@@ -36,6 +37,18 @@ void setCamera(const CamchainCamera& calibrated, const std::filesystem::path& fi
   if (calibrated.timeshift_s) vehicle.timeshift_s = calibrated.timeshift_s;
 }
 
+void refuseToOverwrite(const ImportOptions& options) {
+  std::vector<std::filesystem::path> inputs{options.source};
+  inputs.insert(inputs.end(), options.further_sources.begin(), options.further_sources.end());
+  if (options.imu) inputs.push_back(*options.imu);
+  if (options.camchain) inputs.push_back(*options.camchain);
+  requireNoInput(options.log, inputs);
+  const std::string extension = options.log.extension().string();
+  if (extension == ".yaml" || extension == ".yml")
+    throw InputError(options.log,
+                     "is the name of the vehicle's configuration: give the log another, such as .lcm");
+}
+
 }  // namespace
 
 const std::vector<Importer>& importers() {
@@ -44,6 +57,7 @@ const std::vector<Importer>& importers() {
 }
 
 ImportSummary importRecording(const Importer& importer, const ImportOptions& options, Progress& progress) {
+  refuseToOverwrite(options);
   std::optional<CamchainCamera> calibrated;
   if (options.camchain) calibrated = readCamchain(*options.camchain, options.camchain_camera);
   ImportSummary summary = importer.import(options, progress);

@@ -14,6 +14,9 @@ struct ImporterTakes {
   bool width = false;
   bool fps = false;
   bool imu = false;
+  bool units = false;     ///< of gyro and accelerometer
+  bool chapters = false;  ///< several files of one recording
+  bool keep_going = false;
 };
 
 struct Importer {
@@ -30,7 +33,7 @@ const std::vector<Importer>& importers();
 
 /// Imports, then completes the camera: by the camchain where there is one, its intrinsics scaled to the
 /// images' size; by an assumed focal length where the recording states none (assumeIntrinsics()). Throws
-/// InputError, and then there is no log.
+/// InputError, and then there is no log; a log that would replace what is read is refused.
 ImportSummary importRecording(const Importer& importer, const ImportOptions& options, Progress& progress);
 
 }  // namespace redbee

@@ -1,36 +1,55 @@
 #include "redbee/importers/video_reader.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "redbee/files/ffmpeg.hpp"
 #include "redbee/files/input_error.hpp"
-#include "redbee/files/input_file.hpp"
+#include "redbee/importers/frame_converter.hpp"
+#include "redbee/importers/frame_times.hpp"
+
+extern "C" {
+#include <libavutil/display.h>
+}
 
 namespace redbee {
 namespace {
 
-constexpr AVRational kMicroseconds{1, 1000000};
-
-ffmpeg::Input openInput(const std::filesystem::path& path) {
-  ffmpeg::silence();
-  requireFile(path);
-  AVFormatContext* raw = nullptr;
-  const int opened = avformat_open_input(&raw, path.c_str(), nullptr, nullptr);
-  if (opened < 0) throw InputError(path, "is no video or is cut short: " + ffmpeg::explain(opened));
-  ffmpeg::Input input(raw);
-  const int found = avformat_find_stream_info(input.get(), nullptr);
-  if (found < 0) throw InputError(path, "its streams cannot be read: " + ffmpeg::explain(found));
-  return input;
+/// A cover image or a thumbnail is no recording.
+bool isRecording(const AVStream& stream) {
+  return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
+         (stream.disposition & (AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS)) == 0;
 }
 
-/// The size that keeps the aspect, both sides even so that every codec takes it.
-cv::Size scaledSize(int width, int height, int wanted_width) {
-  if (wanted_width <= 0 || wanted_width == width) return {width, height};
-  const int even_width = std::max(2, wanted_width / 2 * 2);
-  const int even_height =
-      std::max(2, 2 * static_cast<int>(std::lround(static_cast<double>(height) * even_width / width / 2)));
-  return {even_width, even_height};
+AVStream* findVideo(AVFormatContext& input) {
+  AVStream* found = nullptr;
+  const AVCodec* codec = nullptr;  // asked for: then only a stream that can be decoded is found
+  const int best = av_find_best_stream(&input, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+  if (best >= 0 && isRecording(*input.streams[best])) found = input.streams[best];
+  for (unsigned i = 0; i < input.nb_streams; ++i) {
+    if (found == nullptr && isRecording(*input.streams[i])) found = input.streams[i];
+  }
+  for (unsigned i = 0; i < input.nb_streams; ++i) {
+    if (input.streams[i] != found) input.streams[i]->discard = AVDISCARD_ALL;
+  }
+  return found;
+}
+
+/// Degrees clockwise.
+int rotationOf(const std::filesystem::path& path, const AVStream& stream) {
+  const auto* matrix =
+      reinterpret_cast<const int32_t*>(av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
+  if (matrix == nullptr) return 0;
+  const double clockwise = -av_display_rotation_get(matrix);
+  const double mirrored =
+      static_cast<double>(matrix[0]) * matrix[4] - static_cast<double>(matrix[1]) * matrix[3];
+  if (!std::isfinite(clockwise) || mirrored < 0)
+    throw InputError(path, "states that its images are mirrored: no camera sees so");
+  const double quarters = std::round(clockwise / 90);
+  if (std::abs(clockwise - 90 * quarters) > 1) {
+    throw InputError(path, "states a rotation by " + std::to_string(std::lround(clockwise)) +
+                               " degrees: only quarter turns can be applied");
+  }
+  return static_cast<int>((static_cast<int64_t>(quarters) % 4 + 4) % 4) * 90;
 }
 
 }  // namespace
@@ -40,16 +59,17 @@ class VideoReader::Implementation {
   Implementation(const std::filesystem::path& path, const VideoReaderOptions& options)
       : path_(path),
         options_(options),
-        input_(openInput(path)),
+        input_(ffmpeg::openInput(path)),
+        stream_(findVideo(*input_)),
         packet_(av_packet_alloc()),
         frame_(av_frame_alloc()) {
-    const AVCodec* codec = nullptr;
-    const int index = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-    if (index < 0 || codec == nullptr) throw InputError(path_, "has no video stream that can be decoded");
-    stream_ = input_->streams[index];
-    for (unsigned i = 0; i < input_->nb_streams; ++i) {
-      if (static_cast<int>(i) != index) input_->streams[i]->discard = AVDISCARD_ALL;
-    }
+    const AVCodec* codec = stream_ == nullptr ? nullptr : avcodec_find_decoder(stream_->codecpar->codec_id);
+    if (codec == nullptr) throw InputError(path_, "has no video stream that can be decoded");
+    rotation_deg_ = rotationOf(path_, *stream_);
+    converter_ = std::make_unique<FrameConverter>(options.width, options.grey, rotation_deg_);
+    times_ = std::make_unique<FrameTimes>(*input_, *stream_, options.fps);
+    if (times_->needsRate())
+      throw InputError(path_, "is a raw stream, which has no times: give its frame rate with --fps");
     decoder_.reset(avcodec_alloc_context3(codec));
     avcodec_parameters_to_context(decoder_.get(), stream_->codecpar);
     decoder_->pkt_timebase = stream_->time_base;
@@ -58,46 +78,92 @@ class VideoReader::Implementation {
   }
 
   int64_t expectedFrames() const { return stream_->nb_frames; }
+  int64_t duration_us() const {
+    return stream_->duration > 0 ? av_rescale_q(stream_->duration, stream_->time_base, {1, 1000000}) : 0;
+  }
+  int rotation_deg() const { return rotation_deg_; }
+
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all;
+    if (rotation_deg_ != 0) {
+      all.push_back(
+          "the images are turned by " + std::to_string(rotation_deg_) +
+          " degrees clockwise, as the video states: camera matrix and R_CI are those of the turned images");
+    }
+    if (options_.fps > 0 && !times_->usesRate())
+      all.push_back("--fps is not used: the video has times of its own");
+    if (!damage_.empty()) {
+      all.push_back(damage_ +
+                    (damaged_ > 1 ? " (and " + std::to_string(damaged_ - 1) + " more such places)" : "") +
+                    "; " + std::to_string(skipped_) + " frames are left out");
+    }
+    return all;
+  }
 
   std::optional<VideoFrame> next() {
     while (true) {
       const int received = avcodec_receive_frame(decoder_.get(), frame_.get());
-      if (received == 0) return take();
-      if (received == AVERROR_EOF) return finish();
-      if (received != AVERROR(EAGAIN)) failAfterLast("cannot be decoded: " + ffmpeg::explain(received));
-      feed();
+      if (received == 0) {
+        if (auto frame = take()) return frame;
+      } else if (received == AVERROR_EOF) {
+        if (!resume()) return finish();
+      } else if (received == AVERROR(EAGAIN)) {
+        feed();
+      } else {
+        if (!options_.keep_going) failAfterLast("cannot be decoded: " + ffmpeg::explain(received));
+        drain("cannot be decoded: " + ffmpeg::explain(received), false);
+      }
     }
   }
 
  private:
-  [[noreturn]] void failAfterLast(const std::string& what) const {
-    if (frames_ == 0) throw InputError(path_, "first frame " + what);
-    throw InputError(path_, "is damaged or cut short: what follows frame " + std::to_string(frames_ - 1) +
-                                " (" + std::to_string(static_cast<double>(last_utime_) / 1e6) +
-                                " s), the last good one, " + what);
+  std::string afterLast(const std::string& what) const {
+    if (frames_ == 0) return "first frame " + what;
+    return "is damaged or cut short: what follows frame " + std::to_string(frames_ - 1) + " (" +
+           std::to_string(static_cast<double>(last_utime_) / 1e6) + " s), the last good one, " + what;
   }
+  [[noreturn]] void failAfterLast(const std::string& what) const { throw InputError(path_, afterLast(what)); }
 
   void feed() {
     while (true) {
       const int read = av_read_frame(input_.get(), packet_.get());
-      if (read == AVERROR_EOF) return drain(missingPackets());
-      if (read < 0) return drain("cannot be read: " + ffmpeg::explain(read));
+      if (read == AVERROR_EOF) return drain(missingPackets(), true);
+      if (read < 0) return drain("cannot be read: " + ffmpeg::explain(read), true);
       const bool ours = packet_->stream_index == stream_->index;
       const bool corrupt = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
-      const int sent = ours && !corrupt ? avcodec_send_packet(decoder_.get(), packet_.get()) : 0;
+      if ((packet_->flags & AV_PKT_FLAG_KEY) != 0 && !corrupt) waits_for_key_ = false;
+      const bool decodes = ours && !corrupt && !waits_for_key_;
+      if (decodes) times_->onPacket(*packet_);
+      const int sent = decodes ? avcodec_send_packet(decoder_.get(), packet_.get()) : 0;
       av_packet_unref(packet_.get());
       if (!ours) continue;
-      if (corrupt) return drain("is cut short");
-      if (sent < 0) return drain("cannot be decoded: " + ffmpeg::explain(sent));
-      ++packets_;
-      return;
+      packets_ += corrupt ? 0 : 1;
+      if (!decodes || sent < 0) ++skipped_;
+      if (corrupt) return drain("is cut short", false);
+      if (sent < 0) return drain("cannot be decoded: " + ffmpeg::explain(sent), false);
+      if (decodes) return;
     }
   }
 
   /// The decoder still holds frames: they are returned first, the error (if any) after the last good one.
-  void drain(const std::string& complaint) {
+  void drain(const std::string& complaint, bool at_end) {
     complaint_ = complaint;
+    at_end_ = at_end;
     avcodec_send_packet(decoder_.get(), nullptr);
+  }
+
+  /// After damage: on from the next key frame. False at the end.
+  bool resume() {
+    if (!options_.keep_going) return false;
+    if (!complaint_.empty()) {
+      if (damaged_++ == 0) damage_ = (frames_ == 0 ? "the video's " : "the video ") + afterLast(complaint_);
+      complaint_.clear();
+    }
+    if (at_end_) return false;
+    avcodec_flush_buffers(decoder_.get());
+    times_->restart();
+    waits_for_key_ = true;
+    return true;
   }
 
   /// Containers with an index (MP4) state the number of packets; they end silently where the file does.
@@ -116,14 +182,20 @@ class VideoReader::Implementation {
   }
 
   std::optional<VideoFrame> take() {
-    if (frame_->best_effort_timestamp == AV_NOPTS_VALUE) failAfterLast("has no presentation time");
-    VideoFrame out;
-    out.utime = av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kMicroseconds);
-    if (frames_ > 0 && out.utime <= last_utime_) {
-      throw InputError(path_, "time runs backwards or repeats at frame " + std::to_string(frames_) + ": " +
-                                  std::to_string(out.utime) + " us after " + std::to_string(last_utime_) +
-                                  " us");
+    const auto utime = times_->timeOf(*frame_);
+    if (!utime && !options_.keep_going) failAfterLast("has no presentation time");
+    if (!utime || (frames_ > 0 && *utime <= last_utime_)) {
+      const std::string fault = !utime ? "a frame without a time"
+                                       : "time runs backwards or repeats at frame " +
+                                             std::to_string(frames_) + ": " + std::to_string(*utime) +
+                                             " us after " + std::to_string(last_utime_) + " us";
+      if (!options_.keep_going) throw InputError(path_, fault);
+      if (damaged_++ == 0) damage_ = fault;
+      ++skipped_;
+      return std::nullopt;
     }
+    VideoFrame out;
+    out.utime = *utime;
     out.image = convert();
     last_utime_ = out.utime;
     ++frames_;
@@ -132,38 +204,32 @@ class VideoReader::Implementation {
   }
 
   cv::Mat convert() {
-    const auto format = static_cast<AVPixelFormat>(frame_->format);
     if (frame_->width != size_.width || frame_->height != size_.height) {
       if (!size_.empty()) failAfterLast("has another resolution");
       size_ = {frame_->width, frame_->height};
     }
-    const cv::Size out_size = scaledSize(frame_->width, frame_->height, options_.width);
-    const AVPixelFormat out_format = options_.grey ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_BGR24;
-    if (!scaler_ || format != scaler_format_) {
-      const int method = out_size == size_ ? SWS_BICUBIC : SWS_AREA;
-      scaler_.reset(sws_getContext(frame_->width, frame_->height, format, out_size.width, out_size.height,
-                                   out_format, method | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
-      scaler_format_ = format;
-      if (!scaler_) throw InputError(path_, "its pixel format cannot be converted");
-    }
-    cv::Mat image(out_size, options_.grey ? CV_8UC1 : CV_8UC3);
-    uint8_t* planes[4] = {image.data, nullptr, nullptr, nullptr};
-    const int strides[4] = {static_cast<int>(image.step), 0, 0, 0};
-    sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, frame_->height, planes, strides);
+    cv::Mat image = converter_->convert(*frame_);
+    if (image.empty()) throw InputError(path_, "its pixel format cannot be converted");
     return image;
   }
 
   std::filesystem::path path_;
   VideoReaderOptions options_;
   ffmpeg::Input input_;
+  AVStream* stream_;
   ffmpeg::CodecContext decoder_;
-  ffmpeg::Scaler scaler_;
-  AVPixelFormat scaler_format_ = AV_PIX_FMT_NONE;
+  std::unique_ptr<FrameConverter> converter_;
+  std::unique_ptr<FrameTimes> times_;
   ffmpeg::Packet packet_;
   ffmpeg::Frame frame_;
-  AVStream* stream_ = nullptr;
+  int rotation_deg_ = 0;
   cv::Size size_;
   std::string complaint_;
+  std::string damage_;  ///< the first that was passed over
+  bool at_end_ = false;
+  bool waits_for_key_ = false;
+  int64_t damaged_ = 0;
+  int64_t skipped_ = 0;
   int64_t frames_ = 0;
   int64_t packets_ = 0;
   int64_t last_utime_ = 0;
@@ -174,34 +240,8 @@ VideoReader::VideoReader(const std::filesystem::path& path, const VideoReaderOpt
 VideoReader::~VideoReader() = default;
 std::optional<VideoFrame> VideoReader::next() { return implementation_->next(); }
 int64_t VideoReader::expectedFrames() const { return implementation_->expectedFrames(); }
-
-std::vector<DataPacket> readDataTrack(const std::filesystem::path& path, const std::string& tag) {
-  const ffmpeg::Input input = openInput(path);
-  const AVStream* track = nullptr;
-  for (unsigned i = 0; i < input->nb_streams; ++i) {
-    AVStream* stream = input->streams[i];
-    const uint32_t wanted = MKTAG(tag.at(0), tag.at(1), tag.at(2), tag.at(3));
-    const bool matches = stream->codecpar->codec_tag == wanted && track == nullptr;
-    if (matches) track = stream;
-    stream->discard = matches ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
-  }
-  std::vector<DataPacket> packets;
-  if (track == nullptr) return packets;
-  const ffmpeg::Packet packet(av_packet_alloc());
-  int read = 0;
-  for (; (read = av_read_frame(input.get(), packet.get())) >= 0; av_packet_unref(packet.get())) {
-    if (packet->stream_index != track->index) continue;
-    DataPacket out;
-    out.start_s = static_cast<double>(packet->pts) * av_q2d(track->time_base);
-    out.duration_s = static_cast<double>(packet->duration) * av_q2d(track->time_base);
-    out.bytes.assign(packet->data, packet->data + packet->size);
-    packets.push_back(std::move(out));
-  }
-  if (read != AVERROR_EOF) {
-    throw InputError(path, "its '" + tag + "' track is cut short after packet " +
-                               std::to_string(packets.size()) + ": " + ffmpeg::explain(read));
-  }
-  return packets;
-}
+int64_t VideoReader::duration_us() const { return implementation_->duration_us(); }
+int VideoReader::rotation_deg() const { return implementation_->rotation_deg(); }
+std::vector<std::string> VideoReader::warnings() const { return implementation_->warnings(); }
 
 }  // namespace redbee

@@ -1,5 +1,7 @@
 #include "redbee/results/run_folder.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -31,8 +33,15 @@ fs::path RunFolder::folder(RunMap map) const {
   return path_ / (map == RunMap::kProbability ? "probability" : "mask");
 }
 
+std::string nameOfFrame(int64_t utime) { return fmt::format("{:016}", utime); }
+
 fs::path RunFolder::file(RunMap map, int64_t utime) const {
-  return folder(map) / (std::to_string(utime) + ".png");
+  return folder(map) / (nameOfFrame(utime) + ".png");
+}
+
+fs::path RunFolder::existing(RunMap map, int64_t utime) const {
+  const fs::path unpadded = folder(map) / (std::to_string(utime) + ".png");  // of releases up to 0.2
+  return !fs::exists(file(map, utime)) && fs::exists(unpadded) ? unpadded : file(map, utime);
 }
 
 void RunFolder::prepare() const {
@@ -58,17 +67,17 @@ std::vector<int64_t> RunFolder::times(RunMap map) const {
   return times;
 }
 
-bool RunFolder::has(RunMap map, int64_t utime) const { return fs::exists(file(map, utime)); }
+bool RunFolder::has(RunMap map, int64_t utime) const { return fs::exists(existing(map, utime)); }
 
-cv::Mat1b RunFolder::read(RunMap map, int64_t utime) const { return readGreyPng(file(map, utime)); }
+cv::Mat1b RunFolder::read(RunMap map, int64_t utime) const { return readGreyPng(existing(map, utime)); }
 
 cv::Mat1b RunFolder::readOrZeros(RunMap map, int64_t utime, cv::Size size) const {
   if (!has(map, utime)) return cv::Mat1b::zeros(size);
   cv::Mat1b image = read(map, utime);
   if (image.size() != size) {
-    throw InputError(file(map, utime), "has " + std::to_string(image.cols) + "x" +
-                                           std::to_string(image.rows) + " px instead of " +
-                                           std::to_string(size.width) + "x" + std::to_string(size.height));
+    throw InputError(existing(map, utime),
+                     "has " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
+                         " px instead of " + std::to_string(size.width) + "x" + std::to_string(size.height));
   }
   return image;
 }

@@ -1,6 +1,6 @@
 // The folder with the results of a run over a flight: names and formats for writers and readers.
 //
-//   probability/<utime in us>.png   8-bit, P_FG scaled to 0..255
+//   probability/<utime in us>.png   8-bit, P_FG scaled to 0..255; the time has 16 digits, see nameOfFrame()
 //   mask/<utime in us>.png          0 or 255
 //   detections.csv                  see detections_csv.hpp
 //   homography.csv                  see homography_csv.hpp
@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <opencv2/core.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,9 @@ namespace redbee {
 
 /// The images that a run writes for each frame.
 enum class RunMap { kProbability, kMask };
+
+/// Sixteen digits, so that every program that lists the files by name has them in order.
+std::string nameOfFrame(int64_t utime);
 
 /// Throws InputError with the file's name if something cannot be read or written.
 class RunFolder {
@@ -57,6 +61,7 @@ class RunFolder {
  private:
   std::filesystem::path folder(RunMap map) const;
   std::filesystem::path file(RunMap map, int64_t utime) const;
+  std::filesystem::path existing(RunMap map, int64_t utime) const;
 
   std::filesystem::path path_;
 };

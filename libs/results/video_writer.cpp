@@ -14,10 +14,17 @@ extern "C" {
 
 namespace redbee {
 
+namespace {
+
+/// Whole frames at all usual rates; more than 65535 is too fine for MPEG-4.
+constexpr int kTicksPerSecond = 60000;
+
+}  // namespace
+
 class VideoWriter::Implementation {
  public:
   Implementation(const std::filesystem::path& path, const cv::Size& size, double fps, int quality)
-      : file_(path), size_(size), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
+      : file_(path), size_(size), fps_(fps), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
     if (size.width <= 0 || size.height <= 0 || size.width % 2 != 0 || size.height % 2 != 0) {
       throw std::invalid_argument("VideoWriter: width and height must be even and positive");
     }
@@ -26,12 +33,14 @@ class VideoWriter::Implementation {
     AVFormatContext* raw = nullptr;
     check(avformat_alloc_output_context2(&raw, nullptr, "mp4", file_.descriptorPath().c_str()));
     output_.reset(raw);
-    openEncoder(av_d2q(fps, 1001000), quality);
+    openEncoder(quality);
     openFile();
     allocateFrame();
   }
 
-  void write(const cv::Mat& image) {
+  void write(const cv::Mat& image) { write(image, static_cast<double>(frames_) / fps_); }
+
+  void write(const cv::Mat& image, double time_s) {
     if (image.size() != size_ || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) {
       throw std::invalid_argument("VideoWriter: an image of another size or type");
     }
@@ -45,7 +54,10 @@ class VideoWriter::Implementation {
     const uint8_t* planes[4] = {image.data, nullptr, nullptr, nullptr};
     const int strides[4] = {static_cast<int>(image.step), 0, 0, 0};
     sws_scale(scaler_.get(), planes, strides, 0, size_.height, frame_->data, frame_->linesize);
-    frame_->pts = next_++;
+    const int64_t ticks = std::llround(time_s * kTicksPerSecond);
+    if (frames_++ > 0 && ticks <= frame_->pts)
+      throw std::invalid_argument("VideoWriter: a frame that is not later than the one before it");
+    frame_->pts = ticks;
     encode(frame_.get());
   }
 
@@ -63,7 +75,7 @@ class VideoWriter::Implementation {
     if (result < 0) throw InputError(file_.path(), "cannot be written: " + ffmpeg::explain(result));
   }
 
-  void openEncoder(AVRational fps, int quality) {
+  void openEncoder(int quality) {
     // Hardware encoders are listed even where there is no such hardware: opening is the test.
     const std::array<const AVCodec*, 3> candidates = {avcodec_find_encoder_by_name("libx264"),
                                                       avcodec_find_encoder(AV_CODEC_ID_H264),
@@ -74,8 +86,8 @@ class VideoWriter::Implementation {
       encoder_->width = size_.width;
       encoder_->height = size_.height;
       encoder_->pix_fmt = AV_PIX_FMT_YUV420P;
-      encoder_->time_base = av_inv_q(fps);
-      encoder_->framerate = fps;
+      encoder_->time_base = {1, kTicksPerSecond};
+      encoder_->framerate = av_d2q(fps_, 1001000);
       encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
       encoder_->bit_rate = codec->id == AV_CODEC_ID_MPEG4 ? 4'000'000 : 0;
       // Other encoders have no such options, and do without.
@@ -115,7 +127,7 @@ class VideoWriter::Implementation {
       check(received);
       av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
       if (packet_->duration == 0)
-        packet_->duration = av_rescale_q(1, encoder_->time_base, stream_->time_base);
+        packet_->duration = av_rescale_q(1, av_inv_q(encoder_->framerate), stream_->time_base);
       packet_->stream_index = stream_->index;
       check(av_interleaved_write_frame(output_.get(), packet_.get()));
     }
@@ -123,6 +135,7 @@ class VideoWriter::Implementation {
 
   PartialFile file_;  ///< outlives what writes to it
   cv::Size size_;
+  double fps_;
   ffmpeg::Output output_;
   ffmpeg::CodecContext encoder_;
   ffmpeg::Scaler scaler_;
@@ -130,13 +143,14 @@ class VideoWriter::Implementation {
   ffmpeg::Packet packet_;
   ffmpeg::Frame frame_;
   AVStream* stream_ = nullptr;
-  int64_t next_ = 0;
+  int64_t frames_ = 0;
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& path, const cv::Size& size, double fps, int quality)
     : implementation_(std::make_unique<Implementation>(path, size, fps, quality)) {}
 VideoWriter::~VideoWriter() = default;
 void VideoWriter::write(const cv::Mat& image) { implementation_->write(image); }
+void VideoWriter::write(const cv::Mat& image, double time_s) { implementation_->write(image, time_s); }
 void VideoWriter::close() { implementation_->close(); }
 
 }  // namespace redbee

@@ -18,6 +18,8 @@ class VideoWriter {
 
   /// BGR or grey, of the given size; the n-th frame is shown at n / fps.
   void write(const cv::Mat& image);
+  /// The same, shown at `time_s`, later than the frame before it: for a variable frame rate.
+  void write(const cv::Mat& image, double time_s);
   void close();
 
  private:

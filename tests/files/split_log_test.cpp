@@ -35,24 +35,24 @@ TEST(SplitLog, EveryMessageIsInOneFileInOrder) {
   log.sync();
   std::vector<int64_t> all;
   int files = 0;
-  for (const char* name : {"f.lcm.00", "f.lcm.01", "f.lcm.02", "f.lcm.03"}) {
+  for (const char* name : {"f.lcm.0000", "f.lcm.0001", "f.lcm.0002", "f.lcm.0003"}) {
     const auto times = timesIn(folder.path() / name);
     EXPECT_LE(times.size(), 3u) << "three of a little over 1000 bytes exceed 2500";
     all.insert(all.end(), times.begin(), times.end());
     ++files;
   }
   EXPECT_EQ(all, (std::vector<int64_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
-  EXPECT_EQ(log.file(), folder.path() / "f.lcm.03");
+  EXPECT_EQ(log.file(), folder.path() / "f.lcm.0003");
 }
 
 TEST(SplitLog, NeverTouchesAFileThatIsThere) {
   const test::ScratchFolder folder;
-  std::ofstream(folder.path() / "f.lcm.00") << "earlier";
+  std::ofstream(folder.path() / "f.lcm.0000") << "earlier";
   SplitLog log(folder.path() / "f.lcm", 1000000);
   log.write(messageOf(1, 10));
   log.sync();
-  EXPECT_EQ(std::filesystem::file_size(folder.path() / "f.lcm.00"), 7u);
-  EXPECT_EQ(timesIn(folder.path() / "f.lcm.01"), std::vector<int64_t>{1});
+  EXPECT_EQ(std::filesystem::file_size(folder.path() / "f.lcm.0000"), 7u);
+  EXPECT_EQ(timesIn(folder.path() / "f.lcm.0001"), std::vector<int64_t>{1});
 }
 
 TEST(SplitLog, AMessageThatWouldTakeFromTheReserveIsNotWritten) {
@@ -62,7 +62,7 @@ TEST(SplitLog, AMessageThatWouldTakeFromTheReserveIsNotWritten) {
   SplitLog log(folder.path() / "f.lcm", 1 << 30, free - 64 * room);
   log.write(messageOf(1, 1000));
   EXPECT_THROW(log.write(messageOf(2, 66 * room)), InputError);
-  EXPECT_EQ(timesIn(folder.path() / "f.lcm.00"), std::vector<int64_t>{1});
+  EXPECT_EQ(timesIn(folder.path() / "f.lcm.0000"), std::vector<int64_t>{1});
 }
 
 TEST(SplitLog, AnEventThatTheDiskTookHalfOfIsRemoved) {
@@ -72,8 +72,8 @@ TEST(SplitLog, AnEventThatTheDiskTookHalfOfIsRemoved) {
   log.write(messageOf(1, 1000));
   log.write(messageOf(2, 1000));
   EXPECT_THROW(log.write(messageOf(3, 1000)), InputError);
-  EXPECT_EQ(timesIn(folder.path() / "f.lcm.00"), (std::vector<int64_t>{1, 2}));
-  LogReader reader(folder.path() / "f.lcm.00");
+  EXPECT_EQ(timesIn(folder.path() / "f.lcm.0000"), (std::vector<int64_t>{1, 2}));
+  LogReader reader(folder.path() / "f.lcm.0000");
   while (reader.next()) {
   }
   EXPECT_FALSE(reader.truncated());
@@ -81,11 +81,11 @@ TEST(SplitLog, AnEventThatTheDiskTookHalfOfIsRemoved) {
 
 TEST(SplitLog, WritesThroughNoLink) {
   const test::ScratchFolder folder;
-  std::filesystem::create_symlink(folder / "victim", folder / "f.lcm.00");
+  std::filesystem::create_symlink(folder / "victim", folder / "f.lcm.0000");
   SplitLog log(folder.path() / "f.lcm", 1000000);
   log.write(messageOf(1, 10));
   EXPECT_FALSE(std::filesystem::exists(folder / "victim"));
-  EXPECT_EQ(timesIn(folder / "f.lcm.01"), std::vector<int64_t>{1});
+  EXPECT_EQ(timesIn(folder / "f.lcm.0001"), std::vector<int64_t>{1});
 }
 
 TEST(SplitLog, WhatTheDiskDoesNotTakeIsAnError) {

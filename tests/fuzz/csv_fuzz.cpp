@@ -1,7 +1,7 @@
 // The CSV files that a user hands over: an IMU beside a video, corners and IMU of a calibration target.
 #include "processes/redbee/calibrate/calibration_target_csv.hpp"
 #include "redbee/files/input_error.hpp"
-#include "redbee/importers/import_video.hpp"
+#include "redbee/importers/imu_csv.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,5 +1,6 @@
 // Any bytes as a video: its first frames and its motion track are read, or it is refused.
 #include "redbee/files/input_error.hpp"
+#include "redbee/importers/data_track.hpp"
 #include "redbee/importers/video_reader.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 

@@ -93,6 +93,18 @@ TEST_F(ImportAslTest, GreyPngsKeepEveryPixel) {
   EXPECT_EQ(cv::norm(*grey, texture(64, 48, 2, 1), cv::NORM_INF), 0);
 }
 
+TEST_F(ImportAslTest, HeadersNeedNoHash) {
+  for (const char* table : {"cam0/data.csv", "imu0/data.csv", "altimeter0/data.csv"}) {
+    const std::string text = readText(mav() / table);
+    ASSERT_EQ(text.front(), '#');
+    writeText(mav() / table, text.substr(1));
+  }
+  const ImportSummary summary = import();
+  EXPECT_EQ(summary.frames, 5);
+  EXPECT_EQ(summary.imu_samples, 60);
+  EXPECT_EQ(summary.altitudes, 3);
+}
+
 TEST_F(ImportAslTest, AnImuThatMissesTheFramesIsAWarning) {
   writeText(mav() / "imu0" / "data.csv", "1000,0,0,0,0,0,9.8\n5001000,0,0,0,0,0,9.8\n");
   const ImportSummary summary = import();

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "redbee/image_t.hpp"
+#include "redbee/importers/data_track.hpp"
 #include "redbee/importers/gopro_imu.hpp"
 #include "redbee/importers/importer.hpp"
 #include "redbee/ins_t.hpp"

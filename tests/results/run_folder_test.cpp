@@ -1,5 +1,6 @@
 #include "redbee/results/run_folder.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -52,6 +53,28 @@ TEST(RunFolder, DetectionsOfEarlierReleasesAreRead) {
   EXPECT_TRUE(read.begin()->second.seen);
 }
 
+TEST(RunFolder, NamesOfMapsSortByTimeAndEarlierOnesAreRead) {
+  const ScratchFolder folder;
+  const RunFolder run(folder.path());
+  run.prepare();
+  for (const int64_t utime :
+       {int64_t{0}, int64_t{41'667}, int64_t{1'000'000}, int64_t{1'600'000'000'000'000}})
+    run.write(RunMap::kMask, utime, pngOf(cv::Mat1b(4, 4, uint8_t{255})));
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder / "mask"))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"0000000000000000.png", "0000000000041667.png",
+                                             "0000000001000000.png", "1600000000000000.png"}));
+  EXPECT_TRUE(run.has(RunMap::kMask, 41'667));
+  // Of releases up to 0.2.
+  writeText(folder / "mask" / "83333.png", pngOf(cv::Mat1b(4, 4, uint8_t{7})));
+  EXPECT_TRUE(run.has(RunMap::kMask, 83'333));
+  EXPECT_EQ(run.read(RunMap::kMask, 83'333)(0, 0), 7);
+  EXPECT_EQ(run.times(RunMap::kMask),
+            (std::vector<int64_t>{0, 41'667, 83'333, 1'000'000, 1'600'000'000'000'000}));
+}
+
 TEST(RunFolder, HomographiesReadBackToTheLastBit) {
   const ScratchFolder folder;
   const RunFolder run(folder.path());
@@ -84,7 +107,7 @@ TEST(RunFolder, MapsAreNamedByTimeAndReadBack) {
   run.write(RunMap::kMask, 2'000'000, pngOf(image));
   run.write(RunMap::kMask, 1'000'000, pngOf(image));
   writeText(folder / "mask/notes.txt", "no map");
-  EXPECT_TRUE(fs::exists(folder / "mask/1000000.png"));
+  EXPECT_TRUE(fs::exists(folder / "mask/0000000001000000.png"));
   EXPECT_EQ(run.times(RunMap::kMask), (std::vector<int64_t>{1'000'000, 2'000'000}));
   EXPECT_TRUE(run.times(RunMap::kProbability).empty());
   EXPECT_TRUE(run.has(RunMap::kMask, 1'000'000));
@@ -93,7 +116,7 @@ TEST(RunFolder, MapsAreNamedByTimeAndReadBack) {
   EXPECT_EQ(cv::countNonZero(run.readOrZeros(RunMap::kMask, 3, {40, 30})), 0);
   EXPECT_NE(errorMessageOf([&] {
               run.readOrZeros(RunMap::kMask, 1'000'000, {40, 31});
-            }).find("mask/1000000.png: has 40x30 px instead of 40x31"),
+            }).find("mask/0000000001000000.png: has 40x30 px instead of 40x31"),
             std::string::npos);
 }
 
@@ -111,8 +134,9 @@ TEST(RunFolder, ErrorsNameTheFile) {
   const RunFolder run(folder.path());
   EXPECT_NE(errorMessageOf([&] { run.times(RunMap::kMask); }).find("mask: no such folder"),
             std::string::npos);
-  EXPECT_NE(errorMessageOf([&] { run.read(RunMap::kMask, 5); }).find("mask/5.png: no such file"),
-            std::string::npos);
+  EXPECT_NE(
+      errorMessageOf([&] { run.read(RunMap::kMask, 5); }).find("mask/0000000000000005.png: no such file"),
+      std::string::npos);
   writeText(folder / "mask/6.png", "no image");
   EXPECT_NE(errorMessageOf([&] { run.read(RunMap::kMask, 6); }).find("mask/6.png: not a readable image"),
             std::string::npos);

@@ -29,8 +29,10 @@ class AslFolder : public testing::Test {
     }
     std::string imu = "#timestamp [ns],w,w,w,a,a,a\n";
     for (int k = -10; k < 50; ++k) {
-      imu += std::to_string(kAslStart + k * 5'000'000LL) + ",0.1,0.2," + std::to_string(0.001 * k) +
-             ",1,2,9.8\n";
+      imu += std::to_string(kAslStart + k * 5'000'000LL) + "," + std::to_string(0.1 + 1e-4 * k) + "," +
+             std::to_string(0.2 - 1e-4 * k) + "," + std::to_string(0.001 * k) + "," +
+             std::to_string(1 + 1e-3 * k) + "," + std::to_string(2 - 1e-3 * k) + "," +
+             std::to_string(9.8 + 1e-3 * k) + "\n";
     }
     std::string altitudes = "#timestamp [ns],height\n";
     for (int k = 0; k < 3; ++k)

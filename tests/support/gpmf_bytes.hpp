@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "redbee/importers/data_track.hpp"
 #include "redbee/importers/gpmf.hpp"
-#include "redbee/importers/video_reader.hpp"
 
 namespace redbee::test {
 

@@ -10,13 +10,22 @@ namespace redbee::test {
 
 namespace fs = std::filesystem;
 
-/// The folder of this flight, if it exists. REDBEE_SHARED: the folder of all of them.
-inline std::optional<fs::path> sharedFlight(const std::string& name) {
+/// REDBEE_SHARED: the folder of all of them.
+inline std::optional<fs::path> sharedFile(const fs::path& name) {
   const char* folder = std::getenv("REDBEE_SHARED");
   const fs::path shared =
       folder != nullptr ? fs::path(folder) : fs::path(REDBEE_SOURCE_DIR) / ".." / "shared";
-  const fs::path flight = shared / "flights" / name;
-  return fs::exists(flight) ? std::optional<fs::path>(flight) : std::nullopt;
+  return fs::exists(shared / name) ? std::optional<fs::path>(shared / name) : std::nullopt;
+}
+
+/// The folder of this flight, if it exists.
+inline std::optional<fs::path> sharedFlight(const std::string& name) {
+  return sharedFile(fs::path("flights") / name);
+}
+
+/// An input of a kind that users have, if it exists: a file or a folder.
+inline std::optional<fs::path> sharedCase(const std::string& name) {
+  return sharedFile(fs::path("cases") / name);
 }
 
 }  // namespace redbee::test

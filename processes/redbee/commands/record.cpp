@@ -15,7 +15,7 @@ const Command kRecordCommand(
     CommandGroup::kVehicle, "record", "record every message in split logs, until SIGINT or SIGTERM",
     [](CLI::App& command) {
       auto options = std::make_shared<RecordOptions>();
-      addOutOption(command, options->out, "folder for <date>_<time>.lcm.00, .01, ...")
+      addOutOption(command, options->out, "folder for <date>_<time>.lcm.0000, .0001, ...")
           ->required(false)
           ->capture_default_str();
       command.add_option("--split", options->split_mb, "size at which a new file is started, MB")

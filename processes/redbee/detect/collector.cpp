@@ -85,6 +85,11 @@ int64_t ResultCollector::framesWithImage() const {
                        [](const auto& frame) { return frame.second != foreground_t::BAD_IMAGE; });
 }
 
+int64_t ResultCollector::trustedFrames() const {
+  return std::count_if(status_.begin(), status_.end(),
+                       [](const auto& frame) { return frame.second == foreground_t::GOOD; });
+}
+
 void ResultCollector::onForeground(const foreground_t& message) {
   foreground_sequence_.note(message.sequence);
   status_[message.utime] = message.status;
@@ -148,15 +153,13 @@ void ResultCollector::writeTables(double wall_s, const std::optional<ProcessUsag
     timed_out += health.late;
     resident += health.resident;
   }
-  const int64_t good =
-      std::count_if(status_.begin(), status_.end(), [](const auto& s) { return s.second == 0; });
   const nlohmann::json cpu =
       usage && frames() > 0 ? cpuJson(*usage, frames(), stages) : nlohmann::json::object();
   const auto per_second = [](double milliseconds) { return milliseconds > 0 ? 1000 / milliseconds : 0; };
   run_.writeSummary(
       {{"version", buildVersion()},
        {"frames", frames()},
-       {"frames_good", good},
+       {"frames_good", trustedFrames()},
        {"fps", per_second(slowest_ms)},  // frames over wall time of the slowest stage, decoding included
        {"wall_s", wall_s},
        {"lost", lost},

@@ -30,6 +30,8 @@ class ResultCollector {
   int64_t frames() const { return static_cast<int64_t>(status_.size()); }
   /// Those of them whose image was one.
   int64_t framesWithImage() const;
+  /// Those with a mask to trust.
+  int64_t trustedFrames() const;
   /// The latest health message of each process.
   const std::map<std::string, process_health_t>& health() const { return health_; }
 

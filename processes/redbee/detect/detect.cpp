@@ -6,6 +6,7 @@
 
 #include "processes/motion_segmentation/node.hpp"
 #include "processes/redbee/detect/collector.hpp"
+#include "processes/redbee/detect/input_survey.hpp"
 #include "processes/redbee/detect/process_usage.hpp"
 #include "redbee/configuration/configuration_value.hpp"
 #include "redbee/configuration/process_table.hpp"
@@ -61,12 +62,26 @@ bool isInput(const Channels& channels, const std::string& channel) {
   return channel == channels.camera || channel == channels.imu || channel == channels.altimeter;
 }
 
-/// What the segmentation says of images that all were of no use, such as another camera's.
-std::string reasonOfNoFrame(const ResultCollector& collector, int64_t images) {
-  const std::string text = "none of " + std::to_string(images) + " images can be used";
+/// What the segmentation said last; may be empty.
+std::string lastWord(const ResultCollector& collector) {
   const auto health = collector.health().find(programName(kMotionSegmentation));
-  const bool is_said = health != collector.health().end() && !health->second.message.empty();
-  return is_said ? text + ": " + health->second.message : text;
+  return health == collector.health().end() ? "" : health->second.message;
+}
+
+std::string withReason(const std::string& what, const std::string& reason) {
+  return reason.empty() ? what : what + ": " + reason;
+}
+
+/// Of images that all were of no use, such as another camera's.
+std::string reasonOfNoFrame(const ResultCollector& collector, const InputSurvey& survey) {
+  const std::string text = "none of " + std::to_string(survey.images()) + " images can be used";
+  const std::string fault = survey.faultOfFirstImage();
+  return withReason(text, fault.empty() ? lastWord(collector) : fault);
+}
+
+void printWarnings(const InputSurvey& survey, const LogReader& log) {
+  if (!log.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", log.damageReport().c_str());
+  for (const std::string& line : survey.warnings()) std::fprintf(stderr, "warning: %s\n", line.c_str());
 }
 
 }  // namespace
@@ -96,28 +111,34 @@ int64_t runDetect(const DetectOptions& options) {
   Progress progress("detecting in " + options.log.filename().string(), "MB", options.quiet);
   Pace pace(options.rate);
   const auto start = Clock::now();
-  int64_t images = 0;
-  const auto enough = [&] { return options.frames > 0 && images >= options.frames; };
+  InputSurvey survey(configuration);
+  const auto enough = [&] { return options.frames > 0 && survey.images() >= options.frames; };
   while (const auto event = enough() ? std::nullopt : log.next()) {
     if (!isInput(configuration.channels, event->channel)) continue;
     pace.wait(event->utime);
     bus->publish(event->channel, event->data);
     stack.settle();
-    images += event->channel == configuration.channels.camera ? 1 : 0;
+    survey.add(*event);
     progress.update(log.position() >> 20, log.size() >> 20);
   }
-  if (images == 0) {
+  if (survey.images() == 0) {
     throw InputError(options.log, "holds no message on " + configuration.channels.camera);
   }
   stack.finish();
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
   stack.publishHealth();
   progress.finish();
-  if (!log.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", log.damageReport().c_str());
-  if (collector.framesWithImage() == 0) throw InputError(options.log, reasonOfNoFrame(collector, images));
+  printWarnings(survey, log);
+  if (collector.framesWithImage() == 0) throw InputError(options.log, reasonOfNoFrame(collector, survey));
   ProcessUsage usage = processUsage();
   usage.stages = stack.cpu();
   collector.writeTables(wall_s, usage);
+  if (collector.trustedFrames() == 0) {
+    throw InputError(options.log,
+                     withReason("none of " + std::to_string(collector.frames()) +
+                                    " frames has a mask to trust (results in " + options.out.string() + ")",
+                                lastWord(collector)));
+  }
   return collector.frames();
 }
 

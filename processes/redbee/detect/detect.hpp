@@ -29,7 +29,8 @@ std::string methodList();
 /// The whole stack; for a detector that does not need the camera's motion, only the segmentation.
 InProcessStack makeStack(Bus& bus, const Configuration& configuration);
 
-/// Returns the number of frames with a mask. Throws InputError or ConfigurationError on bad input.
+/// Returns the number of frames with a mask. Throws InputError or ConfigurationError on bad input; also where
+/// no frame has a mask to trust, after the results are written.
 int64_t runDetect(const DetectOptions& options);
 
 }  // namespace redbee

@@ -3,13 +3,12 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/natural_order.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/results/png_file.hpp"
 
@@ -20,21 +19,14 @@ namespace fs = std::filesystem;
 
 constexpr uint8_t kUnknown = 128;
 
-bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+/// Where data sets keep their masks.
+const char* const kMaskFolders[] = {"labels/mask", "mask", "groundtruth", "Annotations", "."};
 
-std::vector<fs::path> pngsOf(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".png") files.push_back(entry.path());
+std::optional<fs::path> maskFolderIn(const fs::path& folder) {
+  for (const char* name : kMaskFolders) {
+    const fs::path masks = std::string(name) == "." ? folder : folder / name;
+    if (!masksIn(masks).empty()) return masks;
   }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::optional<fs::path> baseOf(const fs::path& folder) {
-  if (!pngsOf(folder / "labels" / "mask").empty()) return folder / "labels";
-  if (!pngsOf(folder / "mask").empty() || !pngsOf(folder).empty()) return folder;
   return std::nullopt;
 }
 
@@ -44,65 +36,18 @@ std::map<std::string, int64_t> imageNumbers(const fs::path& folder) {
   if (fs::is_directory(folder)) {
     for (const auto& entry : fs::directory_iterator(folder)) stems.push_back(entry.path().stem().string());
   }
-  std::sort(stems.begin(), stems.end());
+  std::sort(stems.begin(), stems.end(), isNaturallyBefore);
   std::map<std::string, int64_t> numbers;
   for (const std::string& stem : stems) numbers.emplace(stem, static_cast<int64_t>(numbers.size()));
   return numbers;
 }
 
-/// The number that a name ends with.
-int64_t numberIn(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  size_t first = stem.size();
-  while (first > 0 && isDigit(stem[first - 1])) --first;
-  const std::string digits = stem.substr(first);
-  if (digits.empty() || digits.size() > 19)
-    throw InputError(file, "its name does not end with a time or a frame number");
-  return std::stoll(digits);
-}
-
-bool looksLikeFrameNumber(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  return !isDigit(stem.front()) || (stem.size() > 1 && stem.front() == '0');
-}
-
-cv::Mat1b readLabels(const fs::path& file, cv::Size size) {
-  cv::Mat1b labels = readGreyPng(file);
+cv::Mat1b ofSize(const cv::Mat1b& labels, const fs::path& file, cv::Size size) {
   if (labels.size() != size) {
     throw InputError(file, fmt::format("has {}x{} px, the run's maps have {}x{}", labels.cols, labels.rows,
                                        size.width, size.height));
   }
   return labels;
-}
-
-TruthObject boxAt(const CsvReader& csv, size_t x) {
-  TruthObject object;
-  object.box = {csv.number(x), csv.number(x + 1), csv.number(x + 2), csv.number(x + 3)};
-  return object;
-}
-
-std::multimap<int64_t, TruthObject> readBoxes(const fs::path& file) {
-  constexpr size_t kColumns = 9;
-  std::multimap<int64_t, TruthObject> boxes;
-  CsvReader csv(file);
-  csv.next(kColumns);  // the names of the columns
-  while (csv.next(kColumns)) {
-    TruthObject object = boxAt(csv, 5);
-    object.id = static_cast<int>(csv.integer(2));
-    object.counts = csv.fields()[4] == "moving";
-    boxes.emplace(csv.integer(0), object);
-  }
-  return boxes;
-}
-
-std::multimap<int64_t, TruthObject> readIgnored(const fs::path& file) {
-  constexpr size_t kColumns = 5;
-  std::multimap<int64_t, TruthObject> boxes;
-  if (!fs::exists(file)) return boxes;
-  CsvReader csv(file);
-  csv.next(kColumns);  // the names of the columns
-  while (csv.next(kColumns)) boxes.emplace(csv.integer(0), boxAt(csv, 1));
-  return boxes;
 }
 
 cv::Rect pixelsOf(const cv::Rect2d& box) {
@@ -118,26 +63,37 @@ void forEachIn(const std::multimap<int64_t, TruthObject>& boxes, int64_t key, co
 
 }  // namespace
 
-bool ClipTruth::isIn(const fs::path& folder) { return baseOf(folder).has_value(); }
+bool ClipTruth::isIn(const fs::path& folder) {
+  return maskFolderIn(folder).has_value() || motFileIn(folder).has_value();
+}
 
 ClipTruth::ClipTruth(const fs::path& folder) : nothing_moves_(false) {
-  const auto base = baseOf(folder);
-  if (!base) throw InputError(folder, "holds no ground-truth masks");
-  folder_ = *base;
-  findMasks(pngsOf(folder_ / "mask").empty() ? folder_ : folder_ / "mask");
-  has_boxes_ = fs::exists(folder_ / "boxes.csv");
-  if (has_boxes_) {
+  const auto masks = maskFolderIn(folder);
+  const auto mot = motFileIn(folder);
+  if (!masks && !mot) {
+    throw InputError(folder,
+                     "holds no ground-truth masks (looked for PNG or JPEG in ., mask, labels/mask, "
+                     "groundtruth and Annotations, and for MOT's gt.txt)");
+  }
+  folder_ = masks && *masks == folder / "labels" / "mask" ? folder / "labels" : folder;
+  if (masks) findMasks(*masks);
+  has_boxes_ = mot.has_value() || fs::exists(folder_ / "boxes.csv");
+  if (mot) {
+    boxes_ = readMotBoxes(*mot);
+  } else if (has_boxes_) {
     boxes_ = readBoxes(folder_ / "boxes.csv");
-    ignored_ = readIgnored(folder_ / "ignore.csv");
+    ignored_ = readIgnoredBoxes(folder_ / "ignore.csv");
   }
   has_identities_ = !has_boxes_ && fs::is_directory(folder_ / "id") && fs::exists(folder_ / "objects.csv");
   if (has_identities_) readObjectStates();
 }
 
 void ClipTruth::findMasks(const fs::path& folder) {
-  const std::vector<fs::path> files = pngsOf(folder);
+  const std::vector<fs::path> files = masksIn(folder);
+  coding_ = TruthMasks(files);
   const auto images = imageNumbers(folder_ / "frames");
   by_number_ = !images.empty() || std::any_of(files.begin(), files.end(), looksLikeFrameNumber);
+  from_one_ = images.empty() && std::all_of(files.begin(), files.end(), countsFromOne);
   for (const fs::path& file : files) {
     if (images.empty()) {
       masks_[by_number_ ? numberIn(file) : fromNanoseconds(numberIn(file)).count()] = file;
@@ -162,24 +118,27 @@ void ClipTruth::readObjectStates() {
 
 std::vector<ClipTruth::Frame> ClipTruth::frames(const std::vector<int64_t>& utimes) const {
   std::vector<Frame> labelled;
-  if (by_number_ && !masks_.empty() && masks_.rbegin()->first >= static_cast<int64_t>(utimes.size())) {
-    throw InputError(masks_.rbegin()->second, "is of frame " + std::to_string(masks_.rbegin()->first) +
-                                                  ", the recording has " + std::to_string(utimes.size()));
-  }
-  if (!by_number_ && !nothing_moves_) {
+  if (!by_number_ && !nothing_moves_ && !masks_.empty()) {
     for (const auto& [utime, mask] : masks_) {
       const auto at = std::lower_bound(utimes.begin(), utimes.end(), utime);
       labelled.push_back({utime, at - utimes.begin(), mask});
     }
     return labelled;
   }
-  for (size_t i = 0; i < utimes.size(); ++i) {
-    const auto mask = masks_.find(static_cast<int64_t>(i));
+  const auto count = static_cast<int64_t>(utimes.size());
+  const int64_t last = masks_.empty() ? -1 : masks_.rbegin()->first;
+  // A number as high as the recording has frames, and no 0: they are counted from 1.
+  const int64_t first = from_one_ || (last == count && masks_.count(0) == 0) ? 1 : 0;
+  if (last - first >= count) {
+    throw InputError(masks_.rbegin()->second,
+                     "is of frame " + std::to_string(last) + ", the recording has " + std::to_string(count));
+  }
+  for (int64_t i = 0; i < count; ++i) {
+    const auto mask = masks_.find(i + first);
     const bool known = nothing_moves_ || has_boxes_ || mask != masks_.end();
-    if (known) {
+    if (known)
       labelled.push_back(
-          {utimes[i], static_cast<int64_t>(i), mask == masks_.end() ? fs::path() : mask->second});
-    }
+          {utimes[static_cast<size_t>(i)], i, mask == masks_.end() ? fs::path() : mask->second});
   }
   return labelled;
 }
@@ -191,7 +150,7 @@ ClipTruth::Labels ClipTruth::read(const Frame& frame, cv::Size size) const {
     labels.objects = objectsOfMask(labels.mask);
     return labels;
   }
-  if (!frame.mask.empty()) labels.mask = readLabels(frame.mask, size);
+  if (!frame.mask.empty()) labels.mask = ofSize(coding_.read(frame.mask), frame.mask, size);
   if (has_boxes_) {
     labels.objects = objectsFromBoxes(frame, size);
   } else if (has_identities_) {
@@ -206,7 +165,8 @@ ObjectTruth ClipTruth::objectsFromIdentities(const Frame& frame, const cv::Mat1b
   ObjectTruth truth = objectsOfMask(mask);
   truth.objects.clear();
   truth.has_identities = true;
-  readLabels(folder_ / "id" / frame.mask.filename(), mask.size()).convertTo(truth.ids, CV_32S);
+  const fs::path ids = folder_ / "id" / frame.mask.filename();
+  ofSize(readGreyPng(ids), ids, mask.size()).convertTo(truth.ids, CV_32S);
   forEachIn(objects_by_utime_, frame.utime,
             [&](const TruthObject& object) { truth.objects.push_back(object); });
   return truth;

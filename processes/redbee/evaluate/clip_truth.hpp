@@ -1,16 +1,18 @@
 // Ground truth of a clip.
 //
-//   mask/        255 moves, 0 does not, any other value is unknown. Or labels/mask/, or the folder itself
+//   mask/        see TruthMasks. Or labels/mask/, groundtruth/ (CDnet), Annotations/, or the folder itself
 //   id/          the object id of each visible pixel, with objects.csv beside it: timestamp [ns], frame,
 //                object_id, kind, state, ... Only objects whose state is `moving` count
 //   boxes.csv    instead of id/, for every frame of the recording: frame_index, frame_file, object_id, class,
 //                state, x, y, w, h [px]
+//   gt/gt.txt    MOT's boxes, instead of boxes.csv; or gt.txt
 //   ignore.csv   beside boxes.csv, areas that are unknown: frame_index, x, y, w, h [px]
 //   frames/      the images of the recording, if masks are named after them
 //
-// The name of a mask is the frame's time [ns]. It is a frame's number (from 0) instead if numbers are padded
-// with zeros or follow letters, and the name of one of the images in frames/ if there is such a folder.
-// Without id/ and boxes.csv, each connected region of a mask is an object.
+// The name of a mask is the frame's time [ns]. It is a frame's number instead if numbers are padded with
+// zeros or follow letters, and the name of one of the images in frames/ if there is such a folder. Numbers
+// count from 0; from 1 if they are named as CDnet's, or if the highest is the number of frames and there is
+// no 0. Without id/ and boxes.csv, each connected region of a mask is an object.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +21,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "processes/redbee/evaluate/truth_boxes.hpp"
+#include "processes/redbee/evaluate/truth_masks.hpp"
 #include "redbee/evaluation/object_measures.hpp"
 
 namespace redbee {
@@ -51,7 +55,6 @@ class ClipTruth {
   Labels read(const Frame& frame, cv::Size size) const;
 
  private:
-  using Boxes = std::multimap<int64_t, TruthObject>;
   ClipTruth() = default;
   void findMasks(const std::filesystem::path& folder);
   void readObjectStates();
@@ -59,14 +62,16 @@ class ClipTruth {
   ObjectTruth objectsFromBoxes(const Frame& frame, cv::Size size) const;
 
   bool by_number_ = false;
+  bool from_one_ = false;  ///< for certain, by the names
   bool nothing_moves_ = true;
   bool has_identities_ = false;
   bool has_boxes_ = false;
   std::filesystem::path folder_;
+  TruthMasks coding_;
   std::map<int64_t, std::filesystem::path> masks_;  ///< by time [us] or by number
-  Boxes objects_by_utime_;                          ///< objects.csv
-  Boxes boxes_;                                     ///< boxes.csv, by number
-  Boxes ignored_;                                   ///< ignore.csv, by number
+  TruthBoxes objects_by_utime_;                     ///< objects.csv
+  TruthBoxes boxes_;                                ///< boxes.csv, by number
+  TruthBoxes ignored_;                              ///< ignore.csv, by number
 };
 
 }  // namespace redbee

@@ -45,9 +45,9 @@ FrameOutcome outcome(int64_t utime, const cv::Mat1b& detected, const cv::Mat1b& 
 std::vector<ClipTruth::Frame> labelledFrames(const ClipTruth& truth, const std::vector<int64_t>& utimes,
                                              int64_t limit) {
   std::vector<ClipTruth::Frame> labelled = truth.frames(utimes);
-  if (limit <= 0 || utimes.size() <= static_cast<size_t>(limit)) return labelled;
-  const int64_t first_beyond = utimes[static_cast<size_t>(limit)];
-  const auto beyond = [&](const ClipTruth::Frame& frame) { return frame.utime >= first_beyond; };
+  if (limit <= 0 || utimes.size() < static_cast<size_t>(limit)) return labelled;
+  const int64_t last = utimes[static_cast<size_t>(limit) - 1];
+  const auto beyond = [&](const ClipTruth::Frame& frame) { return frame.utime > last; };
   labelled.erase(std::remove_if(labelled.begin(), labelled.end(), beyond), labelled.end());
   return labelled;
 }

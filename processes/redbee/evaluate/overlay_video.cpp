@@ -6,8 +6,10 @@
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/files/progress.hpp"
+#include "redbee/geometry/time.hpp"
 #include "redbee/node/message_check.hpp"
 #include "redbee/results/overlay.hpp"
 #include "redbee/results/png_file.hpp"
@@ -49,6 +51,7 @@ void forEachOverlay(const std::filesystem::path& log_file, const std::filesystem
 }
 
 void renderOverlay(const OverlayOptions& options) {
+  requireNoInput(options.video, {options.log, options.configuration});
   constexpr double kDefaultFps = 24;
   std::unique_ptr<VideoWriter> writer;
   cv::Mat first;
@@ -58,20 +61,20 @@ void renderOverlay(const OverlayOptions& options) {
   const auto take = [&](int64_t utime, const cv::Mat& drawn) {
     const cv::Mat even = drawn(cv::Rect(0, 0, drawn.cols & ~1, drawn.rows & ~1));
     if (!options.stills.empty() && count % OverlayOptions::kStillPeriod == 0) {
-      writePng(options.stills / (std::to_string(utime) + ".png"), drawn);
+      writePng(options.stills / (nameOfFrame(utime) + ".png"), drawn);
     }
     if (count++ == 0) {
       first = even.clone();
       first_utime = utime;
       return;
     }
-    if (!writer) {  // the second frame gives the frame rate of the video
+    if (!writer) {  // the second frame gives the encoder a frame rate; each is shown at its own time
       const double fps = 1e6 / static_cast<double>(utime - first_utime);
       writer = std::make_unique<VideoWriter>(options.video, even.size(),
                                              fps > 0 && fps < 1000 ? fps : kDefaultFps);
-      writer->write(first);
+      writer->write(first, 0);
     }
-    writer->write(even);
+    writer->write(even, seconds(fromUtime(utime - first_utime)));
   };
   forEachOverlay(options.log, options.configuration, options.results, take);
   if (!writer) throw InputError(options.results, "has masks of fewer than two frames of the flight");

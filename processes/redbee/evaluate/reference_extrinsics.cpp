@@ -6,6 +6,7 @@
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 #include "redbee/importers/sensor_yaml.hpp"
 
 namespace redbee {
@@ -42,6 +43,7 @@ InertialExtrinsics readTrueExtrinsics(const std::filesystem::path& flight) {
 }
 
 void writeReferenceExtrinsics(const ReferenceExtrinsicsOptions& options) {
+  requireNoInput(options.out, {options.configuration});
   loadConfiguration(options.configuration);  // throws where the included file is wrong
   const auto flight = std::filesystem::weakly_canonical(options.flight);
   const std::string seed = options.seed.empty() ? flight.filename().string() : options.seed;

@@ -14,6 +14,7 @@
 #include "processes/redbee/pages/page.hpp"
 #include "redbee/bus/build_version.hpp"
 #include "redbee/files/atomic_file.hpp"
+#include "redbee/files/input_file.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/results/run_folder.hpp"
 
@@ -83,6 +84,7 @@ void printIndented(const std::string& text) {
 }  // namespace
 
 void writeReport(const ReportOptions& options) {
+  requireNoInput(options.page, {options.log, options.configuration});
   checkWritable(options.page);
   const nlohmann::json summary = RunFolder(options.results).summary();
   std::optional<ClipMeasures> measures;

@@ -4,6 +4,7 @@
 
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/atomic_file.hpp"
+#include "redbee/files/input_error.hpp"
 
 namespace redbee {
 namespace {
@@ -64,6 +65,23 @@ std::filesystem::path writeVehicleFile(const VehicleDescription& vehicle, const 
                   "# What the recording states about its vehicle; all else has the reference's values.\n" +
                       vehicleYaml(vehicle));
   return path;
+}
+
+std::string compareVehicleFile(const std::filesystem::path& file, const VehicleDescription& vehicle) {
+  const Configuration configuration = loadConfiguration(file);
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  const CameraIntrinsics& camera = configuration.camera;
+  if (camera.width != vehicle.width || camera.height != vehicle.height) {
+    throw InputError(file, "is of another camera: its images have " + size(camera.width, camera.height) +
+                               " px, the recording's " + size(vehicle.width, vehicle.height) +
+                               ": move it away, or give --out another name");
+  }
+  if (configuration.has_imu == vehicle.has_imu) return "";
+  return file.string() + ": imu.present is " + (configuration.has_imu ? "true" : "false") +
+         ", but the recording has " + (vehicle.has_imu ? "an" : "no") +
+         " IMU: correct it, or move it away and import again";
 }
 
 }  // namespace redbee

@@ -15,4 +15,9 @@ std::string vehicleYaml(const VehicleDescription& vehicle);
 /// Writes vehicleYaml() beside the log (F.yaml for F.lcm). Returns the path.
 std::filesystem::path writeVehicleFile(const VehicleDescription& vehicle, const std::filesystem::path& log);
 
+/// Compares a vehicle's configuration that was there before with what the recording states. Throws InputError
+/// if it has another image size, so that every image would be ignored, or ConfigurationError if it cannot be
+/// read; returns a line if it says of the IMU what the recording contradicts, otherwise an empty one.
+std::string compareVehicleFile(const std::filesystem::path& file, const VehicleDescription& vehicle);
+
 }  // namespace redbee

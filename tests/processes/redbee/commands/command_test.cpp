@@ -47,8 +47,8 @@ TEST(CommandLine, HelpListsEveryCommand) {
   const ToolOutput help = run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   for (const char* name :
-       {"calibrate", "collect", "compare", "configuration", "detect", "doctor", "evaluate", "import",
-        "overlay", "record", "reference-extrinsics", "report", "simulate", "top", "watch"}) {
+       {"calibrate", "collect", "compare", "configuration", "detect", "doctor", "evaluate", "import", "log",
+        "overlay", "record", "reference-extrinsics", "report", "simulate", "top", "try", "watch"}) {
     EXPECT_NE(help.out.find(std::string("\n  ") + name + " "), std::string::npos) << name;
     if (std::string(name) == "calibrate") continue;  // replaces the process
     const ToolOutput own = run({name, "--help"});
@@ -95,6 +95,18 @@ TEST(CommandLine, BadInputExitsWith2AndOneLine) {
   const ToolOutput no_scenario = run({"simulate", "--scenario", "nowhere", "--out", "/nowhere.lcm"});
   EXPECT_EQ(no_scenario.exit_code, 2);
   EXPECT_NE(no_scenario.error.find("nowhere"), std::string::npos);
+}
+
+TEST(CommandLine, NumbersHaveBounds) {
+  const std::vector<std::pair<std::string, std::string>> beyond = {
+      {"--width", "-5"}, {"--width", "100000"}, {"--fps", "0"}, {"--fps", "-1"}, {"--gyro-unit", "furlong"}};
+  for (const auto& [option, value] : beyond) {
+    const ToolOutput output =
+        run({"import", "video", "/nowhere.mp4", "--out", "/nowhere.lcm", option, value});
+    EXPECT_EQ(output.exit_code, 2) << option << " " << value;
+    EXPECT_NE(output.error.find(option), std::string::npos) << output.error;
+    EXPECT_EQ(output.error.find('\n'), output.error.size() - 1) << output.error;
+  }
 }
 
 TEST(CommandLine, ResultsAndDetectionsAreOneOption) {

@@ -55,6 +55,16 @@ class Commands : public testing::Test {
   static inline int64_t frames_ = 0;
 };
 
+/// What the error of a run says; empty without one.
+std::string refusalOf(const DetectOptions& options) {
+  try {
+    runDetect(options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST_F(Commands, DetectLeavesAMapAndAMaskForEveryFrame) {
   EXPECT_EQ(frames_, kFrames);
   for (const char* kind : {"probability", "mask"}) {
@@ -94,7 +104,8 @@ TEST_F(Commands, SettingsFromTheCommandLineReachTheStack) {
   DetectOptions options = options_;
   options.out = folder_ / "late";
   options.settings = {"detection.learning_frames=1000"};
-  runDetect(options);
+  EXPECT_NE(refusalOf(options).find("none of 24 frames has a mask to trust"), std::string::npos)
+      << refusalOf(options);
   const auto summary = nlohmann::json::parse(text(options.out / "summary.json"));
   EXPECT_EQ(summary.at("frames_good"), 0);
   options.settings = {"detection.no_such_key=1"};
@@ -177,16 +188,6 @@ TEST_F(Commands, ALogWithoutImagesIsRefused) {
   EXPECT_THROW(runDetect(options), InputError);
 }
 
-/// What the error of a run says; empty without one.
-std::string refusalOf(const DetectOptions& options) {
-  try {
-    runDetect(options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST_F(Commands, ALogOfAnotherCameraIsRefused) {
   DetectOptions options = options_;
   options.out = folder_ / "another";
@@ -214,7 +215,16 @@ TEST_F(Commands, ALogOfBrokenImagesIsRefused) {
   }
   log.close();
   options.out = folder_ / "broken";
-  EXPECT_NE(refusalOf(options).find("none of 3 images can be used"), std::string::npos) << refusalOf(options);
+  EXPECT_NE(refusalOf(options).find("none of 3 images can be used: 3 bytes are no GRAY image of 640x480"),
+            std::string::npos)
+      << refusalOf(options);
+}
+
+TEST_F(Commands, AnotherTypeOfMessageOnTheChannelIsNamed) {
+  DetectOptions options = options_;
+  options.settings = {"channels.camera=IMU", "channels.imu=CAMERA"};
+  options.out = folder_ / "type";
+  EXPECT_NE(refusalOf(options).find("IMU holds ins_t, not image_t"), std::string::npos) << refusalOf(options);
 }
 
 }  // namespace

@@ -1,0 +1,78 @@
+#include "redbee/importers/imu_csv.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "redbee/files/csv.hpp"
+#include "redbee/files/input_error.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr std::array<const char*, 7> kColumnNames = {"t_s", "gx", "gy", "gz", "ax", "ay", "az"};
+using ColumnNumbers = std::array<size_t, kColumnNames.size()>;
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+ColumnNumbers findColumns(const CsvReader& csv, const std::vector<std::string>& header) {
+  ColumnNumbers columns{};
+  for (size_t i = 0; i < kColumnNames.size(); ++i) {
+    const auto found = std::find(header.begin(), header.end(), kColumnNames[i]);
+    if (found == header.end()) {
+      csv.fail(std::string("header names no column '") + kColumnNames[i] + "' (found: " + listed(header) +
+               "; needed: t_s gx gy gz ax ay az)");
+    }
+    columns[i] = static_cast<size_t>(found - header.begin());
+  }
+  return columns;
+}
+
+/// Leaves the reader before the first sample.
+ColumnNumbers readHeader(CsvReader& csv) {
+  csv.skipHeader();
+  const std::vector<std::string>& header = csv.header();
+  if (header.empty()) {
+    if (!csv.next(0)) throw InputError(csv.path(), "is empty");
+    return findColumns(csv, csv.fields());
+  }
+  return findColumns(csv, header);
+}
+
+}  // namespace
+
+std::vector<ImuSample> readImuCsv(const std::filesystem::path& file, const ImuUnits& units) {
+  constexpr double kLatest_s = 1e10;  // the year 2286; far beyond it microseconds overflow
+  const double to_s = factorOf(timeUnits(), units.time, "--time-unit");
+  const double to_rad_s = factorOf(gyroUnits(), units.gyro, "--gyro-unit");
+  const double to_m_s2 = factorOf(accelUnits(), units.accel, "--accel-unit");
+  CsvReader csv(file);
+  const ColumnNumbers columns = readHeader(csv);
+  const size_t width = csv.columns();
+  IncreasingTimeCheck times;
+  std::vector<ImuSample> samples;
+  while (csv.next(width)) {
+    ImuSample sample;
+    const double t_s = to_s * csv.number(columns[0]);
+    if (std::abs(t_s) > kLatest_s) {
+      csv.fail("'" + csv.fields().at(columns[0]) + "' " + units.time +
+               " is no time: give its unit with --time-unit ms, us or ns");
+    }
+    sample.time = ImuTime(fromSeconds(t_s));
+    times.check(csv, toUtime(sample.time));
+    for (int axis = 0; axis < 3; ++axis) {
+      sample.gyro[axis] = to_rad_s * csv.number(columns[static_cast<size_t>(1 + axis)]);
+      sample.accel[axis] = to_m_s2 * csv.number(columns[static_cast<size_t>(4 + axis)]);
+    }
+    samples.push_back(sample);
+  }
+  if (samples.empty()) throw InputError(file, "holds no samples");
+  return samples;
+}
+
+}  // namespace redbee

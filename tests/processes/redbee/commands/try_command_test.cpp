@@ -1,0 +1,70 @@
+// redbee try, on a recording that only needs its folder.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <opencv2/imgcodecs.hpp>
+
+#include "processes/redbee/commands/command.hpp"
+#include "processes/redbee/evaluate/simulate_flight.hpp"
+#include "redbee/bus/image.hpp"
+#include "redbee/importers/recognise.hpp"
+#include "tests/support/gpmf_bytes.hpp"
+#include "tests/support/log_events.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/test_video.hpp"
+
+namespace redbee::test {
+namespace {
+
+int run(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "redbee");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  return runTool(static_cast<int>(argv.size()), argv.data());
+}
+
+TEST(TryCommand, RecordingsAreRecognisedByTheirContent) {
+  const ScratchFolder folder;
+  TestVideo video;
+  video.image = numbered;
+  video.frames = 3;
+  writeTestVideo(folder / "v.mp4", video);
+  video.track = packets(1);
+  writeTestVideo(folder / "g.mp4", video);
+  LogWriter log(folder / "l.bin");
+  log.write(1, "X", {1});
+  log.close();
+  fs::create_directories(folder / "flight" / "mav0");
+  EXPECT_EQ(recogniseRecording(folder / "v.mp4"), "video");
+  EXPECT_EQ(recogniseRecording(folder / "g.mp4"), "gopro");
+  EXPECT_EQ(recogniseRecording(folder / "l.bin"), "");
+  EXPECT_EQ(recogniseRecording(folder / "flight"), "asl");
+  EXPECT_EQ(recogniseRecording(folder.path()), "video");
+  EXPECT_NE(errorMessageOf([&] { recogniseRecording(folder / "none"); }).find("no such file or folder"),
+            std::string::npos);
+}
+
+TEST(TryCommand, AFolderOfImagesAndALogLeaveOverlayAndReport) {
+  const ScratchFolder folder;
+  SimulateOptions simulate;
+  simulate.scenario = "walkers";
+  simulate.seconds = 1;
+  simulate.log = folder / "sim.lcm";
+  runSimulate(simulate);
+  fs::create_directories(folder / "images");
+  int number = 0;
+  for (const image_t& image : messagesOn<image_t>(readEvents(simulate.log), "CAMERA"))
+    cv::imwrite((folder / "images").string() + "/" + std::to_string(number++) + ".png", *decodeGrey(image));
+  EXPECT_EQ(run({"try", (folder / "images").string(), "--fps", "24", "--out", (folder / "a").string()}), 0);
+  EXPECT_EQ(run({"try", simulate.log.string(), "--out", (folder / "b").string()}), 0);
+  for (const char* out : {"a", "b"}) {
+    for (const char* file : {"overlay.mp4", "report.html", "detections.csv"})
+      EXPECT_TRUE(fs::exists(folder / out / file)) << out << file;
+  }
+  EXPECT_TRUE(fs::exists(folder / "a" / "flight.yaml"));
+  EXPECT_EQ(run({"try", (folder / "images").string(), "--out", (folder / "c").string()}), 2)
+      << "no frame rate";
+}
+
+}  // namespace
+}  // namespace redbee::test
