@@ -12,6 +12,7 @@
 #include "redbee/fusion/homography_fusion.hpp"
 #include "redbee/geometry/camera.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/mavlink/parameters.hpp"
 #include "redbee/visual/front_plane_estimator.hpp"
 #include "redbee/visual/visual_homography.hpp"
 
@@ -30,6 +31,10 @@ struct Channels {
   std::string detections = "DETECTIONS";
   std::string overlay = "OVERLAY";
   std::string health = "PROCESS_HEALTH";
+  std::string pose = "POSE";
+  std::string gimbal = "GIMBAL";
+  std::string lens = "LENS";
+  std::string autopilot_clock = "AUTOPILOT_CLOCK";
 };
 
 /// Timeouts, in message time, of each process for the companions of a frame. A process that waits for another
@@ -61,6 +66,7 @@ struct Configuration {
   Channels channels;
   WaitParameters waits;
   WatchParameters watch;
+  AutopilotParameters autopilot;
   int overlay_period_frames = 4;  ///< OVERLAY is published for every n-th frame; 0: never
 };
 

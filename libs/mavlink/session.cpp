@@ -95,7 +95,7 @@ void Session::handleTimesync(const Frame& frame, int64_t host_ns) {
   if (outcome == ClockEstimator::Outcome::kRestarted) {
     ++counters_.clock_restarts;
     rates_.restart();
-    last_imu_us_.reset();
+    last_imu_.reset();
   }
   if (const auto state = clock_.state()) measurements_.emplace_back(*state);
 }

@@ -90,7 +90,7 @@ class Session {
   std::optional<int64_t> heartbeat_ns_;
   uint8_t autopilot_ = 0;  ///< MAV_AUTOPILOT
   std::optional<int64_t> gimbal_device_ns_;
-  std::optional<int64_t> last_imu_us_;
+  std::optional<ImuReading> last_imu_;  ///< since the clock was last set
   int64_t next_timesync_ns_ = 0;
   int64_t next_heartbeat_ns_ = 0;
   SigningTime signing_start_;

@@ -1,4 +1,5 @@
 // The members of Session that turn frames into measurements.
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <type_traits>
@@ -43,10 +44,12 @@ void Session::handleImu(const Frame& frame, int64_t host_ns) {
     device_us = message.time_usec;
   }
   const auto time = timeOf(device_us, host_ns);
-  const auto reading = time ? readingOf(message, *time) : std::nullopt;
-  // Repeated samples would count twice, and the estimate of the clock may step back by less than a sample.
-  if (!reading || (last_imu_us_ && toUtime(*time) <= *last_imu_us_)) return;
-  last_imu_us_ = toUtime(*time);
+  auto reading = time ? readingOf(message, *time) : std::nullopt;
+  // Repeated samples would count twice.
+  if (!reading || (last_imu_ && reading->device_us <= last_imu_->device_us)) return;
+  // The estimate of the clock may step back by more than two samples are apart that were sent in one burst.
+  if (last_imu_) reading->time = std::max(reading->time, last_imu_->time + Duration(1));
+  last_imu_ = *reading;
   measurements_.emplace_back(*reading);
 }
 
