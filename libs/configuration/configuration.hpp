@@ -53,6 +53,13 @@ struct WatchParameters {
   double hang_timeout_s = 2.0;  ///< s of wall time without a sign of life, after which a process is killed
 };
 
+/// For redbee-camera. Its images have the size of the section `camera`.
+struct CaptureParameters {
+  std::string pipeline;  ///< of GStreamer, with one appsink; empty: none
+  double rate_hz = 0;    ///< Hz, expected; fewer images are reported; 0: any
+  int jpeg_quality = 0;  ///< of images that the pipeline gives raw; 0: they stay raw
+};
+
 struct Configuration {
   std::string vehicle = "unnamed";
   CameraIntrinsics camera;
@@ -66,6 +73,7 @@ struct Configuration {
   Channels channels;
   WaitParameters waits;
   WatchParameters watch;
+  CaptureParameters capture;
   AutopilotParameters autopilot;
   int overlay_period_frames = 4;  ///< OVERLAY is published for every n-th frame; 0: never
 };

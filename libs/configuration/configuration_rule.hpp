@@ -51,6 +51,8 @@ inline const Rule systemId{[](int x) { return x >= 1 && x <= 255; }, "must lie f
 inline const Rule absolutePath{[](const std::string& x) { return x.empty() || x.front() == '/'; },
                                "must be a path from the root (/...), or empty"};
 inline const Rule rate{[](double x) { return x >= 0.1 && x <= 1000; }, "must lie from 0.1 to 1000"};
+inline const Rule rateOrAny{[](double x) { return x >= 0 && x <= 1000; }, "must lie from 0 to 1000"};
+inline const Rule percent{[](int x) { return x >= 0 && x <= 100; }, "must lie from 0 to 100"};
 inline const Rule angleSigma{[](double x) { return x > 0 && x <= 180; }, "must lie between 0 and 180"};
 inline const Rule mounting{[](double x) { return x >= -10 && x <= 10; }, "must lie from -10 to 10"};
 inline const Rule rotation{[](const Eigen::Matrix3d& R) { return isRotation(R, 1e-5); },

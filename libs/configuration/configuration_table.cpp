@@ -152,6 +152,9 @@ Settings messagingSettings() {
 
 Settings driverSettings() {
   return {
+      setting("capture.pipeline", MEMBER(capture.pipeline), anything),
+      setting("capture.rate_hz", MEMBER(capture.rate_hz), rateOrAny),
+      setting("capture.jpeg_quality", MEMBER(capture.jpeg_quality), percent),
       setting("autopilot.link", MEMBER(autopilot.link), autopilotLink),
       setting("autopilot.system_id", MEMBER(autopilot.system_id), systemId),
       setting("autopilot.signing_key_file", MEMBER(autopilot.signing_key_file), absolutePath),

@@ -8,9 +8,10 @@
 
 namespace redbee {
 
-/// The autopilot's where autopilot.link is set.
+/// The camera's where capture.pipeline is set, the autopilot's where autopilot.link is set.
 inline std::vector<const ProcessDescription*> configuredDrivers(const Configuration& configuration) {
   std::vector<const ProcessDescription*> drivers;
+  if (!configuration.capture.pipeline.empty()) drivers.push_back(&kCamera);
   if (!configuration.autopilot.link.empty()) drivers.push_back(&kAutopilot);
   return drivers;
 }

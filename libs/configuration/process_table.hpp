@@ -75,6 +75,13 @@ inline constexpr ProcessDescription kMotionSegmentation = [] {
   return process;
 }();
 
+inline constexpr ProcessDescription kCamera = [] {
+  ProcessDescription process{"camera"};
+  process.publishes = {"camera"};
+  process.priority = 5;
+  return process;
+}();
+
 inline constexpr ProcessDescription kAutopilot = [] {
   ProcessDescription process{"autopilot"};
   process.publishes = {"imu", "altimeter", "pose", "gimbal", "lens", "autopilot_clock"};
@@ -104,7 +111,7 @@ inline constexpr ProcessDescription kRecord = [] {
 inline constexpr std::array kStages{&kImuIntegration, &kVisualHomography, &kHomographyFusion,
                                     &kMotionSegmentation};
 /// The drivers of sensors, each a program that flies only where it is configured (drivers.hpp).
-inline constexpr std::array kDrivers{&kAutopilot};
+inline constexpr std::array kDrivers{&kCamera, &kAutopilot};
 /// The other processes: subcommands of `redbee`.
 inline constexpr std::array kSupportProcesses{&kWatch, &kRecord};
 

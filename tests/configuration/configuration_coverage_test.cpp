@@ -37,6 +37,7 @@ TEST(ConfigurationCoverage, EveryParameterHasAKey) {
   EXPECT_EQ(keysIn("front_plane.ransac"), fieldCount<RansacParameters>());
   EXPECT_EQ(keysIn("channels"), fieldCount<Channels>());
   EXPECT_EQ(keysIn("waits"), fieldCount<WaitParameters>());
+  EXPECT_EQ(keysIn("capture"), fieldCount<CaptureParameters>());
   EXPECT_EQ(keysIn("autopilot"), fieldCount<AutopilotParameters>());
   EXPECT_EQ(keysIn("watch"), fieldCount<WatchParameters>());
 }
