@@ -12,6 +12,7 @@
 #include "redbee/fusion/homography_fusion.hpp"
 #include "redbee/geometry/camera.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/mavlink/parameters.hpp"
 #include "redbee/visual/front_plane_estimator.hpp"
 #include "redbee/visual/visual_homography.hpp"
 
@@ -30,6 +31,10 @@ struct Channels {
   std::string detections = "DETECTIONS";
   std::string overlay = "OVERLAY";
   std::string health = "PROCESS_HEALTH";
+  std::string pose = "POSE";
+  std::string gimbal = "GIMBAL";
+  std::string lens = "LENS";
+  std::string autopilot_clock = "AUTOPILOT_CLOCK";
 };
 
 /// Timeouts, in message time, of each process for the companions of a frame. A process that waits for another
@@ -48,6 +53,13 @@ struct WatchParameters {
   double hang_timeout_s = 2.0;  ///< s of wall time without a sign of life, after which a process is killed
 };
 
+/// For redbee-camera. Its images have the size of the section `camera`.
+struct CaptureParameters {
+  std::string pipeline;  ///< of GStreamer, with one appsink; empty: none
+  double rate_hz = 0;    ///< Hz, expected; fewer images are reported; 0: any
+  int jpeg_quality = 0;  ///< of images that the pipeline gives raw; 0: they stay raw
+};
+
 struct Configuration {
   std::string vehicle = "unnamed";
   CameraIntrinsics camera;
@@ -61,6 +73,8 @@ struct Configuration {
   Channels channels;
   WaitParameters waits;
   WatchParameters watch;
+  CaptureParameters capture;
+  AutopilotParameters autopilot;
   int overlay_period_frames = 4;  ///< OVERLAY is published for every n-th frame; 0: never
 };
 

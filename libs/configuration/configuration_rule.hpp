@@ -9,6 +9,7 @@
 #include "redbee/configuration/configuration_value.hpp"
 #include "redbee/geometry/camera_model.hpp"
 #include "redbee/geometry/so3.hpp"
+#include "redbee/mavlink/link_address.hpp"
 
 namespace redbee::configuration {
 
@@ -43,6 +44,17 @@ inline const Rule cameraModel{[](const std::string& x) {
                                 return type != nullptr && type->name == x;
                               },
                               "must be " + cameraModelNames()};
+inline const Rule autopilotLink{
+    [](const std::string& x) { return x.empty() || mavlink::linkAddressOf(x).has_value(); },
+    std::string("must be ") + mavlink::kLinkForms + ", or empty"};
+inline const Rule systemId{[](int x) { return x >= 1 && x <= 255; }, "must lie from 1 to 255"};
+inline const Rule absolutePath{[](const std::string& x) { return x.empty() || x.front() == '/'; },
+                               "must be a path from the root (/...), or empty"};
+inline const Rule rate{[](double x) { return x >= 0.1 && x <= 1000; }, "must lie from 0.1 to 1000"};
+inline const Rule rateOrAny{[](double x) { return x >= 0 && x <= 1000; }, "must lie from 0 to 1000"};
+inline const Rule percent{[](int x) { return x >= 0 && x <= 100; }, "must lie from 0 to 100"};
+inline const Rule angleSigma{[](double x) { return x > 0 && x <= 180; }, "must lie between 0 and 180"};
+inline const Rule mounting{[](double x) { return x >= -10 && x <= 10; }, "must lie from -10 to 10"};
 inline const Rule rotation{[](const Eigen::Matrix3d& R) { return isRotation(R, 1e-5); },
                            "is no rotation: its rows must be orthonormal to 1e-5, its determinant +1"};
 inline const Rule variances{[](const Vector8d& v) { return (v.array() > 0).all(); },

@@ -137,12 +137,33 @@ Settings messagingSettings() {
       setting("channels.detections", MEMBER(channels.detections), channelName),
       setting("channels.overlay", MEMBER(channels.overlay), channelName),
       setting("channels.health", MEMBER(channels.health), channelName),
+      setting("channels.pose", MEMBER(channels.pose), channelName),
+      setting("channels.gimbal", MEMBER(channels.gimbal), channelName),
+      setting("channels.lens", MEMBER(channels.lens), channelName),
+      setting("channels.autopilot_clock", MEMBER(channels.autopilot_clock), channelName),
       setting("waits.inertial_s", MEMBER(waits.inertial_s), notNegative),
       setting("waits.visual_s", MEMBER(waits.visual_s), notNegative),
       setting("waits.fusion_s", MEMBER(waits.fusion_s), notNegative),
       setting("waits.segmentation_s", MEMBER(waits.segmentation_s), notNegative),
       setting("watch.hang_timeout_s", MEMBER(watch.hang_timeout_s), hangTimeout),
       setting("overlay.period_frames", MEMBER(overlay_period_frames), notNegative),
+  };
+}
+
+Settings driverSettings() {
+  return {
+      setting("capture.pipeline", MEMBER(capture.pipeline), anything),
+      setting("capture.rate_hz", MEMBER(capture.rate_hz), rateOrAny),
+      setting("capture.jpeg_quality", MEMBER(capture.jpeg_quality), percent),
+      setting("autopilot.link", MEMBER(autopilot.link), autopilotLink),
+      setting("autopilot.system_id", MEMBER(autopilot.system_id), systemId),
+      setting("autopilot.signing_key_file", MEMBER(autopilot.signing_key_file), absolutePath),
+      setting("autopilot.imu_rate_hz", MEMBER(autopilot.imu_rate_hz), rate),
+      setting("autopilot.attitude_rate_hz", MEMBER(autopilot.attitude_rate_hz), rate),
+      setting("autopilot.position_rate_hz", MEMBER(autopilot.position_rate_hz), rate),
+      setting("autopilot.attitude_sigma_deg", MEMBER(autopilot.attitude_sigma_deg), angleSigma),
+      setting("autopilot.heading_sigma_deg", MEMBER(autopilot.heading_sigma_deg), angleSigma),
+      setting("autopilot.rangefinder_above_camera_m", MEMBER(autopilot.rangefinder_above_camera_m), mounting),
   };
 }
 
@@ -155,6 +176,7 @@ Settings makeSettings() {
   append(settings, fusionSettings());
   append(settings, detectionSettings());
   append(settings, messagingSettings());
+  append(settings, driverSettings());
   return settings;
 }
 

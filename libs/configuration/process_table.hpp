@@ -9,7 +9,7 @@
 
 namespace redbee {
 
-/// Up to four keys of one section of the configuration.
+/// Up to six keys of one section of the configuration.
 class KeyList {
  public:
   constexpr KeyList() = default;
@@ -21,7 +21,7 @@ class KeyList {
   constexpr bool empty() const { return count_ == 0; }
 
  private:
-  std::array<std::string_view, 4> keys_{};
+  std::array<std::string_view, 6> keys_{};
   size_t count_ = 0;
 };
 
@@ -75,6 +75,21 @@ inline constexpr ProcessDescription kMotionSegmentation = [] {
   return process;
 }();
 
+inline constexpr ProcessDescription kCamera = [] {
+  ProcessDescription process{"camera"};
+  process.publishes = {"camera"};
+  process.priority = 5;
+  return process;
+}();
+
+inline constexpr ProcessDescription kAutopilot = [] {
+  ProcessDescription process{"autopilot"};
+  process.publishes = {"imu", "altimeter", "pose", "gimbal", "lens", "autopilot_clock"};
+  process.memory_limit = 300'000'000;
+  process.priority = 5;
+  return process;
+}();
+
 inline constexpr ProcessDescription kWatch = [] {
   ProcessDescription process{"watch", "watch"};
   process.memory_limit = 300'000'000;
@@ -95,6 +110,8 @@ inline constexpr ProcessDescription kRecord = [] {
 /// The processing stages, in order; each is a node and a program.
 inline constexpr std::array kStages{&kImuIntegration, &kVisualHomography, &kHomographyFusion,
                                     &kMotionSegmentation};
+/// The drivers of sensors, each a program that flies only where it is configured (drivers.hpp).
+inline constexpr std::array kDrivers{&kCamera, &kAutopilot};
 /// The other processes: subcommands of `redbee`.
 inline constexpr std::array kSupportProcesses{&kWatch, &kRecord};
 

@@ -171,7 +171,7 @@ void HealthMonitor::describeInput(process_health_t& message) const {
   };
   if (isInputTimedOut()) {
     message.rate_in = message.rate_out = 0;
-    message.message.clear();
+    if (!explains_silence_) message.message.clear();
     degrade("no input for " + std::to_string(static_cast<int64_t>(input_silence_s_)) + " s");
   }
   for (const auto& [channel, ignored] : ignored_) {

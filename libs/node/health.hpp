@@ -127,6 +127,8 @@ class HealthMonitor {
   /// rates, which are by message time, are reported as zero.
   void setInputSilence(double seconds);
   static constexpr double kInputTimeout_s = 1.0;
+  /// The process reads its input from a device: a degraded state says why there is none, and is kept.
+  void explainsSilence() { explains_silence_ = true; }
   HealthState state() const { return state_; }
   /// Returns true once after each change, and once after construction.
   bool consumeChange();
@@ -175,6 +177,7 @@ class HealthMonitor {
   Duration newest_time_{};
   int32_t sequence_ = 0;
   double input_silence_s_ = 0;
+  bool explains_silence_ = false;
   int64_t inputs_ = 0;
   int64_t received_ = 0;
   int64_t published_ = 0;

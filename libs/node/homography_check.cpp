@@ -1,9 +1,8 @@
 // The messages of the camera's motion.
 #include <Eigen/LU>
 
-#include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/row_major.hpp"
-#include "redbee/geometry/small_decompositions.hpp"
+#include "redbee/node/covariance_check.hpp"
 #include "redbee/node/message_check.hpp"
 #include "redbee/node/message_limits.hpp"
 
@@ -29,21 +28,6 @@ bool isRotation(const double (&entries)[9]) {
 
 bool isUnit(const double (&v)[3]) {
   return areFrom(-2, v, 2) && std::abs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= kUnitTolerance;
-}
-
-/// Symmetric and positive semidefinite, but for rounding.
-template <size_t kEntries>
-bool isCovariance(const double (&entries)[kEntries]) {
-  constexpr int kSize = kEntries == 64 ? 8 : 3;
-  if (!areFrom(-kMaxSigma * kMaxSigma, entries, kMaxSigma * kMaxSigma)) return false;
-  Matrix8d P = Matrix8d::Zero();
-  P.topLeftCorner<kSize, kSize>() =
-      Eigen::Map<const Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor>>(entries);
-  const double rounding = 1e-9 * P.diagonal().cwiseAbs().maxCoeff();
-  if ((P - P.transpose()).cwiseAbs().maxCoeff() > rounding || P.diagonal().minCoeff() < -rounding)
-    return false;
-  const LdltFactors factors(P);
-  return factors.succeeded() && factors.smallestPivot() >= -rounding;
 }
 
 /// Inliers and outliers.

@@ -18,18 +18,22 @@ namespace redbee {
 /// declares invalid (by `valid`, `status`, `has_...`) and those that nobody reads (of ins_t all but gyro and
 /// accel; metadata) are not looked at.
 const char* faultOf(const altimeter_t& message);
+const char* faultOf(const clock_offset_t& message);
 const char* faultOf(const detection_t& message);
 const char* faultOf(const detections_t& message);
 const char* faultOf(const earlier_step_t& message);
 const char* faultOf(const filter_snapshot_t& message);
 const char* faultOf(const foreground_t& message);
 const char* faultOf(const fused_homography_t& message);
+const char* faultOf(const gimbal_t& message);
 const char* faultOf(const homography_t& message);
 const char* faultOf(const image_metadata_t& message);
 const char* faultOf(const image_t& message);
 const char* faultOf(const inertial_homography_t& message);
 const char* faultOf(const ins_t& message);
+const char* faultOf(const lens_t& message);
 const char* faultOf(const plane_motion_t& message);
+const char* faultOf(const pose_t& message);
 const char* faultOf(const process_health_t& message);
 const char* faultOf(const tracks_t& message);
 const char* faultOf(const visual_homography_t& message);

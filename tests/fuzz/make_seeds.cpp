@@ -18,6 +18,7 @@
 #include "redbee/results/video_writer.hpp"
 #include "tests/bus/sample_messages.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
+#include "tests/fuzz/mavlink_seed.hpp"
 #include "tests/fuzz/small_vehicle.hpp"
 
 namespace redbee::fuzz {
@@ -233,5 +234,6 @@ int main(int argc, char** argv) {
   writeTableSeeds(folder);
   writeGpmfSeed(folder);
   writeVideoSeed(folder);
+  write(folder / "mavlink" / "one_second", mavlinkSeed());
   return 0;
 }

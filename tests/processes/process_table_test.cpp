@@ -11,11 +11,13 @@
 
 #include "processes/node_factory.hpp"
 #include "processes/redbee/vehicle/supervisor_configuration.hpp"
+#include "redbee/configuration/drivers.hpp"
 
 namespace redbee {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(ProcessTable, HasEveryProgramAndNoOther) {
   std::set<std::string> folders;
@@ -24,11 +26,13 @@ TEST(ProcessTable, HasEveryProgramAndNoOther) {
     if (std::filesystem::exists(entry.path() / "main.cpp")) folders.insert(entry.path().filename());
   }
   std::set<std::string> expected{"redbee"};
-  for (const ProcessDescription* stage : kStages) {
-    std::string folder(stage->name);
+  const auto expectFolder = [&](const ProcessDescription* process) {
+    std::string folder(process->name);
     std::replace(folder.begin(), folder.end(), '-', '_');
     expected.insert(folder);
-  }
+  };
+  std::for_each(kStages.begin(), kStages.end(), expectFolder);
+  std::for_each(kDrivers.begin(), kDrivers.end(), expectFolder);
   EXPECT_EQ(folders, expected);
 }
 
@@ -54,6 +58,19 @@ TEST(ProcessTable, NamesOnlyKeysOfTheConfiguration) {
       for (const std::string_view key : list) expectKey("channels", key);
     }
   }
+  for (const ProcessDescription* driver : kDrivers) {
+    for (const std::string_view key : driver->publishes) expectKey("channels", key);
+  }
+}
+
+TEST(ProcessTable, DriversFlyOnlyWhereTheyAreConfigured) {
+  Configuration configuration;
+  EXPECT_TRUE(configuredDrivers(configuration).empty());
+  EXPECT_THAT(supervisorConfiguration(configuredDrivers(configuration)),
+              Not(HasSubstr("[program:autopilot]")));
+  configuration.autopilot.link = "udp:127.0.0.1:14540";
+  EXPECT_THAT(supervisorConfiguration(configuredDrivers(configuration)),
+              HasSubstr("\"$REDBEE_BIN/redbee-autopilot\" --config \"$REDBEE_CONFIG\""));
 }
 
 TEST(ProcessTable, SupervisorRunsAllOfIt) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "processes/autopilot/measurement_messages.hpp"
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/node/message_check.hpp"
 #include "tests/support/fault_trial.hpp"
@@ -92,6 +93,32 @@ inline detections_t TrueMessages::get() const {
 template <>
 inline process_health_t TrueMessages::get() const {
   return output.health.at("redbee-homography-fusion");
+}
+
+/// Of an autopilot with a fix, its gimbal and its camera.
+template <>
+inline pose_t TrueMessages::get() const {
+  mavlink::Pose pose;
+  pose.time = ImuTime(fromSeconds(100));
+  pose.enu_from_flu = Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5);
+  pose.attitude_covariance = pose.velocity_covariance = 0.01 * Eigen::Matrix3d::Identity();
+  pose.velocity = Eigen::Vector3d(1, 2, 3);
+  pose.local = Eigen::Vector3d(4, 5, 6);
+  pose.global = mavlink::GlobalPosition{47.3, 8.5, 500, 547, 10, Eigen::Matrix3d::Identity()};
+  return messageOf(pose);
+}
+template <>
+inline gimbal_t TrueMessages::get() const {
+  const Eigen::Quaterniond mount(0.5, 0.5, -0.5, 0.5);
+  return messageOf(mavlink::GimbalAttitude{ImuTime(fromSeconds(100)), mount, mount});
+}
+template <>
+inline lens_t TrueMessages::get() const {
+  return messageOf(mavlink::Lens{ImuTime(fromSeconds(100)), 0.5, 1000, 1920});
+}
+template <>
+inline clock_offset_t TrueMessages::get() const {
+  return messageOf(mavlink::ClockState{100'000'000'000, -5'000'000, 1e-5, 1e-3, 2e-3});
 }
 
 }  // namespace redbee::test

@@ -1,11 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "processes/common_options.hpp"
 #include "processes/redbee/commands/command.hpp"
 #include "processes/redbee/vehicle/supervisor_configuration.hpp"
+#include "redbee/configuration/drivers.hpp"
 #include "redbee/configuration/process_table.hpp"
 
 namespace redbee {
@@ -16,6 +19,7 @@ struct StackOptions {
   bool programs = false;
   bool supervisord = false;
   bool print_url = false;
+  std::filesystem::path configuration;
   std::string url;
 };
 
@@ -38,12 +42,16 @@ void printTable() {
                 process.timeout.empty() ? "-" : ("waits." + std::string(process.timeout)).c_str());
   };
   for (const auto* process : kStages) print(*process);
+  for (const auto* process : kDrivers) print(*process);
   for (const auto* process : kSupportProcesses) print(*process);
 }
 
 void runStack(const StackOptions& options) {
   if (options.supervisord) {
-    std::fputs(supervisorConfiguration().c_str(), stdout);
+    const auto drivers = options.configuration.empty()
+                             ? std::vector<const ProcessDescription*>{}
+                             : configuredDrivers(loadConfiguration(options.configuration));
+    std::fputs(supervisorConfiguration(drivers).c_str(), stdout);
   } else if (options.print_url) {
     std::printf("%s\n", options.url.c_str());
   } else if (options.names || options.programs) {
@@ -64,6 +72,8 @@ const Command kStackCommand(
       output->add_flag("--supervisord", options->supervisord, "the configuration for supervisor");
       output->add_flag("--print-url", options->print_url, "the LCM URL that every program uses here");
       output->require_option(0, 1);
+      command.add_option("--config", options->configuration,
+                         "configuration of the vehicle: --supervisord has its drivers, too");
       addLcmUrlOption(command, options->url);
       command.callback([options] { runStack(*options); });
     });

@@ -51,7 +51,8 @@ Tone toneOf(HealthState state) {
   return Tone::kBad;
 }
 
-/// The stages in processing order, with or without messages, then other publishers by name.
+/// The stages in processing order, with or without messages, then others that publish, such as drivers, by
+/// name.
 template <typename Entries>
 std::vector<std::string> inOrderOfWork(const Entries& entries) {
   std::vector<std::string> names;

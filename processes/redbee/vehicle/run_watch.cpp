@@ -28,6 +28,7 @@ std::map<std::string, std::filesystem::path> watchedPrograms() {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   std::map<std::string, std::filesystem::path> programs;
   for (const auto* stage : kStages) programs[std::string(stage->name)] = folder / programName(*stage);
+  for (const auto* driver : kDrivers) programs[std::string(driver->name)] = folder / programName(*driver);
   for (const auto* process : kSupportProcesses) {
     if (process != &kWatch) programs[std::string(process->name)] = folder / "redbee";
   }

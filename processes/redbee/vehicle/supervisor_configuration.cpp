@@ -1,7 +1,5 @@
 #include "processes/redbee/vehicle/supervisor_configuration.hpp"
 
-#include "redbee/configuration/process_table.hpp"
-
 namespace redbee {
 namespace {
 
@@ -68,8 +66,9 @@ std::string sectionOf(const ProcessDescription& process) {
 
 }  // namespace
 
-std::string supervisorConfiguration() {
+std::string supervisorConfiguration(const std::vector<const ProcessDescription*>& drivers) {
   std::string text = kHead;
+  for (const auto* process : drivers) text += sectionOf(*process);
   for (const auto* process : kStages) text += sectionOf(*process);
   for (const auto* process : kSupportProcesses) text += sectionOf(*process);
   return text;

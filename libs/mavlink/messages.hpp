@@ -1,0 +1,210 @@
+// The messages that are read or written, as message_definitions/v1.0/common.xml and minimal.xml of
+// mavlink/mavlink define them (commit de1e078a3a, 2026-07): fields in wire order, units of the wire. A value
+// that a sender does not know is the field's "invalid" there: NaN, 0 or the largest number.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace redbee::mavlink {
+
+struct Heartbeat {
+  static constexpr uint32_t kId = 0;
+  static constexpr std::string_view kName = "HEARTBEAT";
+  static constexpr uint8_t kArduPilot = 3, kPx4 = 12;  ///< of `autopilot`
+  uint32_t custom_mode = 0;
+  uint8_t type = 0;       ///< MAV_TYPE
+  uint8_t autopilot = 0;  ///< MAV_AUTOPILOT
+  uint8_t base_mode = 0;
+  uint8_t system_status = 0;    ///< MAV_STATE
+  uint8_t mavlink_version = 3;  ///< of the definitions, the same for MAVLink 1 and 2
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("custom_mode", m.custom_mode);
+    v("type", m.type);
+    v("autopilot", m.autopilot);
+    v("base_mode", m.base_mode);
+    v("system_status", m.system_status);
+    v("mavlink_version", m.mavlink_version);
+  }
+};
+
+/// Asks (tc1 = 0), or answers with the request's ts1.
+struct Timesync {
+  static constexpr uint32_t kId = 111;
+  static constexpr std::string_view kName = "TIMESYNC";
+  int64_t tc1 = 0;            ///< ns, clock of who answers
+  int64_t ts1 = 0;            ///< ns, clock of who asks
+  uint8_t target_system = 0;  ///< of who asks; 0 from old senders
+  uint8_t target_component = 0;
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("tc1", m.tc1);
+    v("ts1", m.ts1);
+    v.extensions();
+    v("target_system", m.target_system);
+    v("target_component", m.target_component);
+  }
+};
+
+struct CommandLong {
+  static constexpr uint32_t kId = 76;
+  static constexpr std::string_view kName = "COMMAND_LONG";
+  static constexpr uint16_t kSetMessageInterval =
+      511;  ///< param1: message; param2: us; MAV_CMD_SET_MESSAGE_INTERVAL
+  static constexpr uint16_t kRequestMessage = 512;  ///< param1: message; MAV_CMD_REQUEST_MESSAGE
+  std::array<float, 7> param{};
+  uint16_t command = 0;
+  uint8_t target_system = 0;
+  uint8_t target_component = 0;
+  uint8_t confirmation = 0;
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("param1", m.param[0]);
+    v("param2", m.param[1]);
+    v("param3", m.param[2]);
+    v("param4", m.param[3]);
+    v("param5", m.param[4]);
+    v("param6", m.param[5]);
+    v("param7", m.param[6]);
+    v("command", m.command);
+    v("target_system", m.target_system);
+    v("target_component", m.target_component);
+    v("confirmation", m.confirmation);
+  }
+};
+
+struct CommandAck {
+  static constexpr uint32_t kId = 77;
+  static constexpr std::string_view kName = "COMMAND_ACK";
+  uint16_t command = 0;
+  uint8_t result = 0;  ///< MAV_RESULT; 0 is accepted
+  uint8_t progress = 0;
+  int32_t result_param2 = 0;
+  uint8_t target_system = 0;
+  uint8_t target_component = 0;
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("command", m.command);
+    v("result", m.result);
+    v.extensions();
+    v("progress", m.progress);
+    v("result_param2", m.result_param2);
+    v("target_system", m.target_system);
+    v("target_component", m.target_component);
+  }
+};
+
+struct CameraInformation {
+  static constexpr uint32_t kId = 259;
+  static constexpr std::string_view kName = "CAMERA_INFORMATION";
+  uint32_t time_boot_ms = 0;
+  uint32_t firmware_version = 0;
+  float focal_length = 0;   ///< mm; NaN or 0: unknown
+  float sensor_size_h = 0;  ///< mm
+  float sensor_size_v = 0;
+  uint32_t flags = 0;
+  uint16_t resolution_h = 0;  ///< px
+  uint16_t resolution_v = 0;
+  uint16_t cam_definition_version = 0;
+  std::array<uint8_t, 32> vendor_name{};
+  std::array<uint8_t, 32> model_name{};
+  uint8_t lens_id = 0;
+  std::array<char, 140> cam_definition_uri{};
+  uint8_t gimbal_device_id = 0;
+  uint8_t camera_device_id = 0;
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("time_boot_ms", m.time_boot_ms);
+    v("firmware_version", m.firmware_version);
+    v("focal_length", m.focal_length);
+    v("sensor_size_h", m.sensor_size_h);
+    v("sensor_size_v", m.sensor_size_v);
+    v("flags", m.flags);
+    v("resolution_h", m.resolution_h);
+    v("resolution_v", m.resolution_v);
+    v("cam_definition_version", m.cam_definition_version);
+    v("vendor_name", m.vendor_name);
+    v("model_name", m.model_name);
+    v("lens_id", m.lens_id);
+    v("cam_definition_uri", m.cam_definition_uri);
+    v.extensions();
+    v("gimbal_device_id", m.gimbal_device_id);
+    v("camera_device_id", m.camera_device_id);
+  }
+};
+
+struct CameraSettings {
+  static constexpr uint32_t kId = 260;
+  static constexpr std::string_view kName = "CAMERA_SETTINGS";
+  uint32_t time_boot_ms = 0;
+  uint8_t mode_id = 0;
+  float zoom_level = 0;  ///< percent of the range; NaN: unknown
+  float focus_level = 0;
+  uint8_t camera_device_id = 0;
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("time_boot_ms", m.time_boot_ms);
+    v("mode_id", m.mode_id);
+    v.extensions();
+    v("zoomLevel", m.zoom_level);
+    v("focusLevel", m.focus_level);
+    v("camera_device_id", m.camera_device_id);
+  }
+};
+
+struct MountOrientation {
+  static constexpr uint32_t kId = 265;
+  static constexpr std::string_view kName = "MOUNT_ORIENTATION";
+  uint32_t time_boot_ms = 0;
+  float roll = 0;          ///< deg, against the horizon
+  float pitch = 0;         ///< deg, against the horizon
+  float yaw = 0;           ///< deg, against the vehicle's heading
+  float yaw_absolute = 0;  ///< deg, from north
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("time_boot_ms", m.time_boot_ms);
+    v("roll", m.roll);
+    v("pitch", m.pitch);
+    v("yaw", m.yaw);
+    v.extensions();
+    v("yaw_absolute", m.yaw_absolute);
+  }
+};
+
+struct GimbalDeviceAttitudeStatus {
+  static constexpr uint32_t kId = 285;
+  static constexpr std::string_view kName = "GIMBAL_DEVICE_ATTITUDE_STATUS";
+  static constexpr uint16_t kYawLock = 16, kYawInVehicleFrame = 32, kYawInEarthFrame = 64;  ///< of `flags`
+  uint32_t time_boot_ms = 0;
+  std::array<float, 4> q{};  ///< w x y z, gimbal (forward right down) to the frame that `flags` name
+  float angular_velocity_x = 0;
+  float angular_velocity_y = 0;
+  float angular_velocity_z = 0;
+  uint32_t failure_flags = 0;
+  uint16_t flags = 0;
+  uint8_t target_system = 0;
+  uint8_t target_component = 0;
+  float delta_yaw = 0;  ///< rad
+  float delta_yaw_velocity = 0;
+  uint8_t gimbal_device_id = 0;
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("time_boot_ms", m.time_boot_ms);
+    v("q", m.q);
+    v("angular_velocity_x", m.angular_velocity_x);
+    v("angular_velocity_y", m.angular_velocity_y);
+    v("angular_velocity_z", m.angular_velocity_z);
+    v("failure_flags", m.failure_flags);
+    v("flags", m.flags);
+    v("target_system", m.target_system);
+    v("target_component", m.target_component);
+    v.extensions();
+    v("delta_yaw", m.delta_yaw);
+    v("delta_yaw_velocity", m.delta_yaw_velocity);
+    v("gimbal_device_id", m.gimbal_device_id);
+  }
+};
+
+}  // namespace redbee::mavlink

@@ -1,0 +1,164 @@
+#include "redbee/mavlink/session.hpp"
+
+#include <iterator>
+#include <utility>
+
+namespace redbee::mavlink {
+namespace {
+
+constexpr uint8_t kOnboardController = 18;  // MAV_TYPE
+constexpr uint8_t kNoAutopilot = 8;         // MAV_AUTOPILOT_INVALID
+constexpr uint8_t kActive = 4;              // MAV_STATE
+constexpr size_t kMostAsked = 32;           // three seconds of requests: an answer that is later is of no use
+
+}  // namespace
+
+Session::Session(const AutopilotParameters& parameters, const std::optional<SigningKey>& key, SigningTime now)
+    : parameters_(parameters),
+      encoder_(static_cast<uint8_t>(parameters.system_id), kComponent),
+      vehicle_(parameters),
+      rates_(parameters),
+      signing_start_(now) {
+  if (!key) return;
+  encoder_.signWith(Signer(*key, 0, now));
+  signatures_.emplace(*key, now);
+}
+
+std::vector<Measurement> Session::receive(const uint8_t* data, size_t size, int64_t host_ns,
+                                          bool is_datagram) {
+  parser_.feed(data, size);
+  if (is_datagram) parser_.endOfDatagram();
+  while (const auto frame = parser_.next()) {
+    if (frame->system != parameters_.system_id) continue;
+    loss_.note(*frame);
+    if (isTrusted(*frame)) handle(*frame, host_ns);
+  }
+  return std::exchange(measurements_, {});
+}
+
+bool Session::isTrusted(const Frame& frame) {
+  if (!signatures_) return true;
+  if (!frame.is_signed) {
+    ++counters_.unsigned_frames;
+    return false;
+  }
+  if (!signatures_->accepts(frame)) {
+    ++counters_.bad_signatures;
+    return false;
+  }
+  encoder_.signer()->advanceTo(signatures_->time());
+  return true;
+}
+
+void Session::handle(const Frame& frame, int64_t host_ns) {
+  switch (frame.id) {
+    case Timesync::kId:
+      return handleTimesync(frame, host_ns);
+    case GimbalDeviceAttitudeStatus::kId:
+    case MountOrientation::kId:
+    case CameraInformation::kId:
+    case CameraSettings::kId:
+      return handleCamera(frame, host_ns);
+    case DistanceSensor::kId: {
+      rates_.noteMessage(frame.id);
+      const auto message = frame.message<DistanceSensor>();
+      const auto time = bootTimeOf(frame, message.time_boot_ms, host_ns);
+      const auto height = time ? vehicle_.heightOf(message, *time) : std::nullopt;
+      if (height) measurements_.emplace_back(*height);
+      return;
+    }
+    default:
+      if (isOfAutopilot(frame)) handleSensors(frame, host_ns);
+  }
+}
+
+void Session::handleHeartbeat(const Heartbeat& message, int64_t host_ns) {
+  if (message.autopilot == kNoAutopilot) return;
+  if (autopilot_ != message.autopilot || !hasAutopilot(host_ns)) rates_.restart();
+  autopilot_ = message.autopilot;
+  heartbeat_ns_ = host_ns;
+}
+
+void Session::handleTimesync(const Frame& frame, int64_t host_ns) {
+  const auto message = frame.message<Timesync>();
+  if (message.tc1 == 0) {
+    if (message.target_system != 0 && message.target_system != parameters_.system_id) return;
+    if (message.target_component != 0 && message.target_component != kComponent) return;
+    return send(Timesync{host_ns, message.ts1, frame.system, frame.component});
+  }
+  // Answers to others on the link, and what nobody asked for, do not repeat a time of ours.
+  const auto asked = asked_.find(message.ts1);
+  if (!isOfAutopilot(frame) || asked == asked_.end()) return;
+  asked_.erase(asked_.begin(), std::next(asked));
+  if (message.tc1 < 0 || message.tc1 > TimesyncExchange::kMaxTime_ns || host_ns < message.ts1) return;
+  const auto outcome = clock_.add({message.ts1, message.tc1, host_ns});
+  if (outcome == ClockEstimator::Outcome::kRestarted) {
+    ++counters_.clock_restarts;
+    rates_.restart();
+    last_imu_.reset();
+  }
+  if (const auto state = clock_.state()) measurements_.emplace_back(*state);
+}
+
+void Session::advanceSignatures(int64_t host_ns) {
+  if (!signatures_) return;
+  if (!signed_since_ns_) signed_since_ns_ = host_ns;
+  const SigningTime now = signing_start_ + static_cast<SigningTime>((host_ns - *signed_since_ns_) / 10'000);
+  signatures_->advanceTo(now);
+  encoder_.signer()->advanceTo(now);
+}
+
+std::vector<Bytes> Session::dueFrames(int64_t host_ns) {
+  advanceSignatures(host_ns);
+  if (host_ns >= next_heartbeat_ns_) {
+    next_heartbeat_ns_ = host_ns + kHeartbeatPeriod_ns;
+    send(Heartbeat{0, kOnboardController, kNoAutopilot, 0, kActive, 3});
+  }
+  if (hasAutopilot(host_ns)) {
+    const auto system = static_cast<uint8_t>(parameters_.system_id);
+    for (const RateRequest& request : rates_.due(host_ns)) {
+      const auto interval_us = static_cast<float>(1e6 / request.rate_hz);
+      send(CommandLong{{static_cast<float>(request.id), interval_us},
+                       CommandLong::kSetMessageInterval,
+                       system,
+                       kAutopilotComponent,
+                       0});
+    }
+  }
+  std::vector<Bytes> frames = std::exchange(outgoing_, {});
+  if (host_ns >= next_timesync_ns_) {
+    next_timesync_ns_ = host_ns + kTimesyncPeriod_ns;
+    asked_.insert(host_ns);
+    if (asked_.size() > kMostAsked) asked_.erase(asked_.begin());
+    frames.push_back(encoder_.encode(
+        Timesync{0, host_ns, static_cast<uint8_t>(parameters_.system_id), kAutopilotComponent}));
+  }
+  return frames;
+}
+
+void Session::reconnect() {
+  parser_.endOfDatagram();
+  while (parser_.next()) {
+  }
+  asked_.clear();
+}
+
+SessionCounters Session::counters() const {
+  SessionCounters counters = counters_;
+  counters.parser = parser_.counters();
+  counters.lost = loss_.lost();
+  return counters;
+}
+
+bool Session::hasAutopilot(int64_t host_ns) const {
+  return heartbeat_ns_ && host_ns - *heartbeat_ns_ <= kSilence_ns;
+}
+
+std::string Session::autopilotName() const {
+  if (!heartbeat_ns_) return "";
+  return autopilot_ == Heartbeat::kPx4         ? "PX4"
+         : autopilot_ == Heartbeat::kArduPilot ? "ArduPilot"
+                                               : "autopilot";
+}
+
+}  // namespace redbee::mavlink

@@ -1,0 +1,16 @@
+#include "processes/autopilot/link.hpp"
+
+#include "processes/autopilot/serial_link.hpp"
+#include "processes/autopilot/udp_link.hpp"
+
+namespace redbee {
+
+std::unique_ptr<Link> makeLink(const mavlink::LinkAddress& address) {
+  if (address.kind == mavlink::LinkAddress::Kind::kSerial) {
+    return std::make_unique<SerialLink>(address.place, address.number);
+  }
+  return std::make_unique<UdpLink>(address.place, static_cast<uint16_t>(address.number),
+                                   address.kind == mavlink::LinkAddress::Kind::kUdpListen);
+}
+
+}  // namespace redbee

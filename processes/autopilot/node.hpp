@@ -1,0 +1,56 @@
+// MAVLink in; IMU, ALTIMETER, POSE, GIMBAL, LENS and AUTOPILOT_CLOCK out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "processes/autopilot/link.hpp"
+#include "redbee/bus/bus.hpp"
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/mavlink/session.hpp"
+#include "redbee/node/node.hpp"
+
+namespace redbee {
+
+/// Publishes each measurement when it arrives, stamped on our clock (libs/node/host_clock.hpp). A device that
+/// goes is opened again, after a tenth of a second, then twice as long each time, up to five seconds.
+class AutopilotNode : public Node {
+ public:
+  /// ns, increasing: what Link::receive() stamps with.
+  using Clock = std::function<int64_t()>;
+
+  /// Throws UserError where autopilot.link is empty or its key cannot be read.
+  AutopilotNode(Bus& bus, const Configuration& configuration);
+  AutopilotNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Link> link, Clock clock);
+
+  /// One pass: waits up to 20 ms for bytes. Always true: the next pass is due at once.
+  bool processNext() override;
+  void finish() override {}
+  HealthMonitor& health() override { return health_; }
+
+ private:
+  static constexpr int64_t kFirstPause_ns = 100'000'000;
+  static constexpr int64_t kLongestPause_ns = 5'000'000'000;
+
+  bool openLink();
+  void publish(const mavlink::Measurement& measurement);
+  void send(int64_t now_ns);
+  void noteCounters();
+  void describeState(int64_t now_ns);
+
+  Bus& bus_;
+  Configuration configuration_;
+  HealthMonitor health_;
+  std::unique_ptr<Link> link_;
+  Clock clock_;
+  mavlink::Session session_;
+  mavlink::SessionCounters reported_;
+  std::string link_fault_;
+  int64_t pause_ns_ = kFirstPause_ns;
+  int64_t next_open_ns_ = 0;
+  int64_t imu_ns_ = 0;  ///< when the last sample arrived
+};
+
+}  // namespace redbee

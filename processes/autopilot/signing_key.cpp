@@ -1,0 +1,31 @@
+#include "processes/autopilot/signing_key.hpp"
+
+#include <sys/stat.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "redbee/files/input_file.hpp"
+
+namespace redbee {
+
+std::optional<mavlink::SigningKey> readSigningKey(const std::filesystem::path& file) {
+  if (file.empty()) return std::nullopt;
+  requireFile(file);
+  struct stat status {};
+  if (stat(file.c_str(), &status) == 0 && (status.st_mode & S_IRWXO) != 0) {
+    throw InputError(file, "every user may read this key; chmod o-rwx it, and change the key");
+  }
+  std::ifstream in(file);
+  if (!in) throw InputError(file, "cannot be read");
+  constexpr size_t kLongest = 256;
+  std::string text(kLongest, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<size_t>(in.gcount()));
+  const auto key = mavlink::signingKeyOf(text);
+  if (!key) throw InputError(file, "is no key of 64 hexadecimal digits; openssl rand -hex 32 makes one");
+  return key;
+}
+
+}  // namespace redbee

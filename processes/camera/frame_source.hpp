@@ -1,0 +1,25 @@
+// Where images come from.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "redbee/image_t.hpp"
+
+namespace redbee {
+
+/// May be opened again after it failed or ended.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// Returns what is wrong, in one line; empty where images may come now.
+  virtual std::string open() = 0;
+  virtual bool isOpen() const = 0;
+  /// Waits up to `timeout` for an image; its utime is that of its capture on our clock
+  /// (libs/node/host_clock.hpp). Where the source has failed or ended, it is closed, and fault() says why.
+  virtual std::optional<image_t> next(std::chrono::milliseconds timeout) = 0;
+  virtual std::string fault() const = 0;
+};
+
+}  // namespace redbee

@@ -1,0 +1,224 @@
+#include "processes/camera/gstreamer/gstreamer_source.hpp"
+
+#include <gst/video/video.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "redbee/files/user_error.hpp"
+#include "redbee/geometry/time.hpp"
+#include "redbee/node/host_clock.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr const char* kCaps = "image/jpeg; video/x-raw,format=(string){GRAY8,RGB,BGR}";
+constexpr guint kMostQueued = 4;   // images; a process that falls behind by more drops the oldest
+constexpr int kFirstReadings = 5;  // that ClockEstimator wants
+constexpr int64_t kLatest_ns =
+    10'000'000'000;  // an image's time differs from its arrival by less, or is of another clock
+
+struct FreeError {
+  void operator()(GError* error) const { g_error_free(error); }
+};
+struct UnrefSample {
+  void operator()(GstSample* sample) const { gst_sample_unref(sample); }
+};
+struct UnrefMessage {
+  void operator()(GstMessage* message) const { gst_message_unref(message); }
+};
+struct UnrefCaps {
+  void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
+};
+
+std::string oneLineOf(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// Element, error, and the last line of the details, which names the file or the device.
+std::string faultOf(GstMessage* message) {
+  GError* error = nullptr;
+  gchar* details = nullptr;
+  gst_message_parse_error(message, &error, &details);
+  const std::unique_ptr<GError, FreeError> owner(error);
+  std::string text = std::string(GST_OBJECT_NAME(message->src)) + ": " + error->message;
+  const std::string all = details != nullptr ? details : "";
+  g_free(details);
+  if (const size_t line = all.rfind('\n'); line != std::string::npos) text += " " + all.substr(line + 1);
+  return oneLineOf(text);
+}
+
+/// The only appsink; nullptr if there is none, or more than one.
+GstElement* onlyAppSinkOf(GstBin* bin) {
+  GstElement* found = nullptr;
+  int count = 0;
+  GstIterator* sinks = gst_bin_iterate_sinks(bin);
+  GValue item = G_VALUE_INIT;
+  while (gst_iterator_next(sinks, &item) == GST_ITERATOR_OK) {
+    auto* element = GST_ELEMENT(g_value_get_object(&item));
+    if (GST_IS_APP_SINK(element) && count++ == 0) found = GST_ELEMENT(gst_object_ref(element));
+    g_value_reset(&item);
+  }
+  g_value_unset(&item);
+  gst_iterator_free(sinks);
+  if (count > 1) gst_object_unref(std::exchange(found, nullptr));
+  return found;
+}
+
+std::optional<image_t> jpegOf(GstSample* sample, const GstStructure* format) {
+  image_t image{};
+  int width = 0;
+  int height = 0;
+  gst_structure_get_int(format, "width", &width);
+  gst_structure_get_int(format, "height", &height);
+  GstMapInfo map;
+  if (gst_buffer_map(gst_sample_get_buffer(sample), &map, GST_MAP_READ) == FALSE) return std::nullopt;
+  image.pixelformat = image_t::MJPEG;
+  image.width = width;
+  image.height = height;
+  image.data.assign(map.data, map.data + map.size);
+  image.size = static_cast<int32_t>(map.size);
+  gst_buffer_unmap(gst_sample_get_buffer(sample), &map);
+  return image;
+}
+
+std::optional<image_t> rawOf(GstSample* sample, GstCaps* caps) {
+  GstVideoInfo info;
+  GstVideoFrame frame;
+  if (gst_video_info_from_caps(&info, caps) == FALSE) return std::nullopt;
+  if (gst_video_frame_map(&frame, &info, gst_sample_get_buffer(sample), GST_MAP_READ) == FALSE)
+    return std::nullopt;
+  image_t image{};
+  image.width = GST_VIDEO_FRAME_WIDTH(&frame);
+  image.height = GST_VIDEO_FRAME_HEIGHT(&frame);
+  const GstVideoFormat format = GST_VIDEO_FRAME_FORMAT(&frame);
+  image.pixelformat = image_t::BGR;
+  if (format == GST_VIDEO_FORMAT_GRAY8) image.pixelformat = image_t::GRAY;
+  if (format == GST_VIDEO_FORMAT_RGB) image.pixelformat = image_t::RGB;
+  image.row_stride = image.width * (format == GST_VIDEO_FORMAT_GRAY8 ? 1 : 3);
+  // Rows are padded in the buffer, to four bytes or what the driver likes.
+  const auto* pixels = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
+  for (int row = 0; row < image.height; ++row) {
+    const uint8_t* begin = pixels + static_cast<ptrdiff_t>(row) * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
+    image.data.insert(image.data.end(), begin, begin + image.row_stride);
+  }
+  image.size = static_cast<int32_t>(image.data.size());
+  gst_video_frame_unmap(&frame);
+  return image;
+}
+
+std::optional<image_t> imageOf(GstSample* sample) {
+  GstCaps* caps = gst_sample_get_caps(sample);
+  if (caps == nullptr || gst_sample_get_buffer(sample) == nullptr) return std::nullopt;
+  const GstStructure* format = gst_caps_get_structure(caps, 0);
+  return gst_structure_has_name(format, "image/jpeg") == TRUE ? jpegOf(sample, format) : rawOf(sample, caps);
+}
+
+}  // namespace
+
+GstreamerSource::GstreamerSource(std::string pipeline) : description_(std::move(pipeline)) {
+  gst_init(nullptr, nullptr);
+  const std::string fault = build();
+  close();
+  if (!fault.empty()) throw UserError("capture.pipeline: " + fault);
+}
+
+GstreamerSource::~GstreamerSource() { close(); }
+
+std::string GstreamerSource::build() {
+  GError* raw_error = nullptr;
+  GstElement* made = gst_parse_launch(description_.c_str(), &raw_error);
+  const std::unique_ptr<GError, FreeError> error(raw_error);
+  if (made != nullptr) pipeline_.reset(GST_ELEMENT(gst_object_ref_sink(made)));
+  if (error) return oneLineOf(error->message);
+  GstElement* sink = GST_IS_BIN(made) ? onlyAppSinkOf(GST_BIN(made)) : nullptr;
+  if (sink == nullptr)
+    return "must end in one appsink: ... ! videoconvert ! video/x-raw,format=GRAY8 ! appsink";
+  sink_.reset(sink);
+  const std::unique_ptr<GstCaps, UnrefCaps> caps(gst_caps_from_string(kCaps));
+  g_object_set(sink, "caps", caps.get(), "max-buffers", kMostQueued, "drop", TRUE, nullptr);
+  return "";
+}
+
+std::string GstreamerSource::open() {
+  fault_.clear();
+  clock_.restart();
+  if (fault_ = build(); !fault_.empty()) {
+    close();
+    return fault_;
+  }
+  const GstStateChangeReturn change = gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING);
+  // A live source need not be held back until an image's time has come: it has when the image was taken.
+  if (change == GST_STATE_CHANGE_NO_PREROLL) g_object_set(sink_.get(), "sync", FALSE, nullptr);
+  if (change == GST_STATE_CHANGE_FAILURE) {
+    if (!hasStopped()) fault_ = "the pipeline cannot be started";
+    close();
+  }
+  return fault_;
+}
+
+void GstreamerSource::close() {
+  if (pipeline_) gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
+  sink_.reset();
+  pipeline_.reset();
+}
+
+bool GstreamerSource::hasStopped() {
+  const GstPointer<GstBus> bus(gst_element_get_bus(pipeline_.get()));
+  const auto kinds = static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_EOS);
+  const std::unique_ptr<GstMessage, UnrefMessage> message(gst_bus_pop_filtered(bus.get(), kinds));
+  if (!message) {
+    // The message of the end comes later than the end, and not before the pipeline plays.
+    if (gst_app_sink_is_eos(GST_APP_SINK(sink_.get())) == FALSE) return false;
+    fault_ = "the pipeline has ended";
+    return true;
+  }
+  if (GST_MESSAGE_TYPE(message.get()) == GST_MESSAGE_EOS) {
+    fault_ = "the pipeline has ended";
+    return true;
+  }
+  fault_ = faultOf(message.get());
+  return true;
+}
+
+void GstreamerSource::readClocks() {
+  const GstPointer<GstClock> theirs(gst_element_get_clock(pipeline_.get()));
+  if (!theirs) return;
+  for (int i = clock_.state() ? kFirstReadings - 1 : 0; i < kFirstReadings; ++i) {
+    const int64_t before_ns = hostTime_ns();
+    const auto device_ns = static_cast<int64_t>(gst_clock_get_time(theirs.get()));
+    const int64_t after_ns = hostTime_ns();
+    if (device_ns >= 0 && device_ns <= mavlink::TimesyncExchange::kMaxTime_ns)
+      clock_.add({before_ns, device_ns, after_ns});
+  }
+}
+
+int64_t GstreamerSource::hostTimeOf(GstSample* sample, int64_t arrived_ns) const {
+  const GstClockTime stamp = GST_BUFFER_PTS(gst_sample_get_buffer(sample));
+  if (GST_CLOCK_TIME_IS_VALID(stamp) == FALSE) return arrived_ns;
+  const guint64 running = gst_segment_to_running_time(gst_sample_get_segment(sample), GST_FORMAT_TIME, stamp);
+  if (GST_CLOCK_TIME_IS_VALID(running) == FALSE) return arrived_ns;
+  const auto device_ns = static_cast<int64_t>(gst_element_get_base_time(pipeline_.get()) + running);
+  const auto host_ns = clock_.toHost(device_ns);
+  if (!host_ns || *host_ns < arrived_ns - kLatest_ns || *host_ns > arrived_ns + kLatest_ns) return arrived_ns;
+  return *host_ns;
+}
+
+std::optional<image_t> GstreamerSource::next(std::chrono::milliseconds timeout) {
+  const auto wait = static_cast<GstClockTime>(timeout.count()) * GST_MSECOND;
+  const std::unique_ptr<GstSample, UnrefSample> sample(
+      gst_app_sink_try_pull_sample(GST_APP_SINK(sink_.get()), wait));
+  const int64_t arrived_ns = hostTime_ns();
+  std::optional<image_t> image;
+  if (sample) {
+    readClocks();
+    image = imageOf(sample.get());
+    if (image) image->utime = fromNanoseconds(hostTimeOf(sample.get(), arrived_ns)).count();
+  } else if (hasStopped()) {
+    close();
+  }
+  return image;
+}
+
+}  // namespace redbee

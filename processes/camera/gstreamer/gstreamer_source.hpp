@@ -1,0 +1,54 @@
+// Images from a GStreamer pipeline that ends in an appsink.
+#pragma once
+
+#include <gst/app/gstappsink.h>
+#include <gst/gst.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "processes/camera/frame_source.hpp"
+#include "redbee/mavlink/clock_estimator.hpp"
+
+namespace redbee {
+
+struct UnrefObject {
+  void operator()(void* object) const { gst_object_unref(object); }
+};
+template <typename Object>
+using GstPointer = std::unique_ptr<Object, UnrefObject>;
+
+/// Grey, RGB or BGR, or JPEG as it comes. An image's time is its running time plus the pipeline's base time,
+/// on the clock that the pipeline chose; that clock's offset and drift to ours are estimated from readings of
+/// both (ClockEstimator: a reading of theirs between two of ours is an exchange without a way). An image
+/// without a time is stamped when it arrives.
+class GstreamerSource : public FrameSource {
+ public:
+  /// Throws UserError unless the pipeline can be made of the elements that are there and has one appsink.
+  explicit GstreamerSource(std::string pipeline);
+  ~GstreamerSource() override;
+  GstreamerSource(const GstreamerSource&) = delete;
+  GstreamerSource& operator=(const GstreamerSource&) = delete;
+
+  std::string open() override;
+  bool isOpen() const override { return pipeline_ != nullptr; }
+  std::optional<image_t> next(std::chrono::milliseconds timeout) override;
+  std::string fault() const override { return fault_; }
+
+ private:
+  std::string build();
+  void close();
+  /// Whether the pipeline has failed or ended.
+  bool hasStopped();
+  void readClocks();
+  int64_t hostTimeOf(GstSample* sample, int64_t arrived_ns) const;
+
+  std::string description_;
+  GstPointer<GstElement> pipeline_;
+  GstPointer<GstElement> sink_;
+  mavlink::ClockEstimator clock_;
+  std::string fault_;
+};
+
+}  // namespace redbee

@@ -1,0 +1,107 @@
+#include "processes/camera/node.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "redbee/bus/image.hpp"
+#include "redbee/configuration/process_table.hpp"
+#include "redbee/node/message_check.hpp"
+#include "redbee/node/work_timer.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr std::chrono::milliseconds kImageWait{20};
+
+}  // namespace
+
+CameraNode::CameraNode(Bus& bus, const Configuration& configuration, std::unique_ptr<FrameSource> source,
+                       Clock clock)
+    : bus_(bus),
+      configuration_(configuration),
+      health_(programName(kCamera), configurationHash(configuration)),
+      source_(std::move(source)),
+      clock_(std::move(clock)),
+      watch_(configuration.capture.rate_hz) {
+  health_.explainsSilence();
+}
+
+void CameraNode::postpone(const std::string& fault) {
+  if (fault != source_fault_) spdlog::warn("{}", fault);
+  source_fault_ = fault;
+  next_open_ns_ = clock_() + pause_ns_;
+  pause_ns_ = std::min(2 * pause_ns_, kLongestPause_ns);
+  health_.setState(HealthState::kDegraded, fault);
+}
+
+bool CameraNode::openSource() {
+  if (source_->isOpen()) return true;
+  if (clock_() < next_open_ns_) {
+    std::this_thread::sleep_for(kImageWait);
+    return false;
+  }
+  if (const std::string fault = source_->open(); !fault.empty()) {
+    postpone(fault);
+    return false;
+  }
+  watch_ = ImageWatch(configuration_.capture.rate_hz);
+  return true;
+}
+
+bool CameraNode::processNext() {
+  if (!openSource()) return true;
+  const auto image = source_->next(kImageWait);
+  if (image) publish(*image);
+  if (!source_->isOpen()) postpone(source_->fault());
+  return true;
+}
+
+bool CameraNode::isUsable(const image_t& image) {
+  const CameraIntrinsics& camera = configuration_.camera;
+  const cv::Size size = declaredSize(image);
+  if (size != cv::Size(camera.width, camera.height)) {
+    health_.noteDamaged();
+    health_.setState(HealthState::kDegraded, "the pipeline gives images of " + std::to_string(size.width) +
+                                                 "x" + std::to_string(size.height) + ", configured are " +
+                                                 std::to_string(camera.width) + "x" +
+                                                 std::to_string(camera.height));
+    return false;
+  }
+  if (!isPlausible(image)) {
+    health_.noteDamaged();
+    return false;
+  }
+  // Of two images with one time nobody could say which was first.
+  if (last_us_ && image.utime <= *last_us_) {
+    health_.noteSkipped();
+    return false;
+  }
+  return true;
+}
+
+void CameraNode::publish(image_t image) {
+  const FrameTimers timers;
+  if (!isUsable(image)) return;
+  source_fault_.clear();
+  pause_ns_ = kFirstPause_ns;
+  last_us_ = image.utime;
+  health_.noteInput(fromUtime(image.utime));
+  watch_.note(image);
+  if (configuration_.capture.jpeg_quality > 0 && image.pixelformat != image_t::MJPEG) {
+    const bool is_grey = image.pixelformat == image_t::GRAY;
+    const cv::Mat pixels = is_grey ? cv::Mat(decodeGrey(image).value_or(cv::Mat1b()))
+                                   : cv::Mat(decodeColour(image).value_or(cv::Mat3b()));
+    if (pixels.empty()) return health_.noteDamaged();
+    image = jpegMessage(image.utime, pixels, configuration_.capture.jpeg_quality);
+  }
+  bus_.publish(configuration_.channels.camera, image);
+  noteDone(health_, CameraTime(fromUtime(image.utime)), timers.wall, timers);
+  const std::string fault = watch_.fault();
+  health_.setState(fault.empty() ? HealthState::kGood : HealthState::kDegraded, fault);
+}
+
+}  // namespace redbee

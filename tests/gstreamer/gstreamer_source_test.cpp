@@ -1,0 +1,134 @@
+// Images out of real pipelines: test patterns and files.
+#include "processes/camera/gstreamer/gstreamer_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "redbee/bus/image.hpp"
+#include "redbee/files/user_error.hpp"
+#include "redbee/node/host_clock.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace redbee::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// All images until the source ends.
+std::vector<image_t> imagesOf(GstreamerSource& source) {
+  EXPECT_EQ(source.open(), "");
+  std::vector<image_t> images;
+  for (int waits = 0; source.isOpen() && waits < 1000; ++waits) {
+    if (auto image = source.next(std::chrono::milliseconds(20))) images.push_back(std::move(*image));
+  }
+  EXPECT_FALSE(source.isOpen());
+  return images;
+}
+std::string pattern(const std::string& name, const std::string& format, int images = 10) {
+  // 33 wide: GStreamer pads the rows of GRAY8 to 36 bytes, of RGB to 100.
+  return "videotestsrc pattern=" + name + " num-buffers=" + std::to_string(images) +
+         " ! video/x-raw,format=" + format +
+         ",width=33,height=20,framerate=50/1 ! appsink sync=false drop=false";
+}
+
+TEST(GstreamerSource, RowsAreTakenOutOfTheirPadding) {
+  GstreamerSource source(pattern("white", "GRAY8"));
+  const auto images = imagesOf(source);
+  ASSERT_FALSE(images.empty());
+  for (const image_t& image : images) {
+    EXPECT_EQ(image.width, 33);
+    EXPECT_EQ(image.height, 20);
+    EXPECT_EQ(image.row_stride, 33);
+    EXPECT_EQ(image.size, 660);
+    const auto grey = decodeGrey(image);
+    ASSERT_TRUE(grey);
+    EXPECT_EQ(cv::countNonZero(*grey >= 235), 660);
+  }
+  EXPECT_EQ(source.fault(), "the pipeline has ended");
+}
+
+TEST(GstreamerSource, ColoursAreInTheirOrder) {
+  for (const char* format : {"RGB", "BGR"}) {
+    GstreamerSource source(pattern("red", format, 1));
+    const auto images = imagesOf(source);
+    ASSERT_EQ(images.size(), 1U);
+    const auto colour = decodeColour(images[0]);
+    ASSERT_TRUE(colour);
+    EXPECT_EQ((*colour)(10, 16), cv::Vec3b(0, 0, 255)) << format;
+  }
+}
+
+TEST(GstreamerSource, JpegPassesThrough) {
+  const ScratchFolder folder;
+  const std::string file = (folder / "image.jpg").string();
+  GstreamerSource encoder(
+      "videotestsrc num-buffers=1 ! video/x-raw,width=64,height=48 ! jpegenc ! tee name=t t. ! queue ! "
+      "filesink location=" +
+      file + " t. ! queue ! appsink sync=false");
+  const auto images = imagesOf(encoder);
+  ASSERT_EQ(images.size(), 1U);
+  EXPECT_EQ(images[0].pixelformat, image_t::MJPEG);
+  EXPECT_EQ(declaredSize(images[0]), cv::Size(64, 48));
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  EXPECT_EQ(images[0].data, bytes);
+}
+
+/// Frames of a live source at 50 Hz: times 20 ms apart as the pipeline made them, whenever they were fetched,
+/// and of this computer's clock: later than the start and not later than their arrival.
+TEST(GstreamerSource, TimesAreThoseOfCaptureOnOurClock) {
+  GstreamerSource source(
+      "videotestsrc is-live=true num-buffers=12 ! video/x-raw,format=GRAY8,width=32,height=16,framerate=50/1 "
+      "! appsink");
+  const int64_t begin_us = hostTime_ns() / 1000;
+  const auto images = imagesOf(source);
+  const int64_t end_us = hostTime_ns() / 1000;
+  ASSERT_GE(images.size(), 2U);
+  for (size_t i = 0; i < images.size(); ++i) {
+    EXPECT_GE(images[i].utime, begin_us);
+    EXPECT_LE(images[i].utime, end_us);
+    if (i == 0) continue;
+    const int64_t step_us = images[i].utime - images[i - 1].utime;
+    EXPECT_LE(std::abs(step_us - (step_us + 10'000) / 20'000 * 20'000), 300) << step_us;
+  }
+}
+
+TEST(GstreamerSource, BeginsAgainAfterItsEnd) {
+  GstreamerSource source(pattern("ball", "GRAY8", 3));
+  EXPECT_FALSE(imagesOf(source).empty());
+  EXPECT_FALSE(imagesOf(source).empty());
+}
+
+TEST(GstreamerSource, SaysWhatIsWrongAtRunTime) {
+  GstreamerSource source("filesrc location=/nowhere.jpg ! jpegdec ! videoconvert ! appsink");
+  if (source.open().empty()) {
+    for (int waits = 0; source.isOpen() && waits < 1000; ++waits) source.next(std::chrono::milliseconds(20));
+  }
+  EXPECT_FALSE(source.isOpen());
+  EXPECT_THAT(source.fault(), HasSubstr("/nowhere.jpg"));
+}
+
+void expectRefused(const std::string& pipeline, const std::string& reason) {
+  try {
+    const GstreamerSource source(pipeline);
+    FAIL() << pipeline;
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("capture.pipeline: "));
+    EXPECT_THAT(error.what(), HasSubstr(reason));
+    EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
+  }
+}
+
+TEST(GstreamerSource, RefusesWhatIsNoPipelineWithOneAppsink) {
+  expectRefused("videotestsrc ! nosuchelement ! appsink", "nosuchelement");
+  expectRefused("videotestsrc ! fakesink", "must end in one appsink");
+  expectRefused("videotestsrc ! appsink videotestsrc ! appsink", "must end in one appsink");
+  expectRefused("videotestsrc ! ! appsink", "");
+  expectRefused("appsink", "");
+}
+
+}  // namespace
+}  // namespace redbee::test

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "redbee/mavlink/axes.hpp"
+#include "redbee/mavlink/vehicle_state.hpp"
+#include "tests/mavlink/attitudes.hpp"
+
+namespace redbee::mavlink {
+namespace {
+
+/// A gimbal that looks 60 degrees down and 30 to the right of the nose, under a body that pitches and rolls.
+TEST(MavlinkGimbal, EveryFrameGivesTheSameMount) {
+  const Quaterniond body = attitude(110, 8, -5);
+  const Quaterniond mount = attitude(30, -60);
+  const Quaterniond in_ned = body * mount;
+  const Quaterniond level = Quaterniond(AngleAxisd(-110 * kDeg, Vector3d::UnitZ())) * in_ned;
+  VehicleState state({});
+  state.poseAt(messageOf(body), kNow);
+  const auto fill = [](const Quaterniond& q, uint16_t flags, float delta_yaw) {
+    GimbalDeviceAttitudeStatus m;
+    m.q = {static_cast<float>(q.w()), static_cast<float>(q.x()), static_cast<float>(q.y()),
+           static_cast<float>(q.z())};
+    m.flags = flags;
+    m.delta_yaw = delta_yaw;
+    return m;
+  };
+  using Status = GimbalDeviceAttitudeStatus;
+  const auto turn = static_cast<float>(110 * kDeg);
+  const GimbalDeviceAttitudeStatus forms[] = {
+      fill(in_ned, Status::kYawInEarthFrame, kNan), fill(in_ned, Status::kYawLock, 0),
+      fill(level, Status::kYawInVehicleFrame, turn), fill(level, Status::kYawInVehicleFrame, kNan),
+      fill(level, 0, 0.5F)};
+  for (const auto& form : forms) {
+    const auto gimbal = state.gimbalOf(form, kNow);
+    ASSERT_TRUE(gimbal && gimbal->body_from_gimbal && gimbal->enu_from_gimbal);
+    EXPECT_LT(gimbal->body_from_gimbal->angularDistance(fluRotation(mount)), 1e-5);
+    EXPECT_LT(gimbal->enu_from_gimbal->angularDistance(enuRotation(in_ned)), 1e-5);
+  }
+  // Sixty degrees below the body's forward-left plane.
+  expectNear(fluRotation(mount) * Vector3d::UnitX(),
+             {0.5 * std::cos(30 * kDeg), -0.5 * std::sin(30 * kDeg), -std::sin(60 * kDeg)});
+}
+
+TEST(MavlinkGimbal, AMountSaysAnglesAgainstTheHorizon) {
+  const Quaterniond body = attitude(45, 10, 20);
+  VehicleState state({});
+  EXPECT_FALSE(state.gimbalOf(MountOrientation{}, kNow)) << "no heading";
+  state.poseAt(messageOf(body), kNow);
+  MountOrientation m;
+  m.pitch = -90;
+  const auto gimbal = state.gimbalOf(m, kNow);
+  ASSERT_TRUE(gimbal);
+  expectNear(*gimbal->enu_from_gimbal * Vector3d::UnitX(), {0, 0, -1}, 1e-5);
+  m.yaw = kNan;
+  EXPECT_FALSE(state.gimbalOf(m, kNow));
+}
+
+TEST(MavlinkLens, FocalLengthIsKnownAtTheWideEnd) {
+  VehicleState state({});
+  CameraInformation camera;
+  camera.focal_length = 4;
+  camera.sensor_size_h = 6;
+  camera.resolution_h = 3000;
+  state.note(camera);
+  CameraSettings settings;
+  settings.zoom_level = kNan;
+  EXPECT_NEAR(state.lensOf(settings, kNow).focal_px.value(), 2000, 1e-9);
+  EXPECT_FALSE(state.lensOf(settings, kNow).zoom);
+  settings.zoom_level = 25;
+  EXPECT_NEAR(state.lensOf(settings, kNow).zoom.value(), 0.25, 1e-9);
+  EXPECT_FALSE(state.lensOf(settings, kNow).focal_px);
+}
+
+}  // namespace
+}  // namespace redbee::mavlink
