@@ -80,15 +80,20 @@ inline Disturbance camera(Bus& bus, const EndlessFlight& flight,
   return d;
 }
 
-/// One image of 16384x16384 each second: 268 MB for whoever decodes it.
+/// 16384x16384: 268 MB for whoever decodes it. Takes a second to make.
+inline image_t& hugeImage() {
+  static image_t image = jpegMessage(0, cv::Mat1b(16384, 16384, uchar{90}), 80);
+  return image;
+}
+
+/// One of them each second.
 inline Disturbance hugeImages(Bus& bus, const EndlessFlight& flight) {
-  const auto huge = std::make_shared<image_t>(jpegMessage(0, cv::Mat1b(16384, 16384, uchar{90}), 80));
   Disturbance d;
-  d.subscriptions.push_back(bus.subscribe<image_t>("CAMERA", 8, [&bus, &flight, huge](const image_t& m) {
+  d.subscriptions.push_back(bus.subscribe<image_t>("CAMERA", 8, [&bus, &flight](const image_t& m) {
     const auto frame = ownFrame(flight, m);
     if (!frame || *frame % kFps != 0) return;
-    huge->utime = m.utime + 20'000;
-    bus.publish("CAMERA", *huge);
+    hugeImage().utime = m.utime + 20'000;
+    bus.publish("CAMERA", hugeImage());
   }));
   return d;
 }
