@@ -9,7 +9,7 @@
 namespace redbee {
 
 /// ns
-inline int64_t hostTime_ns() {
+inline int64_t hostNanoseconds() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
   return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;

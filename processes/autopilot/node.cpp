@@ -39,7 +39,7 @@ mavlink::SigningTime signingTimeNow() {
 }  // namespace
 
 AutopilotNode::AutopilotNode(Bus& bus, const Configuration& configuration)
-    : AutopilotNode(bus, configuration, configuredLink(configuration.autopilot), hostTime_ns) {}
+    : AutopilotNode(bus, configuration, configuredLink(configuration.autopilot), hostNanoseconds) {}
 
 AutopilotNode::AutopilotNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Link> link,
                              Clock clock)

@@ -74,7 +74,7 @@ ReceivedBytes SerialLink::receive(std::chrono::milliseconds timeout) {
   if (ready <= 0) return received;
   std::array<uint8_t, 4096> buffer;
   const ssize_t size = read(file_.get(), buffer.data(), buffer.size());
-  received.host_ns = hostTime_ns();
+  received.host_ns = hostNanoseconds();
   if (size > 0) {
     received.data.assign(buffer.begin(), buffer.begin() + size);
   } else if (size == 0 || (errno != EAGAIN && errno != EINTR)) {

@@ -57,7 +57,7 @@ ReceivedBytes UdpLink::receive(std::chrono::milliseconds timeout) {
   socklen_t length = sizeof from;
   const ssize_t size =
       recvfrom(socket_.get(), buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
-  received.host_ns = hostTime_ns();
+  received.host_ns = hostNanoseconds();
   // An error is that of an earlier datagram that nobody took: the peer is not there yet.
   if (size > 0 && isPeer(from, received.host_ns)) received.data.assign(buffer.begin(), buffer.begin() + size);
   return received;

@@ -15,6 +15,6 @@ int main(int argc, char** argv) {
                             "pipeline with an appsink");
                       }
                       return std::make_unique<CameraNode>(
-                          bus, configuration, std::make_unique<GstreamerSource>(pipeline), hostTime_ns);
+                          bus, configuration, std::make_unique<GstreamerSource>(pipeline), hostNanoseconds);
                     });
 }

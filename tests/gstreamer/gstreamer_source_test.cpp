@@ -83,9 +83,9 @@ TEST(GstreamerSource, TimesAreThoseOfCaptureOnOurClock) {
   GstreamerSource source(
       "videotestsrc is-live=true num-buffers=12 ! video/x-raw,format=GRAY8,width=32,height=16,framerate=50/1 "
       "! appsink");
-  const int64_t begin_us = hostTime_ns() / 1000;
+  const int64_t begin_us = hostNanoseconds() / 1000;
   const auto images = imagesOf(source);
-  const int64_t end_us = hostTime_ns() / 1000;
+  const int64_t end_us = hostNanoseconds() / 1000;
   ASSERT_GE(images.size(), 2U);
   for (size_t i = 0; i < images.size(); ++i) {
     EXPECT_GE(images[i].utime, begin_us);

@@ -186,9 +186,9 @@ void GstreamerSource::readClocks() {
   const GstPointer<GstClock> theirs(gst_element_get_clock(pipeline_.get()));
   if (!theirs) return;
   for (int i = clock_.state() ? kFirstReadings - 1 : 0; i < kFirstReadings; ++i) {
-    const int64_t before_ns = hostTime_ns();
+    const int64_t before_ns = hostNanoseconds();
     const auto device_ns = static_cast<int64_t>(gst_clock_get_time(theirs.get()));
-    const int64_t after_ns = hostTime_ns();
+    const int64_t after_ns = hostNanoseconds();
     if (device_ns >= 0 && device_ns <= mavlink::TimesyncExchange::kMaxTime_ns)
       clock_.add({before_ns, device_ns, after_ns});
   }
@@ -209,7 +209,7 @@ std::optional<image_t> GstreamerSource::next(std::chrono::milliseconds timeout) 
   const auto wait = static_cast<GstClockTime>(timeout.count()) * GST_MSECOND;
   const std::unique_ptr<GstSample, UnrefSample> sample(
       gst_app_sink_try_pull_sample(GST_APP_SINK(sink_.get()), wait));
-  const int64_t arrived_ns = hostTime_ns();
+  const int64_t arrived_ns = hostNanoseconds();
   std::optional<image_t> image;
   if (sample) {
     readClocks();

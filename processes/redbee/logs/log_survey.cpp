@@ -25,7 +25,7 @@ bool decodesAsOneOf(const std::vector<uint8_t>& data, TypeList<Messages...>) {
 
 /// Of images also size and pixel format.
 std::string typeOf(const std::vector<uint8_t>& data) {
-  const std::string name = messageName(data);
+  std::string name = messageName(data);
   if (name.empty()) return messageHash(data).empty() ? "no message" : messageHash(data);
   image_t image;
   if (!decodeMessage(data.data(), static_cast<int>(data.size()), image)) return name;
@@ -54,7 +54,7 @@ double inSeconds(int64_t us) { return 1e-6 * static_cast<double>(us); }
 /// With the date, where the times are of the Unix clock.
 std::string startText(int64_t utime) {
   constexpr int64_t kYear2000 = 946'684'800'000'000;
-  const std::string text = fmt::format("{:.6f} s", inSeconds(utime));
+  std::string text = fmt::format("{:.6f} s", inSeconds(utime));
   if (utime < kYear2000) return text;
   const std::time_t whole = utime / 1'000'000;
   std::tm calendar{};
@@ -84,7 +84,7 @@ std::string damageText(const LogSurvey& survey) {
 
 }  // namespace
 
-double ChannelSurvey::rate_hz() const {
+double ChannelSurvey::rate() const {
   return messages < 2 || last_utime <= first_utime
              ? 0
              : static_cast<double>(messages - 1) / inSeconds(last_utime - first_utime);
@@ -120,7 +120,7 @@ std::string asText(const LogSurvey& survey, const std::filesystem::path& log) {
   }
   for (const auto& [name, channel] : survey.channels) {
     table.rows.push_back(
-        {name, channel.type, std::to_string(channel.messages), fmt::format("{:.2f}", channel.rate_hz()),
+        {name, channel.type, std::to_string(channel.messages), fmt::format("{:.2f}", channel.rate()),
          fmt::format("{:.1f}", 1e-3 * static_cast<double>(channel.longest_gap_us)),
          fmt::format("{:.3f}", inSeconds(channel.first_utime - first)),
          fmt::format("{:.3f}", inSeconds(channel.last_utime - first)),

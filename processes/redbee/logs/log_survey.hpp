@@ -18,7 +18,7 @@ struct ChannelSurvey {
   int64_t last_utime = 0;
   int64_t longest_gap_us = 0;
 
-  double rate_hz() const;  ///< mean; 0 for fewer than two messages
+  double rate() const;  ///< Hz, mean; 0 for fewer than two messages
 };
 
 struct LogSurvey {

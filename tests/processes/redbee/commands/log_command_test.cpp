@@ -36,10 +36,10 @@ TEST(LogCommand, InfoListsChannelsTypesRatesAndGaps) {
   const ChannelSurvey& camera = survey.channels.at("CAMERA");
   EXPECT_EQ(camera.type, "image_t 64x48 GRAY");
   EXPECT_EQ(camera.messages, 20);
-  EXPECT_DOUBLE_EQ(camera.rate_hz(), 9.5);
+  EXPECT_DOUBLE_EQ(camera.rate(), 9.5);
   EXPECT_EQ(camera.longest_gap_us, 200'000);
   EXPECT_EQ(survey.channels.at("IMU").type, "ins_t");
-  EXPECT_DOUBLE_EQ(survey.channels.at("IMU").rate_hz(), 100);
+  EXPECT_DOUBLE_EQ(survey.channels.at("IMU").rate(), 100);
   const std::string text = asText(survey, "f.lcm");
   EXPECT_NE(text.find("damage:   none\n"), std::string::npos) << text;
   EXPECT_NE(text.find("duration: 2.000 s\n"), std::string::npos) << text;

@@ -19,6 +19,7 @@ namespace {
 int run(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "redbee");
   std::vector<char*> argv;
+  argv.reserve(arguments.size());
   for (std::string& argument : arguments) argv.push_back(argument.data());
   return runTool(static_cast<int>(argv.size()), argv.data());
 }
