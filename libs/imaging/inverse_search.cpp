@@ -33,13 +33,14 @@ cv::Vec2f finerFlow(const cv::Mat2f& flow, const Resampled& column, const Resamp
 }  // namespace
 
 int InverseSearch::coarsestScale(cv::Size image) const {
+  const auto refuse = [] { throw std::invalid_argument("inverse search: the image is too small"); };
+  const int patches = std::min(image.width, image.height) / kSearchPatch_px;
+  if (patches < 1) refuse();
   const double halvings =
       std::log(std::max(image.width, image.height) / (4.0 * kSearchPatch_px)) / std::log(2.0) + 0.5;
-  const int patches = std::min(image.width, image.height) / kSearchPatch_px;
   const double with_patch = std::log(static_cast<double>(patches)) / std::log(2.0);
   const int coarsest = std::min(static_cast<int>(halvings), static_cast<int>(with_patch));
-  if (patches < 1 || coarsest < parameters_.finest_scale)
-    throw std::invalid_argument("inverse search: the image is too small");
+  if (coarsest < parameters_.finest_scale) refuse();
   return coarsest;
 }
 
