@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "redbee/geometry/median.hpp"
 #include "redbee/geometry/so3.hpp"
 
 namespace redbee::calibration {
@@ -32,12 +33,6 @@ Moments momentsOf(const std::vector<RatePair>& pairs, const std::vector<double>&
         weights[i] / m.weight * (pairs[i].camera - m.mean_camera) * (pairs[i].imu - m.mean_imu).transpose();
   }
   return m;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Standard deviations about the principal axes: information is the rates' scatter across each axis, over the
@@ -75,7 +70,7 @@ HandEye solveHandEye(const std::vector<RatePair>& pairs, double scale) {
     for (size_t i = 0; i < pairs.size(); ++i) squared[i] = handEyeResidual(pairs[i], solution).squaredNorm();
 
     double weighted = 0, sum = 0, cost = 0;
-    const double knee = std::max(scale > 0 ? scale : 2.0 * std::sqrt(medianOf(squared)), kScaleFloor);
+    const double knee = std::max(scale > 0 ? scale : 2.0 * std::sqrt(median(squared)), kScaleFloor);
     for (size_t i = 0; i < pairs.size(); ++i) {
       weighted += weights[i] * squared[i];
       sum += weights[i];

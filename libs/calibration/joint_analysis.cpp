@@ -3,10 +3,11 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <algorithm>
 #include <random>
+#include <utility>
 
 #include "redbee/calibration/joint_problem.hpp"
+#include "redbee/geometry/median.hpp"
 
 namespace redbee::calibration {
 namespace {
@@ -122,9 +123,7 @@ void JointProblem::fillGroup(GroupFit& group, const std::vector<ceres::ResidualB
   }
   group.measurements = size * static_cast<int>(blocks.size());
   if (chi2.empty()) return;
-  const auto middle = chi2.begin() + static_cast<ptrdiff_t>(chi2.size() / 2);
-  std::nth_element(chi2.begin(), middle, chi2.end());
-  group.median_ratio = *middle / median;
+  group.median_ratio = redbee::median(std::move(chi2)) / median;
 }
 
 JointAnalysis JointProblem::analyse() {

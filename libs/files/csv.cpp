@@ -17,7 +17,7 @@ std::string trimmed(const std::string& text) {
 
 /// Without the quotes around it; a quote inside is doubled.
 std::string unquoted(const std::string& field) {
-  const std::string text = trimmed(field);
+  std::string text = trimmed(field);
   if (text.size() < 2 || text.front() != '"' || text.back() != '"') return text;
   std::string out;
   for (size_t i = 1; i + 1 < text.size(); ++i) {

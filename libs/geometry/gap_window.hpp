@@ -7,6 +7,7 @@
 #include <deque>
 #include <vector>
 
+#include "redbee/geometry/median.hpp"
 #include "redbee/geometry/time.hpp"
 
 namespace redbee {
@@ -33,12 +34,7 @@ class GapWindow {
   std::size_t size() const { return gaps_.size(); }
   bool isFull() const { return gaps_.size() == most_; }
   /// Precondition: there is one.
-  Duration median() const {
-    std::vector<Duration> sorted(gaps_.begin(), gaps_.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
-  }
+  Duration median() const { return redbee::median(std::vector<Duration>(gaps_.begin(), gaps_.end())); }
   /// Whether `holds` of each gap.
   template <typename Predicate>
   bool allOf(const Predicate& holds) const {

@@ -4,20 +4,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "redbee/imaging/for_lanes.hpp"
 #include "redbee/imaging/guided_filter_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace redbee {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <typename T, typename Work>
-HWY_INLINE void forLanes(T, size_t width, const Work& work) {
-  const hn::ScalableTag<T> d;
-  size_t i = 0;
-  for (; i + hn::Lanes(d) <= width; i += hn::Lanes(d)) work(d, i);
-  for (; i < width; ++i) work(hn::CappedTag<T, 1>(), i);
-}
 
 /// The window's sides of the default settings have loops of known length.
 template <int known_side>
@@ -26,7 +19,7 @@ HWY_INLINE void boxMeanOf(const BoxRow& row) {
   const auto radius = static_cast<size_t>(side / 2);
   const size_t width = row.width;
   double* const inner = row.sums + radius;
-  forLanes(0.0, width, [&](auto d, size_t i) HWY_ATTR {
+  forLanes<double>(width, [&](auto d, size_t i) HWY_ATTR {
     const hn::Rebind<float, decltype(d)> narrow;
     auto sum = hn::LoadU(d, inner + i);
     if (row.leaving != nullptr) sum = hn::Sub(sum, hn::PromoteTo(d, hn::LoadU(narrow, row.leaving + i)));
@@ -38,7 +31,7 @@ HWY_INLINE void boxMeanOf(const BoxRow& row) {
     inner[width - 1 + i] = inner[width - 1 - i];
   }
   const double scale = 1.0 / (side * side);
-  forLanes(0.0, width, [&](auto d, size_t i) HWY_ATTR {
+  forLanes<double>(width, [&](auto d, size_t i) HWY_ATTR {
     const hn::Rebind<float, decltype(d)> narrow;
     auto sum = hn::LoadU(d, row.sums + i);
     for (int k = 1; k < side; ++k) sum = hn::Add(sum, hn::LoadU(d, row.sums + i + k));
@@ -53,7 +46,7 @@ void boxMean(const BoxRow& row) {
 }
 
 void linearModel(const LinearModelRow& row, float contrast2) {
-  forLanes(0.0F, row.width, [&](auto d, size_t i) HWY_ATTR {
+  forLanes<float>(row.width, [&](auto d, size_t i) HWY_ATTR {
     const auto guide = hn::LoadU(d, row.guide + i), map = hn::LoadU(d, row.map + i);
     const auto variance = hn::Sub(hn::LoadU(d, row.guide_guide + i), hn::Mul(guide, guide));
     const auto covariance = hn::Sub(hn::LoadU(d, row.guide_map + i), hn::Mul(guide, map));
@@ -64,7 +57,7 @@ void linearModel(const LinearModelRow& row, float contrast2) {
 }
 
 void applyModel(const float* slope, const float* offset, const float* guide, size_t width, float* to) {
-  forLanes(0.0F, width, [&](auto d, size_t i) HWY_ATTR {
+  forLanes<float>(width, [&](auto d, size_t i) HWY_ATTR {
     hn::StoreU(hn::Add(hn::Mul(hn::LoadU(d, slope + i), hn::LoadU(d, guide + i)), hn::LoadU(d, offset + i)),
                d, to + i);
   });

@@ -53,7 +53,7 @@ std::vector<VideoSource> onOneClock(const std::vector<fs::path>& files) {
   int64_t start_us = 0;
   for (const fs::path& file : files) {
     sources.push_back({file, start_us});
-    const int64_t duration_us = VideoReader(file, {}).duration_us();
+    const int64_t duration_us = VideoReader(file, {}).duration();
     if (duration_us == 0 && file != files.back())
       throw InputError(file, "does not state how long it is: the next chapter has no start");
     start_us += duration_us;

@@ -28,7 +28,7 @@ VideoPart addVideoFrames(const VideoSource& source, const ImportOptions& options
     progress.update(++done, reader.expectedFrames());
   }
   for (const std::string& warning : reader.warnings()) summary.warnings.push_back(warning);
-  return {reader.rotation_deg(), reader.duration_us()};
+  return {reader.rotation_deg(), reader.duration()};
 }
 
 namespace {

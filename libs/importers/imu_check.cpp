@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 
+#include "redbee/geometry/median.hpp"
 #include "redbee/importers/import.hpp"
 
 namespace redbee {
@@ -25,12 +26,6 @@ constexpr double kMostRate = 20000;
 constexpr size_t kFewSamples = 10;
 
 bool isGravity(double length) { return length >= kLeastGravity && length <= kMostGravity; }
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double medianPeriod_s(const std::vector<ImuSample>& imu) {
   std::vector<double> periods;
@@ -88,6 +83,7 @@ std::string firstUnit(const UnitTable& table, const std::string& read_as, const 
 
 void checkGravity(const std::vector<ImuSample>& imu, const ImuUnits& read_as, ImuFindings& findings) {
   std::vector<double> lengths;
+  lengths.reserve(imu.size());
   for (const ImuSample& sample : imu) lengths.push_back(sample.accel.norm());
   const double length = median(lengths);
   if (isGravity(length)) return;

@@ -78,7 +78,7 @@ class VideoReader::Implementation {
   }
 
   int64_t expectedFrames() const { return stream_->nb_frames; }
-  int64_t duration_us() const {
+  int64_t duration() const {
     return stream_->duration > 0 ? av_rescale_q(stream_->duration, stream_->time_base, {1, 1000000}) : 0;
   }
   int rotation_deg() const { return rotation_deg_; }
@@ -240,7 +240,7 @@ VideoReader::VideoReader(const std::filesystem::path& path, const VideoReaderOpt
 VideoReader::~VideoReader() = default;
 std::optional<VideoFrame> VideoReader::next() { return implementation_->next(); }
 int64_t VideoReader::expectedFrames() const { return implementation_->expectedFrames(); }
-int64_t VideoReader::duration_us() const { return implementation_->duration_us(); }
+int64_t VideoReader::duration() const { return implementation_->duration(); }
 int VideoReader::rotation_deg() const { return implementation_->rotation_deg(); }
 std::vector<std::string> VideoReader::warnings() const { return implementation_->warnings(); }
 

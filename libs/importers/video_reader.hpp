@@ -37,7 +37,7 @@ class VideoReader {
   /// As stated by the container; 0 if it does not.
   int64_t expectedFrames() const;
   /// As stated by the container, us; 0 if it does not.
-  int64_t duration_us() const;
+  int64_t duration() const;
   /// Degrees by which the images are turned clockwise: 0, 90, 180 or 270.
   int rotation_deg() const;
   /// One line each, complete after the last frame.

@@ -1,11 +1,12 @@
 #include "redbee/visual/front_plane_estimator.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/median.hpp"
 #include "redbee/visual/scaled_pairs.hpp"
 
 namespace redbee {
@@ -32,9 +33,7 @@ std::optional<HomographyEstimate> FrontPlaneEstimator::estimate(const PointTrack
     const Eigen::Vector2d p(tracks.previous[i].x, tracks.previous[i].y);
     separations.push_back((transfer(front->H, p) - transfer(ground, p)).norm());
   }
-  const auto middle = separations.begin() + static_cast<std::ptrdiff_t>(separations.size() / 2);
-  std::nth_element(separations.begin(), middle, separations.end());
-  if (*middle < parameters_.min_separation_px) return std::nullopt;
+  if (median(std::move(separations)) < parameters_.min_separation_px) return std::nullopt;
   return front;
 }
 

@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -56,7 +55,7 @@ AutopilotNode::AutopilotNode(Bus& bus, const Configuration& configuration, std::
 bool AutopilotNode::openLink() {
   if (link_->isOpen()) return true;
   const int64_t now_ns = clock_();
-  if (now_ns < next_open_ns_) {
+  if (!back_off_.isDue(now_ns)) {
     std::this_thread::sleep_for(kPass);
     return false;
   }
@@ -69,8 +68,7 @@ bool AutopilotNode::openLink() {
   }
   if (fault != link_fault_) spdlog::warn("{}", fault);
   link_fault_ = fault;
-  next_open_ns_ = now_ns + pause_ns_;
-  pause_ns_ = std::min(2 * pause_ns_, kLongestPause_ns);
+  back_off_.postpone(now_ns);
   return false;
 }
 
@@ -78,7 +76,7 @@ bool AutopilotNode::processNext() {
   if (openLink()) {
     send(clock_());
     const ReceivedBytes received = link_->receive(kPass);
-    if (!received.data.empty()) pause_ns_ = kFirstPause_ns;
+    if (!received.data.empty()) back_off_.reset();
     for (const auto& each : session_.receive(received.data.data(), received.data.size(), received.host_ns,
                                              link_->isDatagram())) {
       publish(each);
@@ -86,8 +84,7 @@ bool AutopilotNode::processNext() {
     if (!link_->isOpen()) {
       link_fault_ = configuration_.autopilot.link + ": the device is gone";
       spdlog::warn("{}", link_fault_);
-      next_open_ns_ = clock_() + pause_ns_;
-      pause_ns_ = std::min(2 * pause_ns_, kLongestPause_ns);
+      back_off_.postpone(clock_());
     }
   }
   noteCounters();

@@ -10,12 +10,13 @@
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/mavlink/session.hpp"
+#include "redbee/node/back_off.hpp"
 #include "redbee/node/node.hpp"
 
 namespace redbee {
 
 /// Publishes each measurement when it arrives, stamped on our clock (libs/node/host_clock.hpp). A device that
-/// goes is opened again, after a tenth of a second, then twice as long each time, up to five seconds.
+/// goes is opened again (BackOff).
 class AutopilotNode : public Node {
  public:
   /// ns, increasing: what Link::receive() stamps with.
@@ -31,9 +32,6 @@ class AutopilotNode : public Node {
   HealthMonitor& health() override { return health_; }
 
  private:
-  static constexpr int64_t kFirstPause_ns = 100'000'000;
-  static constexpr int64_t kLongestPause_ns = 5'000'000'000;
-
   bool openLink();
   void publish(const mavlink::Measurement& measurement);
   void send(int64_t now_ns);
@@ -48,8 +46,7 @@ class AutopilotNode : public Node {
   mavlink::Session session_;
   mavlink::SessionCounters reported_;
   std::string link_fault_;
-  int64_t pause_ns_ = kFirstPause_ns;
-  int64_t next_open_ns_ = 0;
+  BackOff back_off_;
   int64_t imu_ns_ = 0;  ///< when the last sample arrived
 };
 

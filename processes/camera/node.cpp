@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -33,14 +32,13 @@ CameraNode::CameraNode(Bus& bus, const Configuration& configuration, std::unique
 void CameraNode::postpone(const std::string& fault) {
   if (fault != source_fault_) spdlog::warn("{}", fault);
   source_fault_ = fault;
-  next_open_ns_ = clock_() + pause_ns_;
-  pause_ns_ = std::min(2 * pause_ns_, kLongestPause_ns);
+  back_off_.postpone(clock_());
   health_.setState(HealthState::kDegraded, fault);
 }
 
 bool CameraNode::openSource() {
   if (source_->isOpen()) return true;
-  if (clock_() < next_open_ns_) {
+  if (!back_off_.isDue(clock_())) {
     std::this_thread::sleep_for(kImageWait);
     return false;
   }
@@ -87,7 +85,7 @@ void CameraNode::publish(image_t image) {
   const FrameTimers timers;
   if (!isUsable(image)) return;
   source_fault_.clear();
-  pause_ns_ = kFirstPause_ns;
+  back_off_.reset();
   last_us_ = image.utime;
   health_.noteInput(fromUtime(image.utime));
   watch_.note(image);

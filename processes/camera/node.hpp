@@ -11,12 +11,12 @@
 #include "processes/camera/image_watch.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/node/back_off.hpp"
 #include "redbee/node/node.hpp"
 
 namespace redbee {
 
-/// Publishes each image when it arrives. A source that fails or ends is opened again, after a tenth of a
-/// second, then twice as long each time, up to five seconds.
+/// Publishes each image when it arrives. A source that fails or ends is opened again (BackOff).
 class CameraNode : public Node {
  public:
   using Clock = std::function<int64_t()>;  ///< ns, increasing
@@ -29,9 +29,6 @@ class CameraNode : public Node {
   HealthMonitor& health() override { return health_; }
 
  private:
-  static constexpr int64_t kFirstPause_ns = 100'000'000;
-  static constexpr int64_t kLongestPause_ns = 5'000'000'000;
-
   bool openSource();
   void postpone(const std::string& fault);
   void publish(image_t image);
@@ -44,8 +41,7 @@ class CameraNode : public Node {
   Clock clock_;
   ImageWatch watch_;
   std::string source_fault_;
-  int64_t pause_ns_ = kFirstPause_ns;
-  int64_t next_open_ns_ = 0;
+  BackOff back_off_;
   std::optional<int64_t> last_us_;
 };
 

@@ -19,8 +19,6 @@ TrustedFrames flyWith(double lost, unsigned seed) {
   const auto bus = makeLcmBus("memq://");
   std::vector<std::unique_ptr<DeafBus>> receivers;
   std::set<int64_t> without_image;
-  StackOutput output;
-  const std::vector<Subscription> subscriptions = output.subscribe(*bus);
   Nodes nodes;
   for (const ProcessDescription* stage : kStages) {
     receivers.push_back(
@@ -34,11 +32,7 @@ TrustedFrames flyWith(double lost, unsigned seed) {
     }
   };
   InProcessStack stack(*bus, flight.configuration.channels.health, std::move(nodes));
-  for (const SensorMessage& sent : flight.messages) {
-    bus->publish(sent.channel, sent.data);
-    stack.settle();
-  }
-  stack.finish();
+  const StackOutput output = StackRun(flight, *bus).run(stack);
   return trustedFrames(output, flight, without_image);
 }
 

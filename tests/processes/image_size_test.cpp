@@ -1,16 +1,11 @@
 // Images of a foreign size between those of the camera.
 #include <gtest/gtest.h>
 
+#include "tests/support/huge_image.hpp"
 #include "tests/support/trusted_frames.hpp"
 
 namespace redbee::test {
 namespace {
-
-/// 16384x16384, 268 MB when decoded.
-const image_t& hugeImage() {
-  static const image_t image = jpegMessage(0, cv::Mat1b(16384, 16384, uchar{90}), 80);
-  return image;
-}
 
 /// A huge JPEG each second costs no frame.
 TEST(ImageSize, AHugeImageIsRefusedByItsHeader) {

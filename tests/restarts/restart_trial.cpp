@@ -11,15 +11,10 @@
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "tests/restarts/trial_report.hpp"
-#include "tests/support/live_player.hpp"
 
 namespace redbee::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr double kSettling_s = 3;
-constexpr double kLongestPause_s = 30;
-constexpr int kSettledFrames = 30;
 constexpr size_t kHangEvery = 3;
 
 std::string vehicleYaml() {
@@ -32,75 +27,41 @@ std::string vehicleYaml() {
   return emitYaml(configuration);
 }
 
-class Trial {
+class Trial : LiveTrial {
  public:
   Trial(const std::string& url, int kills, unsigned seed, double speed)
-      : bus_(makeLcmBus(url)),
-        observer_(*bus_, flight_),
-        player_(*bus_, flight_, 20 + kills * 8.0, speed),
-        kills_wanted_(kills),
-        speed_(speed),
-        random_(seed) {}
+      : LiveTrial(url, 17 + kills * 8.0, speed), kills_wanted_(kills), random_(seed) {}
 
   bool fly() {
-    runFor(kSettling_s);
-    if (!runUntil([&] { return settledSince(0); })) return fail("the stack does not fly undisturbed");
+    if (!settle()) return false;
     while (static_cast<int>(kills_.size()) < kills_wanted_) {
       runFor(std::uniform_real_distribution<double>(0.2, 1.0)(random_));
       if (!killNext()) return false;
       const Kill& kill = kills_.back();
       if (!runUntil(
-              [&] { return observer_.pids(kill.process).back() != kill.pid && settledSince(kill.utime); })) {
+              [&] { return observer().pids(kill.process).back() != kill.pid && settledSince(kill.utime); })) {
         return fail(kill.process + " is not back, or the stack does not recover");
       }
     }
     runFor(2);
-    return TrialReport(flight_, observer_, kills_).print();
+    return TrialReport(flight(), observer(), kills_).print();
   }
 
  private:
-  void step() {
-    player_.publishDue();
-    bus_->handle(std::chrono::milliseconds(2));
-  }
-  /// Of flight time.
-  void runFor(double seconds) {
-    const auto end = Clock::now() + std::chrono::duration<double>(seconds / speed_);
-    while (Clock::now() < end) step();
-  }
-  template <typename Done>
-  bool runUntil(const Done& done) {
-    const auto end = Clock::now() + std::chrono::duration<double>(kLongestPause_s / speed_);
-    while (!done() && Clock::now() < end && !player_.isOver()) step();
-    return done();
-  }
-  bool settledSince(int64_t utime) const {
-    const bool all_here = std::all_of(programs_.begin(), programs_.end(), [&](const std::string& process) {
-      return !observer_.pids(process).empty();
-    });
-    return all_here && observer_.allGood(utime + 1, kSettledFrames);
-  }
-
   bool killNext() {
     if (turn_.empty()) {
-      turn_ = programs_;
+      turn_ = programs();
       std::shuffle(turn_.begin(), turn_.end(), random_);
     }
     const std::string process = turn_.back();
     turn_.pop_back();
-    const int pid = observer_.pids(process).back();
+    const int pid = observer().pids(process).back();
     const bool hang = kills_.size() % kHangEvery == kHangEvery - 1;
-    kills_.push_back({process, hang, pid, player_.newestUtime(), Clock::now()});
+    kills_.push_back({process, hang, pid, player().newestUtime(), Clock::now()});
     return ::kill(pid, hang ? SIGSTOP : SIGKILL) == 0 || fail(process + " was not running");
   }
 
-  std::vector<std::string> programs_ = allPrograms();
-  EndlessFlight flight_;
-  std::unique_ptr<Bus> bus_;
-  Observer observer_;
-  LivePlayer player_;
   int kills_wanted_;
-  double speed_;
   std::mt19937 random_;
   std::vector<std::string> turn_;
   std::vector<Kill> kills_;

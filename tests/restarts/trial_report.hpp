@@ -9,17 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "redbee/configuration/process_table.hpp"
-#include "tests/support/observer.hpp"
+#include "tests/support/live_trial.hpp"
 
 namespace redbee::test {
-
-inline std::vector<std::string> allPrograms() {
-  std::vector<std::string> programs;
-  programs.reserve(kStages.size());
-  for (const ProcessDescription* stage : kStages) programs.push_back(programName(*stage));
-  return programs;
-}
 
 struct Kill {
   std::string process;
@@ -28,11 +20,6 @@ struct Kill {
   int64_t utime = 0;  ///< newest frame sent before
   std::chrono::steady_clock::time_point when;
 };
-
-inline bool fail(const std::string& what) {
-  std::printf("FAILED: %s\n", what.c_str());
-  return false;
-}
 
 class TrialReport {
  public:
@@ -137,8 +124,7 @@ class TrialReport {
     for (const std::string& process : allPrograms()) {
       const auto killed =
           std::count_if(kills_.begin(), kills_.end(), [&](const Kill& k) { return k.process == process; });
-      const auto lives = static_cast<std::ptrdiff_t>(observer_.pids(process).size());
-      if (lives != killed + 1) good = fail(process + " lived " + std::to_string(lives) + " times");
+      good = hasLived(observer_, process, static_cast<size_t>(killed) + 1) && good;
     }
     std::printf("deaths reported on PROCESS_HEALTH: %d of %zu\n", observer_.deathsReported(), kills_.size());
     return good;

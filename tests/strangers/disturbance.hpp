@@ -17,6 +17,7 @@
 #include "redbee/visual_homography_t.hpp"
 #include "tests/support/endless_flight.hpp"
 #include "tests/support/forgery.hpp"
+#include "tests/support/huge_image.hpp"
 #include "tests/support/sensor_messages.hpp"
 
 namespace redbee::test {
@@ -80,20 +81,15 @@ inline Disturbance camera(Bus& bus, const EndlessFlight& flight,
   return d;
 }
 
-/// 16384x16384: 268 MB for whoever decodes it. Takes a second to make.
-inline image_t& hugeImage() {
-  static image_t image = jpegMessage(0, cv::Mat1b(16384, 16384, uchar{90}), 80);
-  return image;
-}
-
-/// One of them each second.
+/// A huge image each second.
 inline Disturbance hugeImages(Bus& bus, const EndlessFlight& flight) {
   Disturbance d;
   d.subscriptions.push_back(bus.subscribe<image_t>("CAMERA", 8, [&bus, &flight](const image_t& m) {
     const auto frame = ownFrame(flight, m);
     if (!frame || *frame % kFps != 0) return;
-    hugeImage().utime = m.utime + 20'000;
-    bus.publish("CAMERA", hugeImage());
+    image_t huge = hugeImage();
+    huge.utime = m.utime + 20'000;
+    bus.publish("CAMERA", huge);
   }));
   return d;
 }

@@ -8,20 +8,15 @@
 #include <optional>
 
 #include "processes/common_options.hpp"
-#include "tests/restarts/trial_report.hpp"
 #include "tests/strangers/disturbance.hpp"
 #include "tests/strangers/live_relay.hpp"
-#include "tests/support/live_player.hpp"
+#include "tests/support/live_trial.hpp"
 #include "tests/support/trusted_frames.hpp"
 
 namespace redbee::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr double kSettling_s = 3;
-constexpr double kLongestSettling_s = 30;
 constexpr double kLastAnswer_s = 1.5;  ///< after a phase
-constexpr int kSettledFrames = 30;
 
 struct Options {
   std::string url;
@@ -33,17 +28,15 @@ struct Options {
   RelayFaults faults;
 };
 
-class Trial {
+class Trial : LiveTrial {
  public:
   explicit Trial(const Options& options)
-      : options_(options),
-        bus_(makeLcmBus(options.url)),
-        observer_(*bus_, flight_),
-        player_(*bus_, flight_,
-                kSettling_s + kLongestSettling_s +
-                    static_cast<double>(options.disturbances.size()) * (options.seconds + kLastAnswer_s),
-                options.speed) {
-    disturbance::hugeImage();  // before the flight, which must not wait for it
+      : LiveTrial(options.url,
+                  kLongestPause_s +
+                      static_cast<double>(options.disturbances.size()) * (options.seconds + kLastAnswer_s),
+                  options.speed),
+        options_(options) {
+    hugeImage();  // before the flight, which must not wait for it
     if (options.relay.empty()) return;
     std::vector<std::string> urls = {options.url};
     urls.insert(urls.end(), options.relay.begin(), options.relay.end());
@@ -51,36 +44,22 @@ class Trial {
   }
 
   bool fly() {
-    runFor(kSettling_s);
-    const auto end = Clock::now() + std::chrono::duration<double>(kLongestSettling_s / options_.speed);
-    while (!observer_.allGood(0, kSettledFrames)) {
-      if (Clock::now() > end) return fail("the stack does not fly undisturbed");
-      step();
-    }
+    if (!settle()) return false;
     bool good = true;
     for (const std::string& name : options_.disturbances) good = disturb(name) && good;
-    return noneStartedAgain() && good;
+    for (const std::string& process : programs()) good = hasLived(observer(), process, 1) && good;
+    return good;
   }
 
  private:
-  void step() {
-    player_.publishDue();
-    bus_->handle(std::chrono::milliseconds(2));
-  }
-  /// Of flight time.
-  void runFor(double seconds) {
-    const auto end = Clock::now() + std::chrono::duration<double>(seconds / options_.speed);
-    while (Clock::now() < end) step();
-  }
-
   bool disturb(const std::string& name) {
-    const int64_t first = player_.frames();
+    const int64_t first = player().frames();
     const int64_t skipped = framesSkipped();
     {
-      const Stranger stranger(options_.url, name, flight_);
+      const Stranger stranger(options_.url, name, flight());
       runFor(options_.seconds);
     }
-    const int64_t last = player_.frames();
+    const int64_t last = player().frames();
     runFor(kLastAnswer_s);
     const TrustedFrames frames = compare(first, last);
     frames.print(name.c_str());
@@ -96,10 +75,10 @@ class Trial {
     const std::set<int64_t> without_image = relay_ ? relay_->imagesLost() : std::set<int64_t>();
     TrustedFrames frames;
     for (int64_t k = first; k < last; ++k) {
-      if (without_image.count(flight_.utime(k)) > 0) continue;
+      if (without_image.count(flight().utime(k)) > 0) continue;
       ++frames.expected;
-      const auto it = observer_.frames().find(flight_.utime(k));
-      if (it == observer_.frames().end() || it->second.status != 0) continue;
+      const auto it = observer().frames().find(flight().utime(k));
+      if (it == observer().frames().end() || it->second.status != 0) continue;
       ++frames.trusted;
       frames.wild += it->second.false_fraction > kWildFraction ? 1 : 0;
     }
@@ -108,24 +87,11 @@ class Trial {
 
   /// By the segmentation, which skips what vision skips.
   int64_t framesSkipped() const {
-    const auto health = observer_.health().find(programName(kMotionSegmentation));
-    return health == observer_.health().end() ? 0 : health->second.skipped;
-  }
-
-  bool noneStartedAgain() const {
-    bool good = true;
-    for (const std::string& process : allPrograms()) {
-      const size_t lives = observer_.pids(process).size();
-      if (lives != 1) good = fail(process + " lived " + std::to_string(lives) + " times");
-    }
-    return good;
+    const auto health = observer().health().find(programName(kMotionSegmentation));
+    return health == observer().health().end() ? 0 : health->second.skipped;
   }
 
   Options options_;
-  EndlessFlight flight_;
-  std::unique_ptr<Bus> bus_;
-  Observer observer_;
-  LivePlayer player_;
   std::optional<LiveRelay> relay_;
 };
 

@@ -118,12 +118,9 @@ class LiveRelay {
     images_lost_.insert(image.utime);
   }
 
-  bool happens(double probability) {
-    return probability > 0 && std::uniform_real_distribution<double>(0, 1)(random_) < probability;
-  }
+  bool happens(double probability) { return std::bernoulli_distribution(probability)(random_); }
   Clock::time_point later() {
-    const double ms =
-        std::uniform_real_distribution<double>(faults_.delay_min_ms, faults_.delay_max_ms)(random_) / speed_;
+    const double ms = faults_.drawDelay(random_) / speed_;
     return Clock::now() + std::chrono::microseconds(static_cast<int64_t>(1e3 * ms));
   }
 

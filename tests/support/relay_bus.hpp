@@ -19,6 +19,10 @@ struct RelayFaults {
   double delayed = 0;     ///< by `delay_min_ms` to `delay_max_ms`, uniformly distributed
   double delay_min_ms = 25;
   double delay_max_ms = 75;
+
+  double drawDelay(std::mt19937& random) const {  ///< ms
+    return std::uniform_real_distribution<double>(delay_min_ms, delay_max_ms)(random);
+  }
 };
 
 /// Decorates a bus. The stack's output passes undisturbed. Delays are in message time, which the test
@@ -73,10 +77,7 @@ class RelayBus : public Bus {
   bool happens(double probability) {
     return probability > 0 && std::uniform_real_distribution<double>(0, 1)(random_) < probability;
   }
-  int64_t delay() {
-    return static_cast<int64_t>(
-        1e3 * std::uniform_real_distribution<double>(faults_.delay_min_ms, faults_.delay_max_ms)(random_));
-  }
+  int64_t delay() { return static_cast<int64_t>(1e3 * faults_.drawDelay(random_)); }
 
   Bus& bus_;
   RelayFaults faults_;

@@ -92,9 +92,13 @@ class StackRun {
 
   /// `before` is called with each message before it is published.
   StackOutput run(const std::function<void(const SensorMessage&)>& before = nullptr) {
+    InProcessStack stack(bus_, flight_.configuration);
+    return run(stack, before);
+  }
+  /// Of a stack that the test has made, on the bus of the constructor.
+  StackOutput run(InProcessStack& stack, const std::function<void(const SensorMessage&)>& before = nullptr) {
     StackOutput output;
     const std::vector<Subscription> subscriptions = output.subscribe(bus_);
-    InProcessStack stack(bus_, flight_.configuration);
     for (const SensorMessage& sent : flight_.messages) {
       if (before) before(sent);
       bus_.publish(sent.channel, sent.data);

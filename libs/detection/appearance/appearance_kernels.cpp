@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "redbee/detection/appearance/appearance_kernels.hpp"
+#include "redbee/imaging/for_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace redbee {
@@ -123,11 +124,8 @@ HWY_INLINE void learn(D d, const LearningRow& row, const RatesByAge& mean_rates,
 
 void learnOneRow(const LearningRow& row, const RatesByAge& mean_rates, const RatesByAge& variance_rates,
                  const SurfaceReset& reset) {
-  const hn::ScalableTag<float> d;
-  size_t i = 0;
-  for (; i + hn::Lanes(d) <= row.width; i += hn::Lanes(d))
-    learn(d, row, mean_rates, variance_rates, reset, i);
-  for (; i < row.width; ++i) learn(hn::CappedTag<float, 1>(), row, mean_rates, variance_rates, reset, i);
+  forLanes<float>(row.width,
+                  [&](auto d, size_t i) HWY_ATTR { learn(d, row, mean_rates, variance_rates, reset, i); });
 }
 
 }  // namespace HWY_NAMESPACE

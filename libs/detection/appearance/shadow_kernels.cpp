@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include "redbee/detection/appearance/appearance_kernels.hpp"
+#include "redbee/imaging/for_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace redbee {
@@ -18,14 +19,6 @@ constexpr float kDarkest = 0.4F;
 constexpr float kDarkestRamp = 0.1F;
 constexpr float kLightest = 0.95F;
 constexpr float kLightestRamp = 0.05F;
-
-template <typename Work>
-HWY_INLINE void forLanes(size_t width, const Work& work) {
-  const hn::ScalableTag<float> d;
-  size_t i = 0;
-  for (; i + hn::Lanes(d) <= width; i += hn::Lanes(d)) work(d, i);
-  for (; i < width; ++i) work(hn::CappedTag<float, 1>(), i);
-}
 
 HWY_INLINE void sumThree(const float* of, size_t width, float* to) {
   if (width == 1) {
@@ -42,7 +35,7 @@ void shadowSums(const float* image, const float* background, size_t width, float
   float* const pp = products;
   float* const pb = products + width;
   float* const bb = products + 2 * width;
-  forLanes(width, [&](auto d, size_t i) HWY_ATTR {
+  forLanes<float>(width, [&](auto d, size_t i) HWY_ATTR {
     hn::Vec<decltype(d)> p0, p1, p2, b0, b1, b2, rest;
     hn::LoadInterleaved4(d, image + 4 * i, p0, p1, p2, rest);
     hn::LoadInterleaved4(d, background + 4 * i, b0, b1, b2, rest);
@@ -56,7 +49,7 @@ void shadowSums(const float* image, const float* background, size_t width, float
 }
 
 void shadowScores(const ShadowSums* rows, size_t width, float noise_variance, float* shadow) {
-  forLanes(width, [&](auto d, size_t i) HWY_ATTR {
+  forLanes<float>(width, [&](auto d, size_t i) HWY_ATTR {
     const auto constant = [&](float value) HWY_ATTR { return hn::Set(d, value); };
     const auto total = [&](float* ShadowSums::*of) HWY_ATTR {
       return hn::Add(hn::Add(hn::LoadU(d, rows[0].*of + i), hn::LoadU(d, rows[1].*of + i)),

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "redbee/detection/parallax/evidence_kernels.hpp"
+#include "redbee/imaging/for_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace redbee {
@@ -145,19 +146,11 @@ HWY_INLINE void accumulate(D d, const Propagation& by, const PropagationRow& row
   hn::StoreU(hn::Sqrt(moves), d, row.motion + i);
 }
 
-template <typename Work>
-HWY_INLINE void forLanes(size_t width, const Work& work) {
-  const hn::ScalableTag<float> d;
-  size_t i = 0;
-  for (; i + hn::Lanes(d) <= width; i += hn::Lanes(d)) work(d, i);
-  for (; i < width; ++i) work(hn::CappedTag<float, 1>(), i);
-}
-
 void propagate(const Propagation& by, const PropagationRow& row) {
-  forLanes(row.width, [&](auto d, size_t i) HWY_ATTR { places(d, by, row, i); });
+  forLanes<float>(row.width, [&](auto d, size_t i) HWY_ATTR { places(d, by, row, i); });
   fetchRow(row);
   meanResiduals(row, row.sums, row.mean_residual);
-  forLanes(row.width, [&](auto d, size_t i) HWY_ATTR { accumulate(d, by, row, i); });
+  forLanes<float>(row.width, [&](auto d, size_t i) HWY_ATTR { accumulate(d, by, row, i); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,6 +6,7 @@
 
 #include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parallax/evidence_kernels.hpp"
+#include "redbee/imaging/for_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace redbee {
@@ -130,11 +131,8 @@ HWY_INLINE void residuals(D d, const SmoothFlow& error, const float* epipole, fl
 
 void residualsOfRow(const SmoothFlow& error, const float* epipole, float direction_variance,
                     const ResidualRow& row) {
-  const hn::ScalableTag<float> d;
-  size_t i = 0;
-  for (; i + hn::Lanes(d) <= row.width; i += hn::Lanes(d))
-    residuals(d, error, epipole, direction_variance, row, i);
-  for (; i < row.width; ++i) residuals(hn::CappedTag<float, 1>(), error, epipole, direction_variance, row, i);
+  forLanes<float>(row.width, [&](auto d, size_t i)
+                                 HWY_ATTR { residuals(d, error, epipole, direction_variance, row, i); });
 }
 
 }  // namespace HWY_NAMESPACE

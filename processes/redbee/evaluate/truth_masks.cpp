@@ -139,7 +139,7 @@ TruthMasks::TruthMasks(const std::vector<fs::path>& files) {
 }
 
 cv::Mat1b TruthMasks::read(const fs::path& file) const {
-  const cv::Mat image = readImage(file);
+  cv::Mat image = readImage(file);
   if (isJpeg(file)) return fromJpeg(file, image);
   if (image.channels() == 3) return fromColours(file, image);
   if (moving_ == 255) return image;
