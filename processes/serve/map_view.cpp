@@ -10,7 +10,8 @@
 namespace redbee {
 namespace {
 
-constexpr double kEarthRadius_m = 6371008.8;  ///< mean; 0.3 % of a distance, which a plain grid does not show
+constexpr double kWgs84Axis_m = 6378137;
+constexpr double kWgs84Eccentricity2 = 6.69437999014e-3;
 constexpr int64_t kStale_us = 1'000'000;
 constexpr size_t kLongestPath = 2000;
 constexpr double kPathStep_m = 0.5;
@@ -20,6 +21,17 @@ Eigen::Matrix3d attitudeOf(const pose_t& pose) {
   return Eigen::Quaterniond(pose.quat[0], pose.quat[1], pose.quat[2], pose.quat[3])
       .normalized()
       .toRotationMatrix();
+}
+
+/// East and north [m] of a latitude and longitude from another, by the ellipsoid's radii of curvature there: to the
+/// centimetre over a kilometre.
+Eigen::Vector2d metresFrom(const Eigen::Vector2d& origin_deg, const Eigen::Vector2d& degrees) {
+  const double latitude = origin_deg.x() * M_PI / 180;
+  const double w = 1 - kWgs84Eccentricity2 * std::sin(latitude) * std::sin(latitude);
+  const double across = kWgs84Axis_m / std::sqrt(w);
+  const double along = across * (1 - kWgs84Eccentricity2) / w;
+  const Eigen::Vector2d moved = (degrees - origin_deg) * M_PI / 180;
+  return {moved.y() * across * std::cos(latitude), moved.x() * along};
 }
 
 }  // namespace
@@ -57,8 +69,7 @@ std::optional<Eigen::Vector2d> MapBuilder::positionOf(const pose_t& pose) {
   if (pose.has_global == 0 || is_local_) return std::nullopt;
   const Eigen::Vector2d degrees(pose.latitude, pose.longitude);
   if (!origin_deg_) origin_deg_ = degrees;
-  const Eigen::Vector2d moved = (degrees - *origin_deg_) * M_PI / 180;
-  return Eigen::Vector2d(moved.y() * std::cos(origin_deg_->x() * M_PI / 180), moved.x()) * kEarthRadius_m;
+  return metresFrom(*origin_deg_, degrees);
 }
 
 void MapBuilder::onPose(const pose_t& pose) {
