@@ -17,8 +17,8 @@ struct ListenAddress {
   bool isLocal() const { return !unix_socket.empty() || host.rfind("127.", 0) == 0; }
 };
 
-/// `127.0.0.1:8080` (ADDRESS:PORT, an IPv4 address), `unix:serve.sock` (a file, from the working folder unless
-/// it begins with /); std::nullopt for anything else.
+/// `127.0.0.1:8080` (ADDRESS:PORT, an IPv4 address), `unix:serve.sock` (a file, from the working folder
+/// unless it begins with /); std::nullopt for anything else.
 std::optional<ListenAddress> listenAddressOf(std::string_view text);
 inline constexpr const char* kListenForms = "ADDRESS:PORT, such as 127.0.0.1:8080, or unix:FILE";
 

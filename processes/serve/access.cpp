@@ -36,8 +36,8 @@ std::string readToken(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string token;
   std::getline(in, token);
-  const bool is_printable =
-      std::all_of(token.begin(), token.end(), [](char c) { return c > 0x20 && c < 0x7f && c != ';' && c != ','; });
+  const bool is_printable = std::all_of(token.begin(), token.end(),
+                                        [](char c) { return c > 0x20 && c < 0x7f && c != ';' && c != ','; });
   if (!is_printable || token.size() < kShortestToken || token.size() > kLongestToken)
     throw InputError(file, "is no token of 16 to 128 characters; openssl rand -hex 16 makes one");
   return token;
@@ -86,7 +86,8 @@ std::optional<WebResponse> Access::refusalOfHost(const WebRequest& request) cons
   return refuse(403, "without a token this page is at localhost or 127.0.0.1 only");
 }
 
-/// Only our own page can set the header: for another site the browser would ask first, and gets no permission.
+/// Only our own page can set the header: for another site the browser would ask first, and gets no
+/// permission.
 std::optional<WebResponse> Access::refusalOfWrite(const WebRequest& request) const {
   if (request.method == "GET" || request.method == "HEAD") return std::nullopt;
   if (!allow_writes_) return refuse(403, "the page may only look: serve.allow_writes is false");
@@ -102,11 +103,13 @@ std::optional<WebResponse> Access::refusal(const WebRequest& request) const {
   // The address with the token is left at once, so that it is in no history and no later request.
   if (request.path == "/" && isSameSecret(request.parameter("token"), token_)) {
     WebResponse response = refuse(303, "");
-    response.headers = {{"Location", "/"},
-                        {"Set-Cookie", std::string(kCookie) + "=" + token_ + "; HttpOnly; SameSite=Strict; Path=/"}};
+    response.headers = {
+        {"Location", "/"},
+        {"Set-Cookie", std::string(kCookie) + "=" + token_ + "; HttpOnly; SameSite=Strict; Path=/"}};
     return response;
   }
-  if (!hasToken(request)) return refuse(401, "the token is missing: open /?token=... with that of serve.token_file");
+  if (!hasToken(request))
+    return refuse(401, "the token is missing: open /?token=... with that of serve.token_file");
   return refusalOfWrite(request);
 }
 

@@ -10,8 +10,8 @@
 
 namespace redbee {
 
-/// The token in a file: printable characters without spaces, 16 to 128 of them, a line end behind them allowed.
-/// Empty for an empty name. Throws InputError if it is no token or if every user may read it.
+/// The token in a file: printable characters without spaces, 16 to 128 of them, a line end behind them
+/// allowed. Empty for an empty name. Throws InputError if it is no token or if every user may read it.
 std::string readToken(const std::filesystem::path& file);
 
 class Access {
@@ -19,8 +19,8 @@ class Access {
   /// `token`: empty where none is demanded. Throws UserError where `address` is not local and there is none.
   Access(const ListenAddress& address, std::string token, bool allow_writes);
 
-  /// std::nullopt if the request may be answered; otherwise the refusal, or the way to the page for who came with
-  /// the token in the address.
+  /// std::nullopt if the request may be answered; otherwise the refusal, or the way to the page for who came
+  /// with the token in the address.
   std::optional<WebResponse> refusal(const WebRequest& request) const;
   bool allowsWrites() const { return allow_writes_; }
 

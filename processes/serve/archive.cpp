@@ -55,13 +55,15 @@ std::vector<Archive::Entry> Archive::readFolders() const {
     if (!parent.has_filename()) parent = parent.parent_path();
     parent = parent.parent_path();
     auto at = fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, error);
-    for (; !error && at != fs::recursive_directory_iterator() && entries.size() < kMostFiles; at.increment(error)) {
+    for (; !error && at != fs::recursive_directory_iterator() && entries.size() < kMostFiles;
+         at.increment(error)) {
       if (at.depth() >= kDeepest) at.disable_recursion_pending();
       if (at->path().extension() == ".png") continue;  // the maps of a run
       struct stat status {};
       if (stat(at->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
       const fs::path absolute = fs::absolute(at->path(), error).lexically_normal();
-      entries.push_back({absolute.lexically_relative(parent).string(), status.st_size, status.st_mtime, {absolute}});
+      entries.push_back(
+          {absolute.lexically_relative(parent).string(), status.st_size, status.st_mtime, {absolute}});
     }
   }
   newestFirst(entries);
@@ -99,16 +101,17 @@ std::vector<Archive::Entry> Archive::reports() const {
 std::shared_ptr<const Flight> Archive::open(const std::string& name, bool refresh) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto kept = std::find_if(opened_.begin(), opened_.end(), [&](const Opened& o) { return o.name == name; });
+    const auto kept =
+        std::find_if(opened_.begin(), opened_.end(), [&](const Opened& o) { return o.name == name; });
     if (!refresh && kept != opened_.end()) return kept->flight;
   }
   const auto entries = flights();
-  const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.name == name; });
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.name == name; });
   if (entry == entries.end()) return nullptr;
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto kept = std::find_if(opened_.begin(), opened_.end(), [&](const Opened& o) {
-    return o.name == name && o.bytes == entry->bytes;
-  });
+  const auto kept = std::find_if(opened_.begin(), opened_.end(),
+                                 [&](const Opened& o) { return o.name == name && o.bytes == entry->bytes; });
   if (kept != opened_.end()) {
     opened_.splice(opened_.begin(), opened_, kept);
     return opened_.front().flight;

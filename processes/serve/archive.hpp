@@ -15,8 +15,8 @@
 
 namespace redbee {
 
-/// To be used by any thread. Names come from the browser: they are compared with what the folders hold, and never
-/// become part of a path.
+/// To be used by any thread. Names come from the browser: they are compared with what the folders hold, and
+/// never become part of a path.
 class Archive {
  public:
   struct Entry {

@@ -43,13 +43,15 @@ Flight::Flight(const Configuration& configuration, std::vector<std::filesystem::
     : configuration_(configuration), camera_(configuration.camera), parts_(std::move(parts)) {
   for (size_t part = 0; part < parts_.size(); ++part) readPart(part);
   if (frames_.empty()) {
-    throw InputError(parts_.empty() ? std::filesystem::path("flight") : parts_.front(),
-                     "holds no image on " + configuration.channels.camera + ", the vehicle file's channel of the camera");
+    throw InputError(
+        parts_.empty() ? std::filesystem::path("flight") : parts_.front(),
+        "holds no image on " + configuration.channels.camera + ", the vehicle file's channel of the camera");
   }
-  const bool has_detections =
-      std::any_of(frames_.begin(), frames_.end(), [](const Frame& frame) { return frame.detections.has_value(); });
+  const bool has_detections = std::any_of(frames_.begin(), frames_.end(),
+                                          [](const Frame& frame) { return frame.detections.has_value(); });
   if (has_detections) return;
-  const auto run = std::find_if(runs.begin(), runs.end(), [this](const auto& folder) { return belongs(folder); });
+  const auto run =
+      std::find_if(runs.begin(), runs.end(), [this](const auto& folder) { return belongs(folder); });
   if (run != runs.end()) {
     takeRun(*run);
     return;
@@ -125,9 +127,8 @@ void Flight::takeStep(fused_homography_t message) {
 bool Flight::belongs(const std::filesystem::path& folder) const {
   try {
     const auto rows = RunFolder(folder).homographies();
-    return !rows.empty() && std::all_of(rows.begin(), rows.end(), [this](const auto& row) {
-      return at(row.first) != nullptr;
-    });
+    return !rows.empty() && std::all_of(rows.begin(), rows.end(),
+                                        [this](const auto& row) { return at(row.first) != nullptr; });
   } catch (const UserError&) {
     return false;
   }
@@ -204,7 +205,8 @@ MapView Flight::mapAt(int64_t utime) const {
   if (motion != motions_.end()) map.onFused(*motion);
   MapView view = map.view(utime);
   if (poses_.empty())
-    view.note = "the flight has no " + configuration_.channels.pose + ": it was recorded without an autopilot";
+    view.note =
+        "the flight has no " + configuration_.channels.pose + ": it was recorded without an autopilot";
   return view;
 }
 
@@ -221,7 +223,8 @@ FrameView Flight::view(size_t index) const {
   view.mask = maskOf(frame);
   view.detections = frame.detections;
   view.source = frame.source;
-  if (!view.detections && view.note.empty()) view.note = note_.empty() ? "no DETECTIONS of this frame" : note_;
+  if (!view.detections && view.note.empty())
+    view.note = note_.empty() ? "no DETECTIONS of this frame" : note_;
   view.trails = trailsAt(index);
   view.map = mapAt(frame.utime);
   return view;

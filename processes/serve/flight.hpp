@@ -15,12 +15,12 @@
 
 namespace redbee {
 
-/// The index of a log, or of the parts of a split one, read once; images and masks stay on the disk. Where the log
-/// has no detections, those of a run over it are shown (`redbee detect`, `collect`).
+/// The index of a log, or of the parts of a split one, read once; images and masks stay on the disk. Where
+/// the log has no detections, those of a run over it are shown (`redbee detect`, `collect`).
 class Flight {
  public:
-  /// `runs`: folders with results, of which the newest that belongs to this flight is taken. Throws InputError if a
-  /// part is no log, or if there is no image.
+  /// `runs`: folders with results, of which the newest that belongs to this flight is taken. Throws
+  /// InputError if a part is no log, or if there is no image.
   Flight(const Configuration& configuration, std::vector<std::filesystem::path> parts,
          const std::vector<std::filesystem::path>& runs);
 
@@ -53,7 +53,8 @@ class Flight {
   struct Contents;
 
   void readPart(size_t part);
-  void read(const std::string& channel, const std::vector<uint8_t>& data, const Place& place, Contents& contents);
+  void read(const std::string& channel, const std::vector<uint8_t>& data, const Place& place,
+            Contents& contents);
   void takeStep(fused_homography_t message);
   std::vector<Trail> trailsAt(size_t index) const;
   MapView mapAt(int64_t utime) const;

@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "processes/conversions.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/fusion/fused_homography.hpp"
-#include "processes/conversions.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr size_t kMostImages = 32;
+constexpr size_t kMostImages = 128;  ///< a second and more
 constexpr size_t kMostImageBytes = size_t{64} << 20;
-constexpr int64_t kWithoutDetections_us = 500'000;  ///< longer than any frame's way through the processes
+constexpr int64_t kWithoutDetections_us = 1'000'000;  ///< longer than any frame's way through the processes
 
 size_t bytesOf(const std::deque<std::shared_ptr<const image_t>>& images) {
   size_t bytes = 0;
@@ -52,12 +52,13 @@ void FrameAssembly::showWithoutDetections(const std::shared_ptr<const image_t>& 
   view.utime = image->utime;
   view.image = image;
   const double behind = static_cast<double>(image->utime - detections_utime_) / 1e6;
-  view.note = detections_utime_ == 0 || behind < 0 ? "no DETECTIONS: redbee-motion-segmentation does not answer"
-                                     : fmt::format("no DETECTIONS for {:.1f} s", behind);
+  view.note = detections_utime_ == 0 || behind < 0
+                  ? "no DETECTIONS: redbee-motion-segmentation does not answer"
+                  : fmt::format("no DETECTIONS for {:.1f} s", behind);
   const cv::Size size = declaredSize(*image);
   if (size != cv::Size(width_, height_)) {
-    view.note = fmt::format("another camera: its images are {}x{}, those of the vehicle file {}x{}", size.width,
-                            size.height, width_, height_);
+    view.note = fmt::format("another camera: its images are {}x{}, those of the vehicle file {}x{}",
+                            size.width, size.height, width_, height_);
   }
   view.map = map_.view(view.utime);
   ready_ = std::move(view);

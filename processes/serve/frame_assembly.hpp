@@ -14,8 +14,8 @@
 
 namespace redbee {
 
-/// A frame is whole when its detections are there; the image and the mask were published before them. Where no
-/// detections come, images are shown without.
+/// A frame is whole when its detections are there; the image and the mask were published before them. Where
+/// no detections come, images are shown without.
 class FrameAssembly {
  public:
   explicit FrameAssembly(const Configuration& configuration);

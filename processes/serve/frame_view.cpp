@@ -62,7 +62,8 @@ json detectionsJson(const detections_t& detections) {
 
 json trailsJson(const std::vector<Trail>& trails) {
   json result = json::array();
-  for (const Trail& trail : trails) result.push_back({{"id", trail.id}, {"points", pointsJson(trail.points)}});
+  for (const Trail& trail : trails)
+    result.push_back({{"id", trail.id}, {"points", pointsJson(trail.points)}});
   return result;
 }
 
@@ -91,15 +92,9 @@ std::string bundleOf(const FrameView& view, int64_t sequence) {
     size = declaredSize(*view.image);
     if (jpeg.empty()) note = "the image cannot be shown: " + faultOfImage(*view.image);
   }
-  json head{{"sequence", sequence},
-            {"utime", view.utime},
-            {"width", size.width},
-            {"height", size.height},
-            {"image_bytes", jpeg.size()},
-            {"mask_bytes", view.mask.size()},
-            {"note", note},
-            {"source", view.source},
-            {"map", mapJson(view.map)}};
+  json head{{"sequence", sequence},  {"utime", view.utime},        {"width", size.width},
+            {"height", size.height}, {"image_bytes", jpeg.size()}, {"mask_bytes", view.mask.size()},
+            {"note", note},          {"source", view.source},      {"map", mapJson(view.map)}};
   if (view.detections) {
     head["status"] = statusText(view.detections->status);
     head["detections"] = detectionsJson(*view.detections);

@@ -21,14 +21,14 @@ struct FrameView {
   std::optional<detections_t> detections;  ///< of this very frame
   std::vector<uint8_t> mask;               ///< PNG, 255 moving, on the raw image's grid; may be empty
   std::vector<Trail> trails;               ///< where there are detections
-  std::string source;                      ///< of the ground's homography: "fused", "visual", ...; may be empty
-  std::string note;                        ///< what is missing, in words; empty: nothing
+  std::string source;  ///< of the ground's homography: "fused", "visual", ...; may be empty
+  std::string note;    ///< what is missing, in words; empty: nothing
   MapView map;
 };
 
-/// Four bytes, big-endian: the length of the JSON that follows; then the image (JPEG), then the mask (PNG), whose
-/// lengths the JSON states. The JSON has DETECTIONS member for member. An image that cannot be decoded is left out
-/// and said in `note`.
+/// Four bytes, big-endian: the length of the JSON that follows; then the image (JPEG), then the mask (PNG),
+/// whose lengths the JSON states. The JSON has DETECTIONS member for member. An image that cannot be decoded
+/// is left out and said in `note`.
 std::string bundleOf(const FrameView& view, int64_t sequence);
 
 /// Bad UTF-8, which a message may hold, is replaced.

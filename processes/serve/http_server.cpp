@@ -31,7 +31,8 @@ WebRequest requestOf(const httplib::Request& from) {
   for (const auto& [name, value] : from.params) request.query.emplace(name, value);
   for (const auto& [name, value] : from.headers) {
     std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
     request.headers.emplace(std::move(lower), value);
   }
   return request;
@@ -84,8 +85,8 @@ void streamEvents(Live& live, httplib::Response& response) {
 void listenAt(httplib::Server& server, const ListenAddress& address) {
   if (address.unix_socket.empty()) {
     if (!server.bind_to_port(address.host, address.port)) {
-      throw UserError("redbee serve: cannot listen at " + address.host + ":" + std::to_string(address.port) + ": " +
-                      std::strerror(errno) + "; another port: --listen 127.0.0.1:PORT");
+      throw UserError("redbee serve: cannot listen at " + address.host + ":" + std::to_string(address.port) +
+                      ": " + std::strerror(errno) + "; another port: --listen 127.0.0.1:PORT");
     }
     return;
   }
@@ -97,7 +98,8 @@ void listenAt(httplib::Server& server, const ListenAddress& address) {
   const bool is_bound = server.bind_to_port(address.unix_socket, 80);
   const int error = errno;
   umask(before);
-  if (!is_bound) throw UserError("redbee serve: " + address.unix_socket + ": cannot listen: " + std::strerror(error));
+  if (!is_bound)
+    throw UserError("redbee serve: " + address.unix_socket + ": cannot listen: " + std::strerror(error));
 }
 
 }  // namespace

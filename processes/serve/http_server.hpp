@@ -12,8 +12,8 @@ namespace redbee {
 /// Serves from its construction to its end, in threads of its own.
 class HttpServer {
  public:
-  /// Throws UserError if it cannot listen there. A Unix socket that an earlier run left is replaced; who is not of
-  /// this user or group cannot open it.
+  /// Throws UserError if it cannot listen there. A Unix socket that an earlier run left is replaced; who is
+  /// not of this user or group cannot open it.
   HttpServer(const ListenAddress& address, Station& station, Live& live);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

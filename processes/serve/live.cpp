@@ -49,9 +49,8 @@ std::shared_ptr<SharedFrame> Live::frame() const {
 
 Live::Update Live::wait(int64_t after_frame, int64_t after_health, std::chrono::milliseconds timeout) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait_for(lock, timeout, [&] {
-    return is_closed_ || frames_ > after_frame || health_sequence_ > after_health;
-  });
+  changed_.wait_for(lock, timeout,
+                    [&] { return is_closed_ || frames_ > after_frame || health_sequence_ > after_health; });
   Update update;
   if (frames_ > after_frame) update.frame = frame_;
   if (health_sequence_ > after_health) update.health = health_;

@@ -23,8 +23,8 @@ Eigen::Matrix3d attitudeOf(const pose_t& pose) {
       .toRotationMatrix();
 }
 
-/// East and north [m] of a latitude and longitude from another, by the ellipsoid's radii of curvature there: to the
-/// centimetre over a kilometre.
+/// East and north [m] of a latitude and longitude from another, by the ellipsoid's radii of curvature there:
+/// to the centimetre over a kilometre.
 Eigen::Vector2d metresFrom(const Eigen::Vector2d& origin_deg, const Eigen::Vector2d& degrees) {
   const double latitude = origin_deg.x() * M_PI / 180;
   const double w = 1 - kWgs84Eccentricity2 * std::sin(latitude) * std::sin(latitude);
@@ -41,8 +41,7 @@ std::vector<Eigen::Vector2d> footprintOf(const Camera& camera, const Eigen::Matr
   const double bottom = camera.intrinsics().height - 1.0;
   std::vector<Eigen::Vector2d> corners;
   bool meets_ground = false;
-  for (const Eigen::Vector2d& raw :
-       {Eigen::Vector2d(0, 0), {right, 0}, {right, bottom}, {0, bottom}}) {
+  for (const Eigen::Vector2d& raw : {Eigen::Vector2d(0, 0), {right, 0}, {right, bottom}, {0, bottom}}) {
     const auto ideal = camera.undistort(raw);
     if (!ideal) return {};
     const Eigen::Vector3d ray = (R_GC * camera.K_inverse() * ideal->homogeneous()).normalized();
@@ -50,7 +49,8 @@ std::vector<Eigen::Vector2d> footprintOf(const Camera& camera, const Eigen::Matr
     meets_ground = meets_ground || depression > kShallowest_rad;
     const double reach = height_m / std::tan(std::max(depression, kShallowest_rad));
     const Eigen::Vector2d level = ray.head<2>();
-    corners.push_back(level.norm() > 0 ? Eigen::Vector2d(level.normalized() * reach) : Eigen::Vector2d::Zero());
+    corners.push_back(level.norm() > 0 ? Eigen::Vector2d(level.normalized() * reach)
+                                       : Eigen::Vector2d::Zero());
   }
   return meets_ground ? corners : std::vector<Eigen::Vector2d>{};
 }
@@ -115,7 +115,8 @@ MapView MapBuilder::view(int64_t utime) const {
   if (view.own->height_m) {
     for (const Eigen::Vector2d& corner : footprintOf(camera_, R_GI * R_IC_, *view.own->height_m))
       view.footprint.push_back(corner + *position_);
-    if (view.footprint.empty() && view.note.empty()) view.note = "the camera looks above the horizon: no footprint";
+    if (view.footprint.empty() && view.note.empty())
+      view.note = "the camera looks above the horizon: no footprint";
   } else if (view.note.empty()) {
     view.note = "no height above the ground: no footprint";
   }

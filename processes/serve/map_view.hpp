@@ -15,12 +15,12 @@
 
 namespace redbee {
 
-/// East and north in metres: from the origin of the autopilot's estimator, or where it has none from the first
-/// position.
+/// East and north in metres: from the origin of the autopilot's estimator, or where it has none from the
+/// first position.
 struct MapView {
   struct Own {
     Eigen::Vector2d position;
-    double heading_rad = 0;           ///< of the body's forward axis, from north over east
+    double heading_rad = 0;          ///< of the body's forward axis, from north over east
     std::optional<double> height_m;  ///< above the ground, or above the place of take-off
   };
   std::optional<Own> own;

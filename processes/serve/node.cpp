@@ -31,7 +31,9 @@ const char* toneText(Tone tone) {
 std::string healthText(const HealthBoard& board, HealthBoard::Time now) {
   nlohmann::json processes = nlohmann::json::array();
   for (const HealthBoard::Process& process : board.list(now)) {
-    nlohmann::json row{{"name", process.name}, {"state", process.state}, {"tone", toneText(process.tone)},
+    nlohmann::json row{{"name", process.name},
+                       {"state", process.state},
+                       {"tone", toneText(process.tone)},
                        {"restarts", process.restarts}};
     if (process.last) {
       const process_health_t& h = *process.last;
@@ -80,17 +82,17 @@ ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live)
                                            [this](const fused_homography_t& m) { assembly_.onFused(m); }));
   always_.push_back(on<pose_t>(channels_.pose, [this](const pose_t& m) { assembly_.onPose(m); }));
   // The board asks by itself whether it is plausible, and counts.
-  always_.push_back(bus_.subscribe<process_health_t>(channels_.health, kListenerQueue,
-                                                     [this](const process_health_t& m) {
-                                                       board_.onHealth(m, Clock::now());
-                                                     }));
+  always_.push_back(bus_.subscribe<process_health_t>(
+      channels_.health, kListenerQueue,
+      [this](const process_health_t& m) { board_.onHealth(m, Clock::now()); }));
 }
 
 void ServeNode::followViewers() {
   const bool is_watched = live_.viewers() > 0;
   if (is_watched == !while_watched_.empty()) return;
   if (is_watched) {
-    while_watched_.push_back(on<image_t>(channels_.camera, [this](const image_t& m) { assembly_.onImage(m); }));
+    while_watched_.push_back(
+        on<image_t>(channels_.camera, [this](const image_t& m) { assembly_.onImage(m); }));
     while_watched_.push_back(
         on<foreground_t>(channels_.foreground, [this](const foreground_t& m) { assembly_.onForeground(m); }));
   } else {

@@ -35,7 +35,8 @@ void addOptions(CLI::App& app, ServeOptions& options) {
   app.add_option("--listen", options.listen,
                  std::string(kListenForms) + " (serve.listen, else " + kDefaultListen + ")");
   app.add_option("--token-file", options.token_file, "what the browser must know (serve.token_file)");
-  app.add_flag("--allow-writes", options.allow_writes, "the page may record and restart (serve.allow_writes)");
+  app.add_flag("--allow-writes", options.allow_writes,
+               "the page may record and restart (serve.allow_writes)");
   app.add_option("--flights", options.folders, "folders with logs, results and reports to show")
       ->envname("REDBEE_RECORDINGS");
 }
@@ -76,7 +77,8 @@ void serve(const ServeOptions& options) {
 
 int runServe(int argc, char** argv) {
   endWhereMemoryIsShort();
-  CLI::App app(std::string("REDBEE ") + releaseVersion() + ", the ground station in the browser", "redbee-serve");
+  CLI::App app(std::string("REDBEE ") + releaseVersion() + ", the ground station in the browser",
+               "redbee-serve");
   app.set_version_flag("--version", buildVersion());
   ServeOptions options;
   return exitCodeOf(app, [&] {

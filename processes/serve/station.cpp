@@ -61,7 +61,10 @@ std::optional<WebResponse> pageFile(const std::string& path) {
 }
 
 json entryJson(const Archive::Entry& entry) {
-  return {{"name", entry.name}, {"bytes", entry.bytes}, {"modified", entry.modified_s}, {"parts", entry.files.size()}};
+  return {{"name", entry.name},
+          {"bytes", entry.bytes},
+          {"modified", entry.modified_s},
+          {"parts", entry.files.size()}};
 }
 
 json entriesJson(const std::vector<Archive::Entry>& entries) {
@@ -82,7 +85,8 @@ bool isProcessOfTheTable(const std::string& name) {
 std::optional<int64_t> numberOf(const std::string& text) {
   int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
+  if (text.empty() || error != std::errc() || end != text.data() + text.size() || number < 0)
+    return std::nullopt;
   return number;
 }
 
@@ -104,7 +108,8 @@ StackControl supervisedStack() {
   } catch (const UserError&) {
     return {[] { return std::optional<bool>(); },
             [](const std::string&, const std::string&) {
-              return std::string("this page is not served by a stack of fly up: there is nothing to start or stop");
+              return std::string(
+                  "this page is not served by a stack of fly up: there is nothing to start or stop");
             }};
   }
 }
@@ -159,7 +164,8 @@ WebResponse Station::state() const {
 }
 
 WebResponse Station::flights() const {
-  return jsonResponse({{"flights", entriesJson(archive_.flights())}, {"reports", entriesJson(archive_.reports())}});
+  return jsonResponse(
+      {{"flights", entriesJson(archive_.flights())}, {"reports", entriesJson(archive_.reports())}});
 }
 
 WebResponse Station::flight(const WebRequest& request) {
@@ -167,7 +173,9 @@ WebResponse Station::flight(const WebRequest& request) {
   if (!flight) return plain(404, "no such flight");
   json times = json::array();
   for (size_t k = 0; k < flight->frames(); ++k) times.push_back(flight->utime(k) - flight->utime(0));
-  return jsonResponse({{"first", flight->utime(0)}, {"times", times}, {"run", flight->run().string()},
+  return jsonResponse({{"first", flight->utime(0)},
+                       {"times", times},
+                       {"run", flight->run().string()},
                        {"note", flight->note()}});
 }
 

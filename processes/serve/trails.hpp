@@ -17,20 +17,22 @@ struct Trail {
   std::vector<Eigen::Vector2d> points;  ///< px, raw image, oldest first
 };
 
-/// A trail's point is the middle of a box's lower edge; it is carried along by the ground's homographies, so that
-/// it stays where it is on the ground while the camera moves.
+/// A trail's point is the middle of a box's lower edge; it is carried along by the ground's homographies, so
+/// that it stays where it is on the ground while the camera moves.
 class Trails {
  public:
   static constexpr int64_t kLength_us = 5'000'000;
 
   explicit Trails(const Camera& camera) : camera_(camera) {}
 
-  /// The ground's homography between ideal pixels of the frames at these times (us). Steps may come before the
-  /// detections of their frame.
+  /// The ground's homography between ideal pixels of the frames at these times (us). Steps may come before
+  /// the detections of their frame.
   void addStep(int64_t from, int64_t to, const Eigen::Matrix3d& H);
-  /// The detections of a frame later than those before. Trails end where no steps lead here from the frame before.
+  /// The detections of a frame later than those before. Trails end where no steps lead here from the frame
+  /// before.
   void addDetections(const detections_t& detections);
-  /// As the newest frame with detections shows them; points outside of the camera model's domain are left out.
+  /// As the newest frame with detections shows them; points outside of the camera model's domain are left
+  /// out.
   std::vector<Trail> trails() const;
 
  private:

@@ -4,14 +4,15 @@
 //   FLIGHT       name of a flight on the disk
 //   SCREENSHOTS  folder for them
 'use strict';
-const {execFileSync} = require('child_process');
+const {spawnSync} = require('child_process');
 const fs = require('fs');
 const path = require('path');
 const {Browser} = require('./browser.js');
 const [chromium, url, detections_file, run, flight, screenshots] = process.argv.slice(2);
 
 const assert = (is_true, what) => { if (!is_true) throw new Error(what); };
-const supervisor = (...words) => execFileSync('supervisorctl', ['-c', 'supervisord.conf', ...words], {cwd: run}).toString().trim();
+// Its exit status says whether all run, which the recorder does not.
+const supervisor = (...words) => spawnSync('supervisorctl', ['-c', 'supervisord.conf', ...words], {cwd: run}).stdout.toString().trim();
 const heard = () => new Map(fs.readFileSync(detections_file, 'utf8').split('\n').slice(0, -1).map((line) => {
   const {utime, boxes} = JSON.parse(line);
   return [utime, boxes];
@@ -124,7 +125,8 @@ async function record(page) {
   assert(await page.value('document.getElementById("record").hidden') === false, 'there is no button to record');
   await page.value('document.getElementById("record").click()');
   await page.until('recording', 'document.getElementById("record").classList.contains("on")');
-  assert(/record\s+(RUNNING|STARTING)/.test(supervisor('status', 'record')), 'the recorder does not run');
+  await page.until('the recorder says so', '[...document.querySelectorAll("#processes tbody tr")].some((r) => r.dataset.name === "record" && r.dataset.state === "good")');
+  await goesOn(page, 'while it is recorded');
   await page.value('document.getElementById("record").click()');
   await page.until('no longer recording', '!document.getElementById("record").classList.contains("on")');
   console.log('recorded: started and stopped by the button');

@@ -1,6 +1,6 @@
-// live_flight: flies the endless flight (tests/support/endless_flight.hpp) into a running stack, with the true POSE, until
-// it is stopped. It writes what DETECTIONS says, a line of JSON a frame: {"utime": us, "boxes": [[id, x, y, width,
-// height, seen], ...]}.
+// live_flight: flies the endless flight (tests/support/endless_flight.hpp) into a running stack, with the
+// true POSE, until it is stopped. It writes what DETECTIONS says, a line of JSON a frame: {"utime": us,
+// "boxes": [[id, x, y, width, height, seen], ...]}.
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <fstream>
@@ -39,8 +39,8 @@ void write(std::ofstream& out, const detections_t& m) {
   out << "{\"utime\": " << m.utime << ", \"boxes\": [";
   for (size_t i = 0; i < m.detections.size(); ++i) {
     const detection_t& d = m.detections[i];
-    out << (i == 0 ? "" : ", ") << "[" << d.id << ", " << d.x << ", " << d.y << ", " << d.width << ", " << d.height
-        << ", " << static_cast<int>(d.seen) << "]";
+    out << (i == 0 ? "" : ", ") << "[" << d.id << ", " << d.x << ", " << d.y << ", " << d.width << ", "
+        << d.height << ", " << static_cast<int>(d.seen) << "]";
   }
   out << "]}" << std::endl;  // NOLINT: who reads it does so while it is written
 }

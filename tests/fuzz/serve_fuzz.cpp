@@ -1,6 +1,6 @@
-// What a browser may send to redbee-serve: path, query and headers, as cpp-httplib has split them. Lines of the input:
-// the method, the path, then names and values, each pair of lines a parameter, or a header where the name begins with
-// a colon.
+// What a browser may send to redbee-serve: path, query and headers, as cpp-httplib has split them. Lines of
+// the input: the method, the path, then names and values, each pair of lines a parameter, or a header where
+// the name begins with a colon.
 #include "processes/serve/station.hpp"
 #include "redbee/files/user_error.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
@@ -57,6 +57,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     Station station(Access(*listenAddressOf("127.0.0.1:1"), token, true), archive, live, control);
     station.answer(request);
   }
-  if (const auto address = listenAddressOf(lines[0]); address && address->unix_socket.empty() && address->port == 0) abort();
+  if (const auto address = listenAddressOf(lines[0]);
+      address && address->unix_socket.empty() && address->port == 0)
+    abort();
   return 0;
 }

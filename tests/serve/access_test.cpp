@@ -32,8 +32,8 @@ TEST(ListenAddress, IsAnAddressWithAPortOrAUnixSocket) {
   EXPECT_FALSE(listenAddressOf("0.0.0.0:80")->isLocal());
   EXPECT_TRUE(listenAddressOf("127.0.0.1:8080")->isLocal());
   EXPECT_EQ(listenAddressOf("unix:serve.sock")->unix_socket, "serve.sock");
-  for (const char* wrong : {"", ":80", "127.0.0.1", "127.0.0.1:", "127.0.0.1:0", "127.0.0.1:65536", "localhost:80",
-                            "127.0.0.1:80x", "unix:", "1.2.3:80", "127.1:80", "[::1]:80"}) {
+  for (const char* wrong : {"", ":80", "127.0.0.1", "127.0.0.1:", "127.0.0.1:0", "127.0.0.1:65536",
+                            "localhost:80", "127.0.0.1:80x", "unix:", "1.2.3:80", "127.1:80", "[::1]:80"}) {
     EXPECT_FALSE(listenAddressOf(wrong)) << wrong;
   }
   EXPECT_FALSE(listenAddressOf("unix:" + std::string(108, 'x')));
@@ -68,7 +68,8 @@ TEST(Access, TakesTheTokenFromHeaderCookieAndAddress) {
   const auto redirect = access.refusal(first);
   ASSERT_TRUE(redirect);
   EXPECT_EQ(redirect->status, 303);
-  EXPECT_THAT(redirect->headers[1].second, HasSubstr("redbee_token=" + kToken + "; HttpOnly; SameSite=Strict"));
+  EXPECT_THAT(redirect->headers[1].second,
+              HasSubstr("redbee_token=" + kToken + "; HttpOnly; SameSite=Strict"));
   first.path = "/api/frame";
   EXPECT_EQ(statusOf(access, first), 401);
 }

@@ -169,7 +169,8 @@ TEST_F(StationTest, SaysWhereThereAreNoDetections) {
 
 TEST_F(StationTest, NamesLeadNowhereElse) {
   writeFlight("a.lcm", true);
-  for (const char* name : {"flights/../secret.lcm", "../secret.lcm", "secret.lcm", "/etc/passwd", "", "flights"}) {
+  for (const char* name :
+       {"flights/../secret.lcm", "../secret.lcm", "secret.lcm", "/etc/passwd", "", "flights"}) {
     EXPECT_EQ(get("/api/flight", {{"name", name}}).status, 404) << name;
     EXPECT_EQ(get("/report", {{"name", name}}).status, 404) << name;
   }

@@ -118,9 +118,9 @@ std::string SupervisorClient::act(const std::string& action, const std::string& 
   if (action == "stop") return actOnce("stopProcess", process);
   if (action != "restart") return action + ": is no action";
   // What ends on a signal is started again, as after any end; supervisor's own stop would keep it away.
-  const std::string signal =
-      call("signalProcess", "<param><value><string>" + process +
-                                "</string></value></param><param><value><string>TERM</string></value></param>");
+  const std::string signal = call(
+      "signalProcess", "<param><value><string>" + process +
+                           "</string></value></param><param><value><string>TERM</string></value></param>");
   if (signal.empty()) return "supervisor does not answer";
   if (signal.find("<fault>") == std::string::npos) return "";
   return actOnce("startProcess", process);  // it was stopped

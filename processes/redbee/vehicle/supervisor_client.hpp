@@ -27,8 +27,8 @@ class SupervisorClient {
   /// (supervisord.py, runforever).
   std::optional<std::vector<SupervisedProcess>> processes() const;
 
-  /// Has it "start", "stop" or "restart" a process of its configuration. Returns once it has been accepted, and the
-  /// fault in words; empty: there is none.
+  /// Has it "start", "stop" or "restart" a process of its configuration. Returns once it has been accepted,
+  /// and the fault in words; empty: there is none.
   std::string act(const std::string& action, const std::string& process) const;
 
  private:
