@@ -116,6 +116,8 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
   server.set_payload_max_length(kLongestBody);
   server.set_write_timeout(kWriteTimeout_s);
   server.set_keep_alive_max_count(kMostRequests);
+  // Nothing else ends the wait at a Unix socket when the server is to stop.
+  server.set_idle_interval(std::chrono::milliseconds(200));
   server.set_tcp_nodelay(true);
   server.set_default_headers({{"Cache-Control", "no-store"},
                               {"X-Content-Type-Options", "nosniff"},

@@ -1,4 +1,4 @@
-# cmake -D OUTPUT=page_files.cpp -P page_files.cmake FILE...: the files of the page as arrays of bytes.
+# cmake -D OUTPUT=page_files.cxx -P page_files.cmake FILE...: the files of the page as arrays of bytes.
 set(arrays "")
 set(table "")
 set(number 0)
