@@ -6,6 +6,7 @@
 #include "processes/redbee/mosaic/make_mosaic.hpp"
 #include "processes/redbee/mosaic/track_drawing.hpp"
 #include "redbee/files/atomic_file.hpp"
+#include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
 #include "tests/support/endless_flight.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -101,7 +102,7 @@ TEST(Mosaic, RefusesAFlightWithoutImages) {
   log.write("ALTIMETER", message(AltitudeSample{}));
   log.close();
   writeText(folder / "vehicle.yaml", emitYaml(endlessVehicle()));
-  EXPECT_THROW(makeMosaic({folder / "empty.lcm", folder / "vehicle.yaml", folder / "out"}), InputError);
+  EXPECT_THROW(makeMosaic({folder / "empty.lcm", folder / "vehicle.yaml", folder / "out", 3000, 2}), InputError);
 }
 
 }  // namespace
