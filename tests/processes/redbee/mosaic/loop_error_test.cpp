@@ -102,7 +102,8 @@ TEST(Mosaic, RefusesAFlightWithoutImages) {
   log.write("ALTIMETER", message(AltitudeSample{}));
   log.close();
   writeText(folder / "vehicle.yaml", emitYaml(endlessVehicle()));
-  EXPECT_THROW(makeMosaic({folder / "empty.lcm", folder / "vehicle.yaml", folder / "out", 3000, 2}), InputError);
+  EXPECT_THROW(makeMosaic({folder / "empty.lcm", folder / "vehicle.yaml", folder / "out", 3000, 2}),
+               InputError);
 }
 
 }  // namespace
