@@ -1,5 +1,6 @@
 #include "redbee/mosaic/mosaic.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <regex>
+#include <tuple>
 #include <utility>
 
 namespace redbee {

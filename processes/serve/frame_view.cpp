@@ -1,5 +1,6 @@
 #include "processes/serve/frame_view.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 

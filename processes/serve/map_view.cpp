@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "redbee/geometry/time.hpp"

@@ -1,5 +1,7 @@
 #include "processes/serve/trails.hpp"
 
+#include <Eigen/Geometry>
+#include <iterator>
 #include <optional>
 
 namespace redbee {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>

@@ -2,7 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 
 #include "redbee/files/atomic_file.hpp"

@@ -1,6 +1,8 @@
 // The endless flight comes back to where it was after each period: how far the mosaic then is from itself.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdio>
 
 #include "processes/redbee/mosaic/make_mosaic.hpp"
