@@ -123,11 +123,11 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
                               {"X-Content-Type-Options", "nosniff"},
                               {"Referrer-Policy", "no-referrer"}});
   const auto handle = [&station, &live](const httplib::Request& from, httplib::Response& to) {
-    WebResponse response = station.answer(requestOf(from));
+    const WebResponse response = station.answer(requestOf(from));
     if (response.is_event_stream) return streamEvents(live, to);
     to.status = response.status;
     for (const auto& [name, value] : response.headers) to.set_header(name, value);
-    if (response.status != 204) to.set_content(std::move(response.body), response.type);
+    if (response.status != 204) to.set_content(response.body, response.type);
   };
   server.Get(".*", handle);
   server.Post(".*", handle);
