@@ -60,6 +60,13 @@ struct CaptureParameters {
   int jpeg_quality = 0;  ///< of images that the pipeline gives raw; 0: they stay raw
 };
 
+/// For redbee-serve, the ground station in the browser.
+struct ServeParameters {
+  std::string listen;         ///< see listen_address.hpp; empty: it does not fly
+  std::string token_file;     ///< of what a browser must know; may be empty where `listen` is local
+  bool allow_writes = false;  ///< the page may start and stop the recorder and restart processes
+};
+
 struct Configuration {
   std::string vehicle = "unnamed";
   CameraIntrinsics camera;
@@ -75,6 +82,7 @@ struct Configuration {
   WatchParameters watch;
   CaptureParameters capture;
   AutopilotParameters autopilot;
+  ServeParameters serve;
   int overlay_period_frames = 4;  ///< OVERLAY is published for every n-th frame; 0: never
 };
 

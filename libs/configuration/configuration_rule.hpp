@@ -7,6 +7,7 @@
 
 #include "redbee/configuration/configuration_table.hpp"
 #include "redbee/configuration/configuration_value.hpp"
+#include "redbee/configuration/listen_address.hpp"
 #include "redbee/geometry/camera_model.hpp"
 #include "redbee/geometry/so3.hpp"
 #include "redbee/mavlink/link_address.hpp"
@@ -47,6 +48,9 @@ inline const Rule cameraModel{[](const std::string& x) {
 inline const Rule autopilotLink{
     [](const std::string& x) { return x.empty() || mavlink::linkAddressOf(x).has_value(); },
     std::string("must be ") + mavlink::kLinkForms + ", or empty"};
+inline const Rule listenAddress{
+    [](const std::string& x) { return x.empty() || listenAddressOf(x).has_value(); },
+    std::string("must be ") + kListenForms + ", or empty"};
 inline const Rule systemId{[](int x) { return x >= 1 && x <= 255; }, "must lie from 1 to 255"};
 inline const Rule absolutePath{[](const std::string& x) { return x.empty() || x.front() == '/'; },
                                "must be a path from the root (/...), or empty"};

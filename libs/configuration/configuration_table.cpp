@@ -164,6 +164,9 @@ Settings driverSettings() {
       setting("autopilot.attitude_sigma_deg", MEMBER(autopilot.attitude_sigma_deg), angleSigma),
       setting("autopilot.heading_sigma_deg", MEMBER(autopilot.heading_sigma_deg), angleSigma),
       setting("autopilot.rangefinder_above_camera_m", MEMBER(autopilot.rangefinder_above_camera_m), mounting),
+      setting("serve.listen", MEMBER(serve.listen), listenAddress),
+      setting("serve.token_file", MEMBER(serve.token_file), absolutePath),
+      setting("serve.allow_writes", MEMBER(serve.allow_writes), anything),
   };
 }
 

@@ -90,6 +90,15 @@ inline constexpr ProcessDescription kAutopilot = [] {
   return process;
 }();
 
+/// The ground station in the browser.
+inline constexpr ProcessDescription kServe = [] {
+  ProcessDescription process{"serve"};
+  process.memory_limit = 800'000'000;  // with the stacks of its threads, one a connection
+  process.priority = 20;
+  process.niceness = 10;
+  return process;
+}();
+
 inline constexpr ProcessDescription kWatch = [] {
   ProcessDescription process{"watch", "watch"};
   process.memory_limit = 300'000'000;
@@ -110,8 +119,9 @@ inline constexpr ProcessDescription kRecord = [] {
 /// The processing stages, in order; each is a node and a program.
 inline constexpr std::array kStages{&kImuIntegration, &kVisualHomography, &kHomographyFusion,
                                     &kMotionSegmentation};
-/// The drivers of sensors, each a program that flies only where it is configured (drivers.hpp).
-inline constexpr std::array kDrivers{&kCamera, &kAutopilot};
+/// The drivers of sensors and the ground station's server, each a program that flies only where it is
+/// configured (drivers.hpp).
+inline constexpr std::array kDrivers{&kCamera, &kAutopilot, &kServe};
 /// The other processes: subcommands of `redbee`.
 inline constexpr std::array kSupportProcesses{&kWatch, &kRecord};
 

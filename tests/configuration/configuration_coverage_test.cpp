@@ -38,6 +38,7 @@ TEST(ConfigurationCoverage, EveryParameterHasAKey) {
   EXPECT_EQ(keysIn("channels"), fieldCount<Channels>());
   EXPECT_EQ(keysIn("waits"), fieldCount<WaitParameters>());
   EXPECT_EQ(keysIn("capture"), fieldCount<CaptureParameters>());
+  EXPECT_EQ(keysIn("serve"), fieldCount<ServeParameters>());
   EXPECT_EQ(keysIn("autopilot"), fieldCount<AutopilotParameters>());
   EXPECT_EQ(keysIn("watch"), fieldCount<WatchParameters>());
 }
@@ -89,6 +90,7 @@ const std::vector<std::string>& values() {
   static const std::vector<std::string> all = {
       "true", "false", "33", "3", "2", "4", "0.375", "0.625", "ANOTHER",
       "equidistant", "paper", "propagated", "two_planes", "parallax", "udp:127.0.0.1:14540", "/etc/redbee/key",
+      "127.0.0.1:8080",
       "[0.125, 0.25, 0.375]", "[0.125, 0.25, 0.375, 0.5, 0.625]",
       "[0, -1, 0, 1, 0, 0, 0, 0, 1]", "[1, 2, 3, 4, 5, 6, 7, 8]"};
   // clang-format on

@@ -71,6 +71,10 @@ TEST(ProcessTable, DriversFlyOnlyWhereTheyAreConfigured) {
   configuration.autopilot.link = "udp:127.0.0.1:14540";
   EXPECT_THAT(supervisorConfiguration(configuredDrivers(configuration)),
               HasSubstr("\"$REDBEE_BIN/redbee-autopilot\" --config \"$REDBEE_CONFIG\""));
+  EXPECT_THAT(supervisorConfiguration(configuredDrivers(configuration)), Not(HasSubstr("[program:serve]")));
+  configuration.serve.listen = "unix:serve.sock";
+  EXPECT_THAT(supervisorConfiguration(configuredDrivers(configuration)),
+              HasSubstr("nice -n 10 \"$REDBEE_BIN/redbee-serve\" --config \"$REDBEE_CONFIG\""));
 }
 
 TEST(ProcessTable, SupervisorRunsAllOfIt) {

@@ -7,15 +7,14 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 namespace redbee {
 namespace {
 
-void replaceBy(const std::filesystem::path& program, const std::string& subcommand,
-               std::vector<std::string> arguments) {
-  std::vector<std::string> words{program.string(), subcommand};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+void replaceBy(const std::filesystem::path& program, std::vector<std::string> words) {
+  words.insert(words.begin(), program.string());
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
@@ -26,17 +25,23 @@ void replaceBy(const std::filesystem::path& program, const std::string& subcomma
   throw CLI::RuntimeError(2);
 }
 
-}  // namespace
-
-Command::Setup programBeside(const std::string& program) {
-  return [program](CLI::App& command) {
+Command::Setup startingBeside(const std::string& program, bool names_subcommand) {
+  return [program, names_subcommand](CLI::App& command) {
     command.set_help_flag();
     command.prefix_command();
-    command.callback([program, &command] {
+    command.callback([program, names_subcommand, &command] {
       const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-      replaceBy(folder / program, command.get_name(), command.remaining());
+      std::vector<std::string> words = command.remaining();
+      if (names_subcommand) words.insert(words.begin(), command.get_name());
+      replaceBy(folder / program, std::move(words));
     });
   };
 }
+
+}  // namespace
+
+Command::Setup programBeside(const std::string& program) { return startingBeside(program, true); }
+
+Command::Setup processBeside(const std::string& program) { return startingBeside(program, false); }
 
 }  // namespace redbee

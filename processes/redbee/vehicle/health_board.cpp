@@ -163,6 +163,27 @@ void HealthBoard::appendBuilds(std::vector<BoardLine>& lines) const {
   }
 }
 
+std::vector<HealthBoard::Process> HealthBoard::list(Time now) const {
+  std::vector<Process> processes;
+  for (const std::string& name : inOrderOfWork(entries_)) {
+    const auto it = entries_.find(name);
+    Process process{shortName(name), "no messages", Tone::kBad, std::nullopt, 0, 0};
+    if (it != entries_.end()) {
+      const Entry& entry = it->second;
+      const auto state = static_cast<HealthState>(entry.last.state);
+      const bool silent = isSilent(entry, now);
+      process = {shortName(name),
+                 silent ? "silent" : toString(state),
+                 silent ? Tone::kBad : toneOf(state),
+                 entry.last,
+                 std::chrono::duration<double>(now - entry.received).count(),
+                 entry.restarts};
+    }
+    processes.push_back(std::move(process));
+  }
+  return processes;
+}
+
 std::vector<BoardLine> HealthBoard::table(Time now, int columns) const {
   std::vector<BoardLine> lines;
   lines.push_back({fmt::format(kRow, "PROCESS", "STATE", "PID", "IN/s", "OUT/s", "MED", "P99ms", "SKIP",

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,18 @@ class HealthBoard {
   /// Messages of names outside the process table and implausible ones (health_check.hpp) are counted, not
   /// kept.
   void onHealth(const process_health_t& health, Time now);
+
+  /// A process as the table shows it.
+  struct Process {
+    std::string name;   ///< without "redbee-"
+    std::string state;  ///< "good", ..., "silent", "no messages"
+    Tone tone = Tone::kBad;
+    std::optional<process_health_t> last;
+    double silent_s = 0;  ///< s since its last message
+    int restarts = 0;     ///< seen
+  };
+  /// In the order of the table.
+  std::vector<Process> list(Time now) const;
 
   int processes() const { return static_cast<int>(entries_.size()); }
   /// Processes that are neither silent nor dead nor degraded.

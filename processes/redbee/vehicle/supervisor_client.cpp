@@ -84,19 +84,46 @@ SupervisorClient SupervisorClient::ofParent() {
   return SupervisorClient(std::string(url).substr(scheme.size()));
 }
 
-std::optional<std::vector<SupervisedProcess>> SupervisorClient::processes() const {
-  static const std::string body =
-      "<?xml version=\"1.0\"?><methodCall><methodName>supervisor.getAllProcessInfo</methodName><params/>"
-      "</methodCall>";
-  static const std::string request =
+std::string SupervisorClient::call(const std::string& method, const std::string& parameters) const {
+  const std::string body = "<?xml version=\"1.0\"?><methodCall><methodName>supervisor." + method +
+                           "</methodName><params>" + parameters + "</params></methodCall>";
+  const std::string request =
       "POST /RPC2 HTTP/1.0\r\nContent-Type: text/xml\r\nContent-Length: " + std::to_string(body.size()) +
       "\r\n\r\n" + body;
   const Connection connection;
-  if (!connectTo(connection, socket_.string())) return std::nullopt;
+  if (!connectTo(connection, socket_.string())) return "";
   if (send(connection.fd, request.data(), request.size(), MSG_NOSIGNAL) !=
       static_cast<ssize_t>(request.size()))
-    return std::nullopt;
-  return parseProcessInfo(receiveAll(connection));
+    return "";
+  return receiveAll(connection);
+}
+
+std::optional<std::vector<SupervisedProcess>> SupervisorClient::processes() const {
+  return parseProcessInfo(call("getAllProcessInfo", ""));
+}
+
+/// Without waiting until the process is up or has ended.
+std::string SupervisorClient::actOnce(const std::string& method, const std::string& process) const {
+  const std::string response =
+      call(method, "<param><value><string>" + process +
+                       "</string></value></param><param><value><boolean>0</boolean></value></param>");
+  if (response.empty()) return "supervisor does not answer";
+  if (response.find("<fault>") == std::string::npos) return "";
+  const std::string fault = memberOf(response, "faultString");
+  return "supervisor: " + (fault.empty() ? "a fault" : fault);
+}
+
+std::string SupervisorClient::act(const std::string& action, const std::string& process) const {
+  if (action == "start") return actOnce("startProcess", process);
+  if (action == "stop") return actOnce("stopProcess", process);
+  if (action != "restart") return action + ": is no action";
+  // What ends on a signal is started again, as after any end; supervisor's own stop would keep it away.
+  const std::string signal = call(
+      "signalProcess", "<param><value><string>" + process +
+                           "</string></value></param><param><value><string>TERM</string></value></param>");
+  if (signal.empty()) return "supervisor does not answer";
+  if (signal.find("<fault>") == std::string::npos) return "";
+  return actOnce("startProcess", process);  // it was stopped
 }
 
 std::optional<std::vector<SupervisedProcess>> parseProcessInfo(const std::string& response) {

@@ -27,7 +27,15 @@ class SupervisorClient {
   /// (supervisord.py, runforever).
   std::optional<std::vector<SupervisedProcess>> processes() const;
 
+  /// Has it "start", "stop" or "restart" a process of its configuration. Returns once it has been accepted,
+  /// and the fault in words; empty: there is none.
+  std::string act(const std::string& action, const std::string& process) const;
+
  private:
+  /// The response to a method; empty where there is none.
+  std::string call(const std::string& method, const std::string& parameters) const;
+  std::string actOnce(const std::string& method, const std::string& process) const;
+
   std::filesystem::path socket_;
 };
 

@@ -1,0 +1,63 @@
+// Frames of a flight on one map of the ground, by the ground's homographies from frame to frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "redbee/geometry/homography.hpp"
+
+namespace redbee {
+
+/// The ground's plane as a frame's camera sees it.
+struct GroundPlane {
+  Eigen::Vector3d normal;  ///< unit, from the camera towards the ground, camera frame
+  double distance_m = 0;
+};
+
+/// From ideal pixels to metres on the ground: x to the right of the image, y towards its lower edge, the
+/// origin below the camera.
+Eigen::Matrix3d groundMap(const Eigen::Matrix3d& K_inverse, const GroundPlane& plane);
+
+/// Chains the steps. Where none leads to a frame from an earlier one, a new piece begins, as nothing says
+/// where it lies.
+class GroundChain {
+ public:
+  struct Frame {
+    int64_t utime = 0;                 ///< us
+    Eigen::Matrix3d H;                 ///< from ideal pixels of the piece's first frame to those of this one
+    std::optional<GroundPlane> plane;  ///< as this frame sees it
+  };
+
+  /// The ground's homography from the frame at `from` to the one at `to`, us.
+  void addStep(int64_t from, int64_t to, const Eigen::Matrix3d& H);
+  /// Of a frame that a step has led to or from.
+  void setPlane(int64_t utime, const GroundPlane& plane);
+
+  /// The piece of most frames, in order of time; empty before the first step.
+  std::vector<Frame> longestPiece() const;
+  size_t pieces() const { return pieces_.size(); }
+
+ private:
+  using Piece = std::map<int64_t, Frame>;
+  std::vector<Piece> pieces_;
+};
+
+/// A frame's way to the map.
+struct MappedFrame {
+  int64_t utime = 0;
+  Eigen::Matrix3d to_map;  ///< from its ideal pixels
+};
+
+/// The map is that of the plane in the middle of the piece, in metres; without any plane it is the middle
+/// frame's image, in its ideal pixels, and `is_metric` is false.
+struct GroundFrames {
+  std::vector<MappedFrame> frames;
+  bool is_metric = false;
+  Eigen::Matrix3d reference;  ///< to_map of the frame whose plane it is
+};
+GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K_inverse);
+
+}  // namespace redbee

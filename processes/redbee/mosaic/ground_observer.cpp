@@ -1,0 +1,91 @@
+#include "processes/redbee/mosaic/ground_observer.hpp"
+
+#include <utility>
+
+#include "processes/conversions.hpp"
+#include "processes/in_process_stack.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/log.hpp"
+#include "redbee/files/progress.hpp"
+#include "redbee/node/message_check.hpp"
+
+namespace redbee {
+namespace {
+
+/// Returns whether the log has homographies of its own.
+bool readOwn(LogReader& log, const Channels& channels, GroundObserver& observer) {
+  bool has_homographies = false;
+  while (const auto event = log.next()) {
+    if (event->channel == channels.fused_homography) {
+      fused_homography_t m;
+      if (!decodePlausible(event->data, m)) continue;
+      observer.onFused(m);
+      has_homographies = true;
+    } else if (event->channel == channels.foreground) {
+      if (foreground_t m; decodePlausible(event->data, m)) observer.onForeground(m);
+    } else if (event->channel == channels.detections) {
+      if (detections_t m; decodePlausible(event->data, m)) observer.onDetections(m);
+    }
+  }
+  return has_homographies;
+}
+
+void runStack(LogReader& log, const std::filesystem::path& file, const Configuration& configuration,
+              GroundObserver& observer) {
+  const Channels& channels = configuration.channels;
+  const auto bus = makeLcmBus("memq://");
+  const auto fused = bus->subscribe<fused_homography_t>(
+      channels.fused_homography, 64, [&](const fused_homography_t& m) { observer.onFused(m); });
+  const auto foreground = bus->subscribe<foreground_t>(
+      channels.foreground, 64, [&](const foreground_t& m) { observer.onForeground(m); });
+  const auto detections = bus->subscribe<detections_t>(
+      channels.detections, 64, [&](const detections_t& m) { observer.onDetections(m); });
+  InProcessStack stack(*bus, configuration);
+  Progress progress("homographies of " + file.filename().string(), "MB");
+  while (const auto event = log.next()) {
+    if (event->channel != channels.camera && event->channel != channels.imu &&
+        event->channel != channels.altimeter)
+      continue;
+    bus->publish(event->channel, event->data);
+    stack.settle();
+    progress.update(log.position() >> 20, log.size() >> 20);
+  }
+  stack.finish();
+  progress.finish();
+}
+
+}  // namespace
+
+void GroundObserver::onFused(const fused_homography_t& fused) {
+  if (fused.source == fused_homography_t::NONE) return;
+  chain_.addStep(fused.utime_previous, fused.utime, matrix3(fused.step.H));
+  if (fused.has_motion == 0) return;
+  const plane_motion_t& m = fused.motion;
+  chain_.setPlane(fused.utime_previous, {{m.normal[0], m.normal[1], m.normal[2]}, m.distance});
+}
+
+void GroundObserver::onForeground(const foreground_t& foreground) {
+  if (foreground.status == foreground_t::GOOD) masks_[foreground.utime] = foreground.mask;
+}
+
+const std::vector<uint8_t>* GroundObserver::mask(int64_t utime) const {
+  const auto it = masks_.find(utime);
+  return it == masks_.end() ? nullptr : &it->second;
+}
+
+const detections_t* GroundObserver::detections(int64_t utime) const {
+  const auto it = detections_.find(utime);
+  return it == detections_.end() ? nullptr : &it->second;
+}
+
+GroundObserver observeGround(const std::filesystem::path& file, const Configuration& configuration) {
+  LogReader log(file);
+  GroundObserver own;
+  if (readOwn(log, configuration.channels, own)) return own;
+  log.rewind();
+  GroundObserver observer;
+  runStack(log, file, configuration, observer);
+  return observer;
+}
+
+}  // namespace redbee

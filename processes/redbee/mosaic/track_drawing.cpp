@@ -1,0 +1,105 @@
+#include "processes/redbee/mosaic/track_drawing.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
+
+#include "redbee/files/atomic_file.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int64_t kLabelPeriod_us = 2'000'000;
+constexpr size_t kShortest = 6;  ///< points; shorter ones are no path
+
+/// Of Okabe and Ito, which the colour-blind can tell, as on the page of redbee serve; BGR.
+cv::Scalar trackColour(int32_t id) {
+  static const std::array<cv::Scalar, 7> colours = {
+      cv::Scalar(0, 159, 230),   cv::Scalar(233, 180, 86), cv::Scalar(150, 200, 0),  cv::Scalar(66, 228, 240),
+      cv::Scalar(167, 121, 204), cv::Scalar(61, 122, 255), cv::Scalar(255, 180, 143)};
+  return colours[static_cast<size_t>(std::abs(id)) % colours.size()];
+}
+
+cv::Point pixelOf(const MosaicGrid& grid, const TrackPoint& point) {
+  const Eigen::Vector2d pixel = grid.pixelOf(point.position);
+  return {cvRound(pixel.x()), cvRound(pixel.y())};
+}
+
+void label(cv::Mat3b& image, const std::string& text, cv::Point at, const cv::Scalar& colour) {
+  cv::circle(image, at, 3, cv::Scalar::all(0), cv::FILLED, cv::LINE_AA);
+  cv::circle(image, at, 2, colour, cv::FILLED, cv::LINE_AA);
+  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, nullptr);
+  const cv::Point corner(std::clamp(at.x + 5, 0, std::max(0, image.cols - size.width)),
+                         std::clamp(at.y - 5, size.height, std::max(size.height, image.rows - 2)));
+  cv::putText(image, text, corner, cv::FONT_HERSHEY_SIMPLEX, 0.45, cv::Scalar::all(0), 3, cv::LINE_AA);
+  cv::putText(image, text, corner, cv::FONT_HERSHEY_SIMPLEX, 0.45, colour, 1, cv::LINE_AA);
+}
+
+std::string secondsText(int64_t us) { return fmt::format("{:.1f} s", static_cast<double>(us) / 1e6); }
+
+/// Of the points that a pixel covers too much ground for, nothing sure can be said.
+bool isFine(const MappedFrame& frame, const Eigen::Vector2d& pixel, const Eigen::Matrix3d& reference,
+            const Eigen::Vector2d& centre) {
+  constexpr double kCoarsest = 36;  ///< times the area of the reference's pixel
+  const auto area = [](const Eigen::Matrix3d& H, const Eigen::Vector2d& x) {
+    const double w = (H.row(2) * x.homogeneous()).value();
+    return std::abs(H.determinant() / (w * w * w));
+  };
+  return area(frame.to_map, pixel) < kCoarsest * area(reference, centre);
+}
+
+}  // namespace
+
+GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, const GroundFrames& frames) {
+  GroundTracks tracks;
+  const Eigen::Vector2d centre(0.5 * camera.ideal().width, 0.5 * camera.ideal().height);
+  for (const MappedFrame& frame : frames.frames) {
+    const detections_t* detections = ground.detections(frame.utime);
+    if (detections == nullptr) continue;
+    for (const detection_t& d : detections->detections) {
+      if (d.seen == 0) continue;
+      const auto foot = camera.undistort({d.x + 0.5 * (d.width - 1), d.y + d.height - 1.0});
+      if (!foot || !isFine(frame, *foot, frames.reference, centre)) continue;
+      tracks[d.id].push_back({frame.utime, (frame.to_map * foot->homogeneous()).eval().hnormalized()});
+    }
+  }
+  for (auto track = tracks.begin(); track != tracks.end();)
+    track = track->second.size() < kShortest ? tracks.erase(track) : std::next(track);
+  return tracks;
+}
+
+void drawTracks(cv::Mat3b& image, const GroundTracks& tracks, const MosaicGrid& grid, int64_t start_utime) {
+  for (const auto& [id, points] : tracks) {
+    std::vector<cv::Point> line;
+    for (const TrackPoint& point : points) line.push_back(pixelOf(grid, point));
+    cv::polylines(image, line, false, cv::Scalar::all(0), 4, cv::LINE_AA);
+    cv::polylines(image, line, false, trackColour(id), 2, cv::LINE_AA);
+  }
+  for (const auto& [id, points] : tracks) {
+    int64_t next = points.front().utime + kLabelPeriod_us;
+    for (const TrackPoint& point : points) {
+      if (point.utime < next || point.utime > points.back().utime - kLabelPeriod_us / 2) continue;
+      label(image, secondsText(point.utime - start_utime), pixelOf(grid, point), trackColour(id));
+      next += kLabelPeriod_us;
+    }
+    for (const TrackPoint& end : {points.front(), points.back()})
+      label(image, fmt::format("{}: {}", id, secondsText(end.utime - start_utime)), pixelOf(grid, end),
+            trackColour(id));
+  }
+}
+
+void writeTracks(const std::filesystem::path& file, const GroundTracks& tracks) {
+  std::string text = "utime,id,x,y\n";
+  for (const auto& [id, points] : tracks) {
+    for (const TrackPoint& p : points)
+      text += fmt::format("{},{},{:.3f},{:.3f}\n", p.utime, id, p.position.x(), p.position.y());
+  }
+  writeAtomically(file, text);
+}
+
+}  // namespace redbee

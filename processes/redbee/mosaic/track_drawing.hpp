@@ -1,0 +1,33 @@
+// Tracks of the moving objects on a map of the ground.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "processes/redbee/mosaic/ground_observer.hpp"
+#include "redbee/geometry/camera.hpp"
+#include "redbee/mosaic/mosaic.hpp"
+
+namespace redbee {
+
+struct TrackPoint {
+  int64_t utime = 0;         ///< us
+  Eigen::Vector2d position;  ///< on the map
+};
+using GroundTracks = std::map<int32_t, std::vector<TrackPoint>>;  ///< by identity, in order of time
+
+/// Where the middle of each seen box's lower edge meets the ground; points towards the horizon are left out.
+GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, const GroundFrames& frames);
+
+/// Lines in the identities' colours, with the identity and the time at both ends and the time every two
+/// seconds between, in seconds since `start_utime`.
+void drawTracks(cv::Mat3b& image, const GroundTracks& tracks, const MosaicGrid& grid, int64_t start_utime);
+
+/// utime, id, x, y; one header line.
+void writeTracks(const std::filesystem::path& file, const GroundTracks& tracks);
+
+}  // namespace redbee

@@ -1,0 +1,140 @@
+#include "processes/serve/archive.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <tuple>
+#include <utility>
+
+namespace redbee {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr size_t kMostOpened = 3;
+constexpr std::chrono::seconds kListKept{2};
+constexpr int kDeepest = 3;           ///< folders below a given one
+constexpr size_t kMostFiles = 20000;  ///< looked at
+constexpr int64_t kLargestReport = int64_t{256} << 20;
+
+/// The name of the log that a part belongs to; empty for another file.
+std::string logOf(const std::string& name) {
+  static const std::regex pattern(R"((.*\.lcm)(\.[0-9]+)?)");
+  std::smatch match;
+  return std::regex_match(name, match, pattern) ? match[1].str() : "";
+}
+
+void newestFirst(std::vector<Archive::Entry>& entries) {
+  std::sort(entries.begin(), entries.end(), [](const Archive::Entry& a, const Archive::Entry& b) {
+    return std::tie(b.modified_s, a.name) < std::tie(a.modified_s, b.name);
+  });
+}
+
+}  // namespace
+
+Archive::Archive(const Configuration& configuration, std::vector<fs::path> folders)
+    : configuration_(configuration), folders_(std::move(folders)) {}
+
+std::vector<Archive::Entry> Archive::files() const {
+  const std::lock_guard<std::mutex> lock(files_mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  if (files_.empty() || now - files_read_ > kListKept) {
+    files_ = readFolders();
+    files_read_ = now;
+  }
+  return files_;
+}
+
+std::vector<Archive::Entry> Archive::readFolders() const {
+  std::vector<Entry> entries;
+  for (const fs::path& folder : folders_) {
+    std::error_code error;
+    fs::path parent = fs::absolute(folder, error).lexically_normal();
+    if (!parent.has_filename()) parent = parent.parent_path();
+    parent = parent.parent_path();
+    auto at = fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, error);
+    for (; !error && at != fs::recursive_directory_iterator() && entries.size() < kMostFiles;
+         at.increment(error)) {
+      if (at.depth() >= kDeepest) at.disable_recursion_pending();
+      if (at->path().extension() == ".png") continue;  // the maps of a run
+      struct stat status {};
+      if (stat(at->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+      const fs::path absolute = fs::absolute(at->path(), error).lexically_normal();
+      entries.push_back(
+          {absolute.lexically_relative(parent).string(), status.st_size, status.st_mtime, {absolute}});
+    }
+  }
+  newestFirst(entries);
+  return entries;
+}
+
+std::vector<Archive::Entry> Archive::flights() const {
+  std::map<std::string, Entry> logs;
+  for (const Entry& file : files()) {
+    const std::string name = logOf(file.name);
+    if (name.empty()) continue;
+    Entry& entry = logs[name];
+    entry.name = name;
+    entry.bytes += file.bytes;
+    entry.modified_s = std::max(entry.modified_s, file.modified_s);
+    entry.files.push_back(file.files.front());
+  }
+  std::vector<Entry> result;
+  for (auto& [name, entry] : logs) {
+    std::sort(entry.files.begin(), entry.files.end());
+    result.push_back(std::move(entry));
+  }
+  newestFirst(result);
+  return result;
+}
+
+std::vector<Archive::Entry> Archive::reports() const {
+  std::vector<Entry> result;
+  for (Entry& file : files()) {
+    if (fs::path(file.name).extension() == ".html") result.push_back(std::move(file));
+  }
+  return result;
+}
+
+std::shared_ptr<const Flight> Archive::open(const std::string& name, bool refresh) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto kept =
+        std::find_if(opened_.begin(), opened_.end(), [&](const Opened& o) { return o.name == name; });
+    if (!refresh && kept != opened_.end()) return kept->flight;
+  }
+  const auto entries = flights();
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.name == name; });
+  if (entry == entries.end()) return nullptr;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto kept = std::find_if(opened_.begin(), opened_.end(),
+                                 [&](const Opened& o) { return o.name == name && o.bytes == entry->bytes; });
+  if (kept != opened_.end()) {
+    opened_.splice(opened_.begin(), opened_, kept);
+    return opened_.front().flight;
+  }
+  std::vector<fs::path> runs;
+  for (const Entry& file : files()) {
+    if (file.files.front().filename() == "homography.csv") runs.push_back(file.files.front().parent_path());
+  }
+  auto flight = std::make_shared<const Flight>(configuration_, entry->files, runs);
+  opened_.remove_if([&](const Opened& o) { return o.name == name; });
+  opened_.push_front({name, entry->bytes, flight});
+  if (opened_.size() > kMostOpened) opened_.pop_back();
+  return flight;
+}
+
+std::optional<std::string> Archive::report(const std::string& name) const {
+  for (const Entry& entry : reports()) {
+    if (entry.name != name || entry.bytes > kLargestReport) continue;
+    std::ifstream file(entry.files.front(), std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  }
+  return std::nullopt;
+}
+
+}  // namespace redbee

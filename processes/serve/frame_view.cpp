@@ -1,0 +1,114 @@
+#include "processes/serve/frame_view.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "redbee/bus/image.hpp"
+#include "redbee/foreground_t.hpp"
+
+namespace redbee {
+namespace {
+
+using nlohmann::json;
+constexpr int kJpegQuality = 90;  ///< of images that the camera gives raw
+
+const char* statusText(int8_t status) {
+  switch (status) {
+    case foreground_t::GOOD:
+      return "good";
+    case foreground_t::LEARNING:
+      return "learning the background";
+    case foreground_t::NO_HOMOGRAPHY:
+      return "no homography: the ground is not seen";
+    default:
+      return "the image is bad";
+  }
+}
+
+json rounded(const Eigen::Vector2d& point) {
+  constexpr double kSteps = 100;  // a hundredth of a pixel or of a metre
+  return {std::round(point.x() * kSteps) / kSteps, std::round(point.y() * kSteps) / kSteps};
+}
+
+json pointsJson(const std::vector<Eigen::Vector2d>& points) {
+  json result = json::array();
+  for (const Eigen::Vector2d& point : points) result.push_back(rounded(point));
+  return result;
+}
+
+json mapJson(const MapView& map) {
+  json result{{"note", map.note}, {"path", pointsJson(map.path)}, {"footprint", pointsJson(map.footprint)}};
+  if (map.own) {
+    result["own"] = {{"position", rounded(map.own->position)}, {"heading", map.own->heading_rad}};
+    if (map.own->height_m) result["own"]["height"] = *map.own->height_m;
+  }
+  return result;
+}
+
+json detectionsJson(const detections_t& detections) {
+  json result = json::array();
+  for (const detection_t& d : detections.detections) {
+    result.push_back({{"id", d.id},
+                      {"x", d.x},
+                      {"y", d.y},
+                      {"width", d.width},
+                      {"height", d.height},
+                      {"area", d.area},
+                      {"score", d.score},
+                      {"seen", d.seen != 0}});
+  }
+  return result;
+}
+
+json trailsJson(const std::vector<Trail>& trails) {
+  json result = json::array();
+  for (const Trail& trail : trails)
+    result.push_back({{"id", trail.id}, {"points", pointsJson(trail.points)}});
+  return result;
+}
+
+/// A JPEG goes as it came. Empty for an image that cannot be decoded.
+std::vector<uint8_t> jpegOf(const image_t& image) {
+  if (image.pixelformat == image_t::MJPEG) {
+    if (jpegSize(image.data.data(), image.data.size())) return image.data;
+    return {};
+  }
+  const auto colour = decodeColour(image);
+  std::vector<uint8_t> jpeg;
+  if (colour) cv::imencode(".jpg", *colour, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  return jpeg;
+}
+
+}  // namespace
+
+std::string textOf(const json& json) { return json.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+std::string bundleOf(const FrameView& view, int64_t sequence) {
+  std::vector<uint8_t> jpeg;
+  cv::Size size;
+  std::string note = view.note;
+  if (view.image) {
+    jpeg = jpegOf(*view.image);
+    size = declaredSize(*view.image);
+    if (jpeg.empty()) note = "the image cannot be shown: " + faultOfImage(*view.image);
+  }
+  json head{{"sequence", sequence},  {"utime", view.utime},        {"width", size.width},
+            {"height", size.height}, {"image_bytes", jpeg.size()}, {"mask_bytes", view.mask.size()},
+            {"note", note},          {"source", view.source},      {"map", mapJson(view.map)}};
+  if (view.detections) {
+    head["status"] = statusText(view.detections->status);
+    head["detections"] = detectionsJson(*view.detections);
+    head["trails"] = trailsJson(view.trails);
+  }
+  const std::string text = textOf(head);
+  std::string bundle;
+  bundle.reserve(4 + text.size() + jpeg.size() + view.mask.size());
+  for (const int shift : {24, 16, 8, 0}) bundle += static_cast<char>(text.size() >> shift & 0xff);
+  bundle += text;
+  bundle.append(jpeg.begin(), jpeg.end());
+  bundle.append(view.mask.begin(), view.mask.end());
+  return bundle;
+}
+
+}  // namespace redbee

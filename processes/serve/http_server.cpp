@@ -1,0 +1,146 @@
+#include "processes/serve/http_server.hpp"
+
+#include <httplib.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+
+#include "redbee/files/user_error.hpp"
+
+namespace redbee {
+namespace {
+
+/// A viewer has one connection for the events and one or two that fetch.
+constexpr size_t kThreads = 3 * Live::kMostViewers;
+constexpr size_t kLongestBody = 4096;  ///< bytes; no request of ours has one
+constexpr std::chrono::milliseconds kKeepAlive{1000};
+constexpr time_t kWriteTimeout_s = 5;
+constexpr size_t kMostRequests = 1'000'000;  ///< on one connection
+
+WebRequest requestOf(const httplib::Request& from) {
+  WebRequest request{from.method, from.path, {}, {}};
+  for (const auto& [name, value] : from.params) request.query.emplace(name, value);
+  for (const auto& [name, value] : from.headers) {
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    request.headers.emplace(std::move(lower), value);
+  }
+  return request;
+}
+
+/// What a viewer has been sent.
+struct Sent {
+  int64_t frame = 0;
+  int64_t health = 0;
+};
+
+std::string eventsSince(Sent& sent, Live& live, bool& is_closed) {
+  const Live::Update update = live.wait(sent.frame, sent.health, kKeepAlive);
+  is_closed = update.is_closed;
+  std::string text;
+  if (update.frame) {
+    sent.frame = update.frame->sequence();
+    text += "event: frame\ndata: " + std::to_string(sent.frame) + "\n\n";
+  }
+  if (!update.health.empty()) {
+    sent.health = update.health_sequence;
+    text += "event: health\ndata: " + update.health + "\n\n";
+  }
+  return text.empty() ? ": nothing new\n\n" : text;
+}
+
+/// Each viewer is sent what is newest when its connection takes it.
+void streamEvents(Live& live, httplib::Response& response) {
+  auto viewer = live.join();
+  if (!viewer) {
+    response.status = 503;
+    response.set_content("too many viewers\n", "text/plain");
+    return;
+  }
+  auto joined = std::make_shared<Live::Viewer>(std::move(*viewer));
+  auto sent = std::make_shared<Sent>();
+  response.set_chunked_content_provider(
+      "text/event-stream", [&live, joined, sent, is_first = true](size_t, httplib::DataSink& sink) mutable {
+        if (std::exchange(is_first, false)) {
+          const std::string begin = "retry: 500\n\n";
+          return sink.write(begin.data(), begin.size());
+        }
+        bool is_closed = false;
+        const std::string text = eventsSince(*sent, live, is_closed);
+        if (is_closed) return false;
+        return sink.write(text.data(), text.size());
+      });
+}
+
+void listenAt(httplib::Server& server, const ListenAddress& address) {
+  if (address.unix_socket.empty()) {
+    if (!server.bind_to_port(address.host, address.port)) {
+      throw UserError("redbee serve: cannot listen at " + address.host + ":" + std::to_string(address.port) +
+                      ": " + std::strerror(errno) + "; another port: --listen 127.0.0.1:PORT");
+    }
+    return;
+  }
+  struct stat status {};
+  if (lstat(address.unix_socket.c_str(), &status) == 0 && S_ISSOCK(status.st_mode))
+    std::filesystem::remove(address.unix_socket);
+  server.set_address_family(AF_UNIX);
+  const mode_t before = umask(0117);  // user and group
+  const bool is_bound = server.bind_to_port(address.unix_socket, 80);
+  const int error = errno;
+  umask(before);
+  if (!is_bound)
+    throw UserError("redbee serve: " + address.unix_socket + ": cannot listen: " + std::strerror(error));
+}
+
+}  // namespace
+
+struct HttpServer::Implementation {
+  httplib::Server server;
+  std::thread thread;
+};
+
+HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& live)
+    : implementation_(std::make_unique<Implementation>()) {
+  httplib::Server& server = implementation_->server;
+  server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  server.set_payload_max_length(kLongestBody);
+  server.set_write_timeout(kWriteTimeout_s);
+  server.set_keep_alive_max_count(kMostRequests);
+  // Nothing else ends the wait at a Unix socket when the server is to stop.
+  server.set_idle_interval(std::chrono::milliseconds(200));
+  server.set_tcp_nodelay(true);
+  server.set_default_headers({{"Cache-Control", "no-store"},
+                              {"X-Content-Type-Options", "nosniff"},
+                              {"Referrer-Policy", "no-referrer"}});
+  const auto handle = [&station, &live](const httplib::Request& from, httplib::Response& to) {
+    const WebResponse response = station.answer(requestOf(from));
+    if (response.is_event_stream) return streamEvents(live, to);
+    to.status = response.status;
+    for (const auto& [name, value] : response.headers) to.set_header(name, value);
+    if (response.status != 204) to.set_content(response.body, response.type);
+  };
+  server.Get(".*", handle);
+  server.Post(".*", handle);
+  listenAt(server, address);
+  implementation_->thread = std::thread([&server] { server.listen_after_bind(); });
+}
+
+HttpServer::~HttpServer() {
+  // stop() does nothing before the thread has come to listen.
+  while (!implementation_->server.is_running() && implementation_->thread.joinable())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  implementation_->server.stop();
+  implementation_->thread.join();
+}
+
+}  // namespace redbee

@@ -1,0 +1,62 @@
+#include "processes/serve/live.hpp"
+
+#include <utility>
+
+namespace redbee {
+
+const std::string& SharedFrame::bundle() {
+  std::call_once(once_, [this] {
+    bundle_ = bundleOf(view_, sequence_);
+    view_.image.reset();
+  });
+  return bundle_;
+}
+
+std::optional<Live::Viewer> Live::join() {
+  if (viewers_ >= kMostViewers) return std::nullopt;
+  return Viewer(*this);
+}
+
+void Live::setFrame(FrameView view) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    frame_ = std::make_shared<SharedFrame>(std::move(view), ++frames_);
+  }
+  changed_.notify_all();
+}
+
+void Live::setHealth(std::string text) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    health_ = std::move(text);
+    ++health_sequence_;
+  }
+  changed_.notify_all();
+}
+
+void Live::close() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_closed_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::shared_ptr<SharedFrame> Live::frame() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return frame_;
+}
+
+Live::Update Live::wait(int64_t after_frame, int64_t after_health, std::chrono::milliseconds timeout) const {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, timeout,
+                    [&] { return is_closed_ || frames_ > after_frame || health_sequence_ > after_health; });
+  Update update;
+  if (frames_ > after_frame) update.frame = frame_;
+  if (health_sequence_ > after_health) update.health = health_;
+  update.health_sequence = health_sequence_;
+  update.is_closed = is_closed_;
+  return update;
+}
+
+}  // namespace redbee

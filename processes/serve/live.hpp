@@ -1,0 +1,84 @@
+// The newest frame and the processes' health, handed from the thread of the bus to those of the viewers.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "processes/serve/frame_view.hpp"
+
+namespace redbee {
+
+/// A frame that is encoded once, by the first viewer who asks for it.
+class SharedFrame {
+ public:
+  SharedFrame(FrameView view, int64_t sequence) : view_(std::move(view)), sequence_(sequence) {}
+  int64_t sequence() const { return sequence_; }
+  int64_t utime() const { return view_.utime; }
+  /// See bundleOf(). To be called by any thread.
+  const std::string& bundle();
+
+ private:
+  FrameView view_;
+  int64_t sequence_;
+  std::once_flag once_;
+  std::string bundle_;
+};
+
+/// Only the newest is kept: who is slow misses frames, and nothing is queued for anybody.
+class Live {
+ public:
+  /// Who looks; the images are received only while somebody does.
+  class Viewer {
+   public:
+    explicit Viewer(Live& live) : live_(&live) { ++live.viewers_; }
+    Viewer(Viewer&& other) noexcept : live_(std::exchange(other.live_, nullptr)) {}
+    Viewer& operator=(Viewer&&) = delete;
+    ~Viewer() {
+      if (live_ != nullptr) --live_->viewers_;
+    }
+
+   private:
+    Live* live_;
+  };
+  /// std::nullopt where there are as many as the server has threads for.
+  std::optional<Viewer> join();
+  static constexpr int kMostViewers = 16;
+  int viewers() const { return viewers_; }
+
+  void setFrame(FrameView view);
+  /// `text`: JSON, see HealthReport.
+  void setHealth(std::string text);
+  /// From now on nobody waits.
+  void close();
+
+  /// Null before the first frame.
+  std::shared_ptr<SharedFrame> frame() const;
+
+  struct Update {
+    std::shared_ptr<SharedFrame> frame;  ///< null: no newer one
+    std::string health;                  ///< empty: nothing newer
+    int64_t health_sequence = 0;
+    bool is_closed = false;
+  };
+  /// Waits until there is a frame or a health newer than these, at most so long.
+  Update wait(int64_t after_frame, int64_t after_health, std::chrono::milliseconds timeout) const;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::shared_ptr<SharedFrame> frame_;
+  int64_t frames_ = 0;
+  std::string health_;
+  int64_t health_sequence_ = 0;
+  bool is_closed_ = false;
+  std::atomic<int> viewers_{0};
+};
+
+}  // namespace redbee

@@ -1,0 +1,122 @@
+#include "processes/serve/node.hpp"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "redbee/configuration/process_table.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr int kQueue = 64;
+constexpr std::chrono::milliseconds kBoardPeriod{500};
+
+const char* toneText(Tone tone) {
+  switch (tone) {
+    case Tone::kGood:
+      return "good";
+    case Tone::kWarning:
+      return "warning";
+    case Tone::kBad:
+      return "bad";
+    case Tone::kPlain:
+    case Tone::kHeading:
+      break;
+  }
+  return "plain";
+}
+
+}  // namespace
+
+std::string healthText(const HealthBoard& board, HealthBoard::Time now) {
+  nlohmann::json processes = nlohmann::json::array();
+  for (const HealthBoard::Process& process : board.list(now)) {
+    nlohmann::json row{{"name", process.name},
+                       {"state", process.state},
+                       {"tone", toneText(process.tone)},
+                       {"restarts", process.restarts}};
+    if (process.last) {
+      const process_health_t& h = *process.last;
+      row.update({{"pid", h.pid},
+                  {"message", h.message},
+                  {"rate_in", h.rate_in},
+                  {"rate_out", h.rate_out},
+                  {"latency_median", h.latency_median},
+                  {"latency_p99", h.latency_p99},
+                  {"skipped", h.skipped},
+                  {"lost", h.lost},
+                  {"damaged", h.damaged},
+                  {"resident", h.resident},
+                  {"calibration", h.calibration},
+                  {"silent_s", process.silent_s}});
+    }
+    processes.push_back(std::move(row));
+  }
+  return textOf({{"processes", processes}});
+}
+
+template <typename Message, typename Handler>
+Subscription ServeNode::on(const std::string& channel, Handler handler) {
+  const auto damaged = [this] { health_.noteDamaged(); };
+  return bus_.subscribe<Message>(
+      channel, kQueue,
+      [this, damaged, handler = std::move(handler)](const Message& message) {
+        if (!isPlausible(message)) return damaged();
+        handler(message);
+      },
+      damaged);
+}
+
+ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live)
+    : bus_(bus),
+      channels_(configuration.channels),
+      health_(programName(kServe), configurationHash(configuration)),
+      live_(live),
+      assembly_(configuration) {
+  always_.push_back(on<detections_t>(channels_.detections, [this](const detections_t& m) {
+    health_.noteInput(fromUtime(m.utime));
+    health_.noteSequence(channels_.detections, m.sequence);
+    assembly_.onDetections(m);
+  }));
+  always_.push_back(on<fused_homography_t>(channels_.fused_homography,
+                                           [this](const fused_homography_t& m) { assembly_.onFused(m); }));
+  always_.push_back(on<pose_t>(channels_.pose, [this](const pose_t& m) { assembly_.onPose(m); }));
+  // The board asks by itself whether it is plausible, and counts.
+  always_.push_back(bus_.subscribe<process_health_t>(
+      channels_.health, kListenerQueue,
+      [this](const process_health_t& m) { board_.onHealth(m, Clock::now()); }));
+}
+
+void ServeNode::followViewers() {
+  const bool is_watched = live_.viewers() > 0;
+  if (is_watched == !while_watched_.empty()) return;
+  if (is_watched) {
+    while_watched_.push_back(
+        on<image_t>(channels_.camera, [this](const image_t& m) { assembly_.onImage(m); }));
+    while_watched_.push_back(
+        on<foreground_t>(channels_.foreground, [this](const foreground_t& m) { assembly_.onForeground(m); }));
+  } else {
+    while_watched_.clear();
+    assembly_.dropImages();
+  }
+}
+
+void ServeNode::publishHealth() {
+  const auto now = Clock::now();
+  if (live_.viewers() == 0 || now < next_board_) return;
+  next_board_ = now + kBoardPeriod;
+  live_.setHealth(healthText(board_, now));
+}
+
+bool ServeNode::processNext() {
+  followViewers();
+  if (auto view = assembly_.takeFrame()) {
+    health_.notePublished(fromUtime(view->utime));
+    live_.setFrame(std::move(*view));
+  }
+  publishHealth();
+  if (health_.state() == HealthState::kStarting) health_.setState(HealthState::kGood);
+  return false;
+}
+
+}  // namespace redbee

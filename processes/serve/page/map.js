@@ -1,0 +1,94 @@
+// The map: a plain metric grid, north up, that follows the drone.
+
+const canvas = document.getElementById('map');
+const note = document.getElementById('map-note');
+const kSteps = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
+let last = null;
+
+/** Metres that fit into half of the canvas: all of the footprint and the newest part of the path. */
+function reachOf(map, centre) {
+  const points = [...map.footprint, ...(map.targets ?? []).map((target) => target.position), ...map.path.slice(-200)];
+  const far = points.map(([e, n]) => Math.max(Math.abs(e - centre[0]), Math.abs(n - centre[1])));
+  return Math.min(3000, Math.max(10, 1.15 * Math.max(...far, 0)));
+}
+
+function drawGrid(context, size, centre, px_per_m) {
+  const step = kSteps.find((s) => s * px_per_m >= 40) ?? kSteps.at(-1);
+  context.strokeStyle = '#2b323a';
+  context.fillStyle = '#aab4bf';
+  context.lineWidth = 1;
+  context.beginPath();
+  for (const [axis, length, sign] of [[0, size.width, 1], [1, size.height, -1]]) {
+    const half = length / 2 / px_per_m;
+    for (let m = Math.ceil((centre[axis] - half) / step) * step; m <= centre[axis] + half; m += step) {
+      const at = Math.round(length / 2 + sign * (m - centre[axis]) * px_per_m) + 0.5;
+      context.moveTo(axis === 0 ? at : 0, axis === 0 ? 0 : at);
+      context.lineTo(axis === 0 ? at : size.width, axis === 0 ? size.height : at);
+    }
+  }
+  context.stroke();
+  context.font = '12px system-ui, sans-serif';
+  context.fillText(`grid ${step} m, north up`, 6, size.height - 7);
+}
+
+function drawOwn(context, [x, y], heading) {
+  context.save();
+  context.translate(x, y);
+  context.rotate(heading);
+  context.fillStyle = '#56b4e9';
+  context.strokeStyle = '#000';
+  context.beginPath();
+  context.moveTo(0, -11);
+  context.lineTo(7, 8);
+  context.lineTo(0, 4);
+  context.lineTo(-7, 8);
+  context.closePath();
+  context.fill();
+  context.stroke();
+  context.restore();
+}
+
+/** `map`: as frame_view.cpp writes it; `targets` is drawn where there is one: {id, position: [east, north]}. */
+export function drawMap(map, colourOf = () => '#e69f00') {
+  last = [map, colourOf];
+  note.textContent = map.note;
+  const ratio = window.devicePixelRatio || 1;
+  const size = {width: canvas.clientWidth, height: canvas.clientHeight};
+  canvas.width = size.width * ratio;
+  canvas.height = size.height * ratio;
+  const context = canvas.getContext('2d');
+  context.scale(ratio, ratio);
+  const centre = map.own?.position ?? map.path.at(-1) ?? [0, 0];
+  const px_per_m = Math.min(size.width, size.height) / 2 / reachOf(map, centre);
+  const place = ([e, n]) => [size.width / 2 + (e - centre[0]) * px_per_m, size.height / 2 - (n - centre[1]) * px_per_m];
+  drawGrid(context, size, centre, px_per_m);
+  const polygon = (points) => {
+    context.beginPath();
+    points.map(place).forEach(([x, y], i) => (i === 0 ? context.moveTo(x, y) : context.lineTo(x, y)));
+  };
+  if (map.footprint.length > 0) {
+    polygon(map.footprint);
+    context.closePath();
+    context.fillStyle = '#e69f0026';
+    context.strokeStyle = '#e69f00';
+    context.fill();
+    context.stroke();
+  }
+  polygon(map.path);
+  context.strokeStyle = '#eef1f4';
+  context.stroke();
+  for (const target of map.targets ?? []) {
+    const [x, y] = place(target.position);
+    context.fillStyle = colourOf(target.id);
+    context.fillRect(x - 4, y - 4, 8, 8);
+    context.fillText(String(target.id), x + 7, y + 4);
+  }
+  if (!map.own) return;
+  drawOwn(context, place(map.own.position), map.own.heading);
+  if (map.own.height !== undefined) {
+    context.fillStyle = '#eef1f4';
+    context.fillText(`${map.own.height.toFixed(1)} m above ground`, 6, 16);
+  }
+}
+
+window.addEventListener('resize', () => last && drawMap(...last));

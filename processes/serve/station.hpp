@@ -1,0 +1,53 @@
+// The ground station: what each address of the page answers.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "processes/serve/access.hpp"
+#include "processes/serve/archive.hpp"
+#include "processes/serve/live.hpp"
+#include "processes/serve/web.hpp"
+
+namespace redbee {
+
+/// What the page may do to the stack; to be called by any thread.
+struct StackControl {
+  /// Whether the recorder runs; std::nullopt where no supervisor answers.
+  std::function<std::optional<bool>()> is_recording;
+  /// "start", "stop" or "restart", the name of a process. Returns the fault in words; empty: it was done.
+  std::function<std::string(const std::string& action, const std::string& process)> act;
+};
+
+/// The control of the supervisor that started this process; where none did, one that says so.
+StackControl supervisedStack();
+
+/// To be used by any thread.
+class Station {
+ public:
+  Station(Access access, Archive& archive, Live& live, StackControl control);
+
+  /// Never throws.
+  WebResponse answer(const WebRequest& request);
+
+ private:
+  WebResponse route(const WebRequest& request);
+  WebResponse liveFrame(const WebRequest& request) const;
+  WebResponse flights() const;
+  WebResponse flight(const WebRequest& request);
+  WebResponse flightFrame(const WebRequest& request);
+  WebResponse report(const WebRequest& request) const;
+  WebResponse state() const;
+  WebResponse write(const WebRequest& request);
+
+  Access access_;
+  Archive& archive_;
+  Live& live_;
+  StackControl control_;
+};
+
+/// The number in a text of digits alone; std::nullopt for any other.
+std::optional<int64_t> numberOf(const std::string& text);
+
+}  // namespace redbee
