@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "redbee/geolocation/ground_point.hpp"
 #include "redbee/geometry/chi_square.hpp"
 #include "tests/geolocation/simulated_watch.hpp"
 
@@ -68,6 +69,50 @@ TEST(Consistency, ErrorsAreAsLargeAsTheCovarianceSays) {
     }
   }
   std::printf("band %.2f to %.2f\n", low, high);
+}
+
+/// m, root of the trace of what each error alone does to one placed box.
+struct Shares {
+  double attitude, height, slope, satellites, focal, pixel, foot;
+};
+
+Shares sharesOf(double height_m, double depression_deg, double attitude_deg) {
+  const GeolocationParameters parameters;
+  const auto camera = makeCameraModel(watchingCamera());
+  GroundView view;
+  view.R_EC = lookingNorth(depression_deg * kDegree, 0);
+  view.position.setZero();
+  view.position_covariance.setZero();
+  view.attitude_covariance.setZero();
+  view.height_m = height_m;
+  const auto point = groundPointOf(*camera, {639.5, 359.5}, view, 0.01).value();
+  const double object_px = 2 * 1000 / point.range_m;  // of two metres
+  const double level_m = point.range_m * std::cos(point.depression);
+  return {point.J_attitude.norm() * attitude_deg * kDegree,
+          point.J_height.norm() * parameters.home_height_sigma_m,
+          point.J_height.norm() * level_m * std::tan(parameters.ground_slope_sigma_deg * kDegree),
+          std::sqrt(2.0) * 1.5,
+          point.J_focal.norm() * parameters.focal_sigma,
+          point.J_pixel.norm() * parameters.pixel_sigma_px,
+          point.J_pixel.norm() * parameters.foot_sigma * object_px};
+}
+
+TEST(Consistency, WhatDominates) {
+  std::printf(
+      "m, one box at the image's centre: attitude, height 2 m, slope 1 deg, GPS 1.5 m, pixel, foot\n");
+  for (const double height : {10.0, 30.0, 100.0}) {
+    for (const double depression : {20.0, 45.0, 80.0}) {
+      const Shares half = sharesOf(height, depression, 0.5), two = sharesOf(height, depression, 2);
+      std::printf("%4.0f m %2.0f deg  %6.2f %6.2f  %6.2f  %6.2f  %5.2f  %5.2f  %5.2f\n", height, depression,
+                  half.attitude, two.attitude, half.height, half.slope, half.satellites, half.pixel,
+                  half.foot);
+      EXPECT_NEAR(two.attitude, 4 * half.attitude, 1e-9);
+    }
+  }
+  // A flat ray multiplies the attitude's error by 1 / sin^2, the height's by 1 / tan of the depression.
+  EXPECT_GT(sharesOf(100, 20, 2).attitude, sharesOf(100, 20, 2).height);
+  EXPECT_GT(sharesOf(10, 20, 0.5).height, sharesOf(10, 20, 0.5).attitude);
+  EXPECT_GT(sharesOf(30, 80, 0.5).satellites, sharesOf(30, 80, 0.5).attitude);
 }
 
 }  // namespace
