@@ -36,7 +36,7 @@ class GeolocationNodeTest : public testing::Test {
     for (int k = static_cast<int>(std::lround(from * TargetFlight::kRate_hz));
          k < to * TargetFlight::kRate_hz; ++k) {
       const double t = k / TargetFlight::kRate_hz;
-      bus_->publish("DETECTIONS", TargetFlight::detections(utimeOf(t), t, k));
+      bus_->publish("DETECTIONS", TargetFlight{}.detections(utimeOf(t), t, k));
       if (has_pose) {
         bus_->publish("POSE", TargetFlight::pose(utimeOf(t) + kShift_us, t, has_global));
         bus_->publish("ALTIMETER", TargetFlight::altimeter(utimeOf(t) + kShift_us));
@@ -63,7 +63,7 @@ TEST_F(GeolocationNodeTest, PlacesTheWalkerOnWgs84AndKeepsWhereItStopped) {
   EXPECT_EQ(moving.targets[0].id, TargetFlight::kId);
   EXPECT_EQ(moving.targets[0].state, target_t::MOVING);
   const double t = 215 / TargetFlight::kRate_hz;
-  EXPECT_LT(TargetFlight::missOf(moving.targets[0].latitude, moving.targets[0].longitude, t), 0.15);
+  EXPECT_LT(TargetFlight{}.missOf(moving.targets[0].latitude, moving.targets[0].longitude, t), 0.15);
   EXPECT_NEAR(moving.targets[0].velocity[0], 3.5, 0.2);
   EXPECT_NEAR(moving.targets[0].velocity[1], 0, 0.2);
   EXPECT_NEAR(moving.ground_altitude, TargetFlight::kHomeAltitude, 1e-6);
@@ -74,7 +74,7 @@ TEST_F(GeolocationNodeTest, PlacesTheWalkerOnWgs84AndKeepsWhereItStopped) {
   const targets_t stopped = targets_.back();
   ASSERT_EQ(stopped.n, 1);
   EXPECT_EQ(stopped.targets[0].state, target_t::STOPPED);
-  EXPECT_LT(TargetFlight::missOf(stopped.targets[0].latitude, stopped.targets[0].longitude, 20), 3.5)
+  EXPECT_LT(TargetFlight{}.missOf(stopped.targets[0].latitude, stopped.targets[0].longitude, 20), 3.5)
       << "no further than it went in the second after it was last seen";
   for (const targets_t& m : targets_) EXPECT_EQ(faultOf(m), nullptr);
 }
@@ -85,7 +85,7 @@ TEST_F(GeolocationNodeTest, WithoutAFixItCountsFromTheTakeOff) {
   const targets_t message = targets_.back();
   ASSERT_EQ(message.n, 1);
   EXPECT_EQ(message.has_global, 0);
-  const Eigen::Vector2d truth = TargetFlight::walkerPosition(71 / TargetFlight::kRate_hz);
+  const Eigen::Vector2d truth = TargetFlight{}.walkerPosition(71 / TargetFlight::kRate_hz);
   EXPECT_NEAR(message.targets[0].position[0], truth.x(), 0.3);
   EXPECT_NEAR(message.targets[0].position[1], truth.y(), 0.3);
 }

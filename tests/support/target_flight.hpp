@@ -20,9 +20,10 @@ namespace redbee::test {
 /// goes east at 3.5 m/s for 10 s, then stands: its identity is predicted, then no longer reported.
 class TargetFlight {
  public:
+  double walks_s = 10;     ///< s, then it stands
+  double reported_s = 12;  ///< s, then its identity is no longer reported
+
   static constexpr double kRate_hz = 24;
-  static constexpr double kWalks_s = 10;
-  static constexpr double kReported_s = 12;
   static constexpr double kHeight_m = 40;
   static constexpr int kId = 5;
   static constexpr double kHomeLatitude = 47.3, kHomeLongitude = 8.5, kHomeAltitude = 500;
@@ -50,7 +51,7 @@ class TargetFlight {
   }
 
   static Eigen::Vector2d dronePosition(double t) { return {3 * t, 0}; }
-  static Eigen::Vector2d walkerPosition(double t) { return {-10 + 3.5 * std::min(t, kWalks_s), 42}; }
+  Eigen::Vector2d walkerPosition(double t) const { return {-10 + 3.5 * std::min(t, walks_s), 42}; }
   static Geodetic placeOf(const Eigen::Vector2d& metres) {
     Geodetic place;
     GeographicLib::Geodesic::WGS84().Direct(kHomeLatitude, kHomeLongitude,
@@ -59,7 +60,7 @@ class TargetFlight {
     return place;
   }
   /// m, of a place from the walker.
-  static double missOf(double latitude, double longitude, double t) {
+  double missOf(double latitude, double longitude, double t) const {
     const Geodetic walker = placeOf(walkerPosition(t));
     double distance_m = 0;
     GeographicLib::Geodesic::WGS84().Inverse(latitude, longitude, walker.latitude_deg, walker.longitude_deg,
@@ -93,18 +94,18 @@ class TargetFlight {
   }
   static altimeter_t altimeter(int64_t utime) { return {utime, kHeight_m, 0.1}; }
   /// `utime`: camera clock, which is 20 ms behind the IMU's.
-  static detections_t detections(int64_t utime, double t, int32_t sequence) {
+  detections_t detections(int64_t utime, double t, int32_t sequence) const {
     detections_t m{};
     m.utime = utime;
     m.sequence = sequence;
-    if (t > kReported_s) return m;
+    if (t > reported_s) return m;
     m.n = 1;
     m.detections.push_back(boxOf(t));
     return m;
   }
 
  private:
-  static detection_t boxOf(double t) {
+  detection_t boxOf(double t) const {
     static const auto camera = makeCameraModel(configuration().camera);
     const Eigen::Vector2d offset = walkerPosition(t) - dronePosition(t);
     const Eigen::Vector3d in_body(offset.y(), -offset.x(), -kHeight_m);
@@ -118,7 +119,7 @@ class TargetFlight {
     d.y = static_cast<int32_t>(std::lround(pixel.y() - 11.5));
     d.area = 150;
     d.score = 0.9;
-    d.seen = t <= kWalks_s ? 1 : 0;
+    d.seen = t <= walks_s ? 1 : 0;
     return d;
   }
 };

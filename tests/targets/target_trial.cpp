@@ -1,0 +1,86 @@
+// target_trial log FILE: the flight of tests/support/target_flight.hpp as a log, 15 s.
+// target_trial live SECONDS [--lcm-url URL]: the same in real time, and what is published about it: a line
+// for each of TARGETS and PROCESS_HEALTH. For tests/integration.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "processes/common_options.hpp"
+#include "redbee/bus/bus.hpp"
+#include "redbee/files/log.hpp"
+#include "redbee/node/host_clock.hpp"
+#include "redbee/process_health_t.hpp"
+#include "redbee/targets_t.hpp"
+#include "tests/support/target_flight.hpp"
+
+namespace redbee::test {
+namespace {
+
+constexpr int64_t kShift_us = 20'000;
+
+void writeLog(const std::string& file) {
+  const TargetFlight flight;
+  const int64_t start_us = 1'000'000'000;
+  LogWriter log(file);
+  for (int k = 0; k < 15 * TargetFlight::kRate_hz; ++k) {
+    const double t = k / TargetFlight::kRate_hz;
+    const int64_t utime = start_us + std::llround(t * 1e6);
+    log.write("POSE", TargetFlight::pose(utime + kShift_us, t));
+    log.write("ALTIMETER", TargetFlight::altimeter(utime + kShift_us));
+    log.write("DETECTIONS", flight.detections(utime, t, k));
+  }
+  log.close();
+}
+
+void print(const targets_t& m, int64_t start_us, const TargetFlight& flight) {
+  const double t = static_cast<double>(m.utime - start_us) * 1e-6;
+  for (const target_t& each : m.targets) {
+    std::printf("TARGET,%.3f,%d,%d,%d,%.9f,%.9f,%.3f\n", t, m.status, each.id, each.state, each.latitude,
+                each.longitude, flight.missOf(each.latitude, each.longitude, t));
+  }
+  if (m.targets.empty()) std::printf("NONE,%.3f,%d\n", t, m.status);
+}
+
+void flyLive(double seconds, const std::string& url) {
+  TargetFlight flight;
+  flight.walks_s = flight.reported_s = 1e9;
+  const auto bus = makeLcmBus(url);
+  const int64_t start_us = hostNanoseconds() / 1000;
+  const Subscription targets =
+      bus->subscribe<targets_t>("TARGETS", 1000, [&](const targets_t& m) { print(m, start_us, flight); });
+  const Subscription health =
+      bus->subscribe<process_health_t>("PROCESS_HEALTH", 1000, [](const process_health_t& m) {
+        std::printf("HEALTH,%s,%d,%s\n", m.process.c_str(), m.state, m.message.c_str());
+      });
+  for (int k = 0; k < seconds * TargetFlight::kRate_hz; ++k) {
+    const double t = k / TargetFlight::kRate_hz;
+    const int64_t utime = start_us + std::llround(t * 1e6);
+    while (hostNanoseconds() / 1000 < utime + kShift_us) bus->handle(std::chrono::milliseconds(5));
+    bus->publish("POSE", TargetFlight::pose(utime + kShift_us, t));
+    bus->publish("ALTIMETER", TargetFlight::altimeter(utime + kShift_us));
+    bus->publish("DETECTIONS", flight.detections(utime, t, k));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace redbee::test
+
+// A tool for us: an exception ends it with its message. NOLINTNEXTLINE(bugprone-exception-escape)
+int main(int argc, char** argv) {
+  CLI::App app("a simulated flight of POSE and DETECTIONS", "target_trial");
+  std::string file, url;
+  double seconds = 10;
+  app.require_subcommand(1);
+  auto* log = app.add_subcommand("log");
+  log->add_option("file", file)->required();
+  auto* live = app.add_subcommand("live");
+  live->add_option("seconds", seconds)->required();
+  redbee::addLcmUrlOption(*live, url);
+  CLI11_PARSE(app, argc, argv);
+  if (log->parsed()) redbee::test::writeLog(file);
+  if (live->parsed()) redbee::test::flyLive(seconds, url);
+  return 0;
+}
