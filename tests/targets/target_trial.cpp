@@ -1,6 +1,6 @@
 // target_trial log FILE: the flight of tests/support/target_flight.hpp as a log, 15 s.
-// target_trial live SECONDS [--lcm-url URL]: the same in real time, and what is published about it: a line
-// for each of TARGETS and PROCESS_HEALTH. For tests/integration.
+// target_trial live SECONDS [--walks SECONDS] [--lcm-url URL]: the same in real time, and what is published
+// about it: a line for each of TARGETS and PROCESS_HEALTH. For tests/integration.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -43,9 +43,10 @@ void print(const targets_t& m, int64_t start_us, const TargetFlight& flight) {
   if (m.targets.empty()) std::printf("NONE,%.3f,%d\n", t, m.status);
 }
 
-void flyLive(double seconds, const std::string& url) {
+void flyLive(double seconds, double walks_s, const std::string& url) {
   TargetFlight flight;
-  flight.walks_s = flight.reported_s = 1e9;
+  flight.walks_s = walks_s;
+  flight.reported_s = walks_s + 2;
   const auto bus = makeLcmBus(url);
   const int64_t start_us = hostNanoseconds() / 1000;
   const Subscription targets =
@@ -72,15 +73,16 @@ void flyLive(double seconds, const std::string& url) {
 int main(int argc, char** argv) {
   CLI::App app("a simulated flight of POSE and DETECTIONS", "target_trial");
   std::string file, url;
-  double seconds = 10;
+  double seconds = 10, walks_s = 1e9;
   app.require_subcommand(1);
   auto* log = app.add_subcommand("log");
   log->add_option("file", file)->required();
   auto* live = app.add_subcommand("live");
   live->add_option("seconds", seconds)->required();
+  live->add_option("--walks", walks_s);
   redbee::addLcmUrlOption(*live, url);
   CLI11_PARSE(app, argc, argv);
   if (log->parsed()) redbee::test::writeLog(file);
-  if (live->parsed()) redbee::test::flyLive(seconds, url);
+  if (live->parsed()) redbee::test::flyLive(seconds, walks_s, url);
   return 0;
 }
