@@ -11,10 +11,10 @@
 namespace redbee {
 namespace {
 
-constexpr double kStartVelocity_m_s = 5;   // one standard deviation, before it was measured
-constexpr double kFootCorrelation_s = 1;   // a gait's step, a turn of the object
-constexpr double kUnseenDecay_s = 1;       // what is no longer found has probably stopped
-constexpr double kCoasting_s = 2;          // after which who is slow has stopped
+constexpr double kStartVelocity_m_s = 5;  // one standard deviation, before it was measured
+constexpr double kFootCorrelation_s = 1;  // a gait's step, a turn of the object
+constexpr double kUnseenDecay_s = 0.5;  // what is no longer found has probably stopped; as the boxes' tracker
+constexpr double kCoasting_s = 2;       // after which who is slow has stopped
 constexpr double kStoppedSpeed_m_s = 0.3;  // slower than a walk
 constexpr double kStoppedSigma_m_s = 0.1;  // of who has stopped
 constexpr double kGateProbability = 0.9999;
@@ -111,8 +111,8 @@ void Geolocator::predict(double seconds) {
 }
 
 void Geolocator::begin(int id, const Placed& placed) {
-  targets_.insert_or_assign(
-      id, Tracked{TargetFilter(placed.measurement, kStartVelocity_m_s), placed.size, placed.range_m});
+  targets_.insert_or_assign(id, Tracked{TargetFilter(placed.measurement, kStartVelocity_m_s), placed.size,
+                                        placed.range_m, placed.measurement.z});
 }
 
 /// The tracker gives who stopped and starts again a new identity: its old one goes.
@@ -140,6 +140,7 @@ void Geolocator::observe(int id, const Placed& placed) {
   tracked.filter.update(placed.measurement);
   tracked.size += 0.1 * (placed.size - tracked.size);
   tracked.range_m = placed.range_m;
+  tracked.last_seen = tracked.filter.position();
   tracked.unseen_s = 0;
   tracked.has_stopped = false;
 }
@@ -184,7 +185,7 @@ void Geolocator::stopUnseen(const std::optional<GroundView>& view) {
     if (tracked.unseen_s > kCoasting_s && view && tracked.is_in_view && !tracked.is_seen &&
         !tracked.has_stopped) {
       tracked.has_stopped = true;
-      tracked.filter.stop(kStoppedSigma_m_s);
+      tracked.filter.stop(tracked.last_seen, kStoppedSigma_m_s);
     }
     it = is_forgotten(tracked) ? targets_.erase(it) : std::next(it);
   }

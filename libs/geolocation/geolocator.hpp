@@ -65,6 +65,7 @@ class Geolocator {
     TargetFilter filter;
     Eigen::Vector2d size;
     double range_m = 0;
+    Eigen::Vector2d last_seen;  ///< m
     double unseen_s = 0;
     int gated = 0;            ///< measurements in a row that were not believed
     bool is_reported = true;  ///< the tracker still reports the identity

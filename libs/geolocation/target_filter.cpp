@@ -91,13 +91,16 @@ void TargetFilter::update(const GroundMeasurement& m) {
   last_G_ = m.G.leftCols<kFirstFootError>();
 }
 
-void TargetFilter::stop(double velocity_sigma) {
+void TargetFilter::stop(const Eigen::Vector2d& last_seen, double velocity_sigma) {
+  const Eigen::Vector2d half = (position() - last_seen) / 2;
+  state_.head<2>() -= half;
   state_.tail<2>().setZero();
   C_.bottomRows<2>().setZero();
   D_.bottomRows<2>().setZero();
   for (Eigen::Matrix4d* P : {&P_, &W_}) {
     P->topRightCorner<2, 2>().setZero();
     P->bottomLeftCorner<2, 2>().setZero();
+    P->topLeftCorner<2, 2>() += half * half.transpose();
     P->bottomRightCorner<2, 2>() = velocity_sigma * velocity_sigma * Eigen::Matrix2d::Identity();
   }
 }

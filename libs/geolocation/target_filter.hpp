@@ -41,8 +41,8 @@ class TargetFilter {
   /// Squared Mahalanobis distance of a measurement from the predicted apparent place; 2 degrees of freedom.
   double distance(const GroundMeasurement& measurement) const;
   void update(const GroundMeasurement& measurement);
-  /// The object is where it was, and does not move.
-  void stop(double velocity_sigma);
+  /// The object does not move: it stopped somewhere between `last_seen` [m] and where it is predicted.
+  void stop(const Eigen::Vector2d& last_seen, double velocity_sigma);
 
   Eigen::Vector2d position() const { return state_.head<2>(); }
   Eigen::Vector2d velocity() const { return state_.tail<2>(); }

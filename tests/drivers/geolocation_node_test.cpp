@@ -74,8 +74,8 @@ TEST_F(GeolocationNodeTest, PlacesTheWalkerOnWgs84AndKeepsWhereItStopped) {
   const targets_t stopped = targets_.back();
   ASSERT_EQ(stopped.n, 1);
   EXPECT_EQ(stopped.targets[0].state, target_t::STOPPED);
-  EXPECT_LT(TargetFlight{}.missOf(stopped.targets[0].latitude, stopped.targets[0].longitude, 20), 3.5)
-      << "no further than it went in the second after it was last seen";
+  EXPECT_LT(TargetFlight{}.missOf(stopped.targets[0].latitude, stopped.targets[0].longitude, 20), 1.2)
+      << "within what it went in a third of a second";
   for (const targets_t& m : targets_) EXPECT_EQ(faultOf(m), nullptr);
 }
 
