@@ -117,6 +117,14 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   for (const Target& target : targets) message.targets.push_back(messageOf(target, views_.frame()));
   message.n = static_cast<int32_t>(message.targets.size());
   describe(message.status, estimate, camera_fault);
+  if (!isPlausible(message)) {
+    // Covariances that no estimator has, or a camera that is off its orbit: nothing follows from them.
+    geolocator_.restart();
+    message = {};
+    message.status = targets_t::NO_POSITION;
+    health().setState(HealthState::kDegraded, "from " + configuration_.channels.pose +
+                                                  " no plausible place follows: targets are forgotten");
+  }
   publish(configuration_.channels.targets, message);
 }
 

@@ -1,4 +1,5 @@
-// target_trial log FILE: the flight of tests/support/target_flight.hpp as a log, 15 s.
+// target_trial log FILE: the flight of tests/support/target_flight.hpp as a log, 15 s, with TARGETS.
+// target_trial inputs FILE: the same without TARGETS.
 // target_trial live SECONDS [--walks SECONDS] [--lcm-url URL]: the same in real time, and what is published
 // about it: a line for each of TARGETS and PROCESS_HEALTH. For tests/integration.
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include <thread>
 
 #include "processes/common_options.hpp"
+#include "processes/geolocation/node.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/node/host_clock.hpp"
@@ -20,16 +22,29 @@ namespace {
 
 constexpr int64_t kShift_us = 20'000;
 
-void writeLog(const std::string& file) {
+void writeLog(const std::string& file, bool has_targets) {
   const TargetFlight flight;
   const int64_t start_us = 1'000'000'000;
   LogWriter log(file);
+  const auto bus = makeLcmBus("memq://");
+  GeolocationNode node(*bus, TargetFlight::configuration());
+  const Subscription subscription = bus->subscribe<targets_t>("TARGETS", 64, [&](const targets_t& m) {
+    if (has_targets) log.write("TARGETS", m);
+  });
+  const auto write = [&](const std::string& channel, const auto& message) {
+    log.write(channel, message);
+    bus->publish(channel, message);
+  };
   for (int k = 0; k < 15 * TargetFlight::kRate_hz; ++k) {
     const double t = k / TargetFlight::kRate_hz;
     const int64_t utime = start_us + std::llround(t * 1e6);
-    log.write("POSE", TargetFlight::pose(utime + kShift_us, t));
-    log.write("ALTIMETER", TargetFlight::altimeter(utime + kShift_us));
-    log.write("DETECTIONS", flight.detections(utime, t, k));
+    write("POSE", TargetFlight::pose(utime + kShift_us, t));
+    write("ALTIMETER", TargetFlight::altimeter(utime + kShift_us));
+    write("DETECTIONS", flight.detections(utime, t, k));
+    do {
+      while (bus->handle(std::chrono::milliseconds(0))) {
+      }
+    } while (node.processNext());
   }
   log.close();
 }
@@ -77,12 +92,14 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   auto* log = app.add_subcommand("log");
   log->add_option("file", file)->required();
+  auto* inputs = app.add_subcommand("inputs");
+  inputs->add_option("file", file)->required();
   auto* live = app.add_subcommand("live");
   live->add_option("seconds", seconds)->required();
   live->add_option("--walks", walks_s);
   redbee::addLcmUrlOption(*live, url);
   CLI11_PARSE(app, argc, argv);
-  if (log->parsed()) redbee::test::writeLog(file);
+  if (log->parsed() || inputs->parsed()) redbee::test::writeLog(file, log->parsed());
   if (live->parsed()) redbee::test::flyLive(seconds, walks_s, url);
   return 0;
 }
