@@ -71,6 +71,23 @@ TEST(Consistency, ErrorsAreAsLargeAsTheCovarianceSays) {
   std::printf("band %.2f to %.2f\n", low, high);
 }
 
+/// The filter believes that errors last for 30 s.
+TEST(Consistency, OfAnotherCorrelationThanBelievedThePlaceIsHonestTheVelocityIsNot) {
+  Watch watch;
+  watch.position_sigma_m = 1;
+  watch.attitude_sigma_deg = 2;
+  for (const double correlation_s : {3.0, 10.0, 300.0}) {
+    watch.error_correlation_s = correlation_s;
+    const Consistency result = measured(watch);
+    std::printf("errors that last for %3.0f s: NEES %.2f, of the velocity %.2f\n", correlation_s,
+                result.nees_position, result.nees_velocity);
+    EXPECT_LT(result.nees_position, 2.5);
+    if (correlation_s > 30) {
+      EXPECT_LT(result.nees_velocity, 2);
+    }
+  }
+}
+
 /// m, root of the trace of what each error alone does to one placed box.
 struct Shares {
   double attitude, height, slope, satellites, focal, pixel, foot;

@@ -20,6 +20,7 @@ struct Watch {
   double attitude_sigma_deg = 0.5;
   double position_sigma_m = 0;
   double height_sigma_m = 0.2;
+  double error_correlation_s = 30;  ///< of the true errors that last
   double roll_deg = 0;
   double box_px = 30;
   double seconds = 5;
@@ -143,7 +144,7 @@ inline WatchOutcome fly(const Watch& watch, const GeolocationParameters& paramet
     object += velocity * dt;
     velocity +=
         parameters.acceleration_sigma * std::sqrt(dt) * Eigen::Vector2d(normal(random), normal(random));
-    errors.advance(dt, parameters.error_correlation_s);
+    errors.advance(dt, watch.error_correlation_s);
     foot_errors.advance(dt, 1);
   }
   return outcome;
