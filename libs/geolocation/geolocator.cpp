@@ -61,7 +61,7 @@ std::optional<Eigen::Vector2d> Geolocator::project(const Eigen::Vector2d& positi
 std::optional<GroundPoint> Geolocator::pointOf(const Eigen::Vector2d& foot, const GroundView& view,
                                                const std::optional<Eigen::Vector2d>& predicted) const {
   const double flattest = std::max(kFlattest, parameters_.min_depression_deg * kDegree);
-  const auto measured = groundPointOf(*camera_, foot, view, flattest);
+  auto measured = groundPointOf(*camera_, foot, view, flattest);
   if (!measured || !predicted) return measured;
   const auto expected_pixel = project(*predicted, view);
   auto expected = expected_pixel ? groundPointOf(*camera_, *expected_pixel, view, flattest) : std::nullopt;

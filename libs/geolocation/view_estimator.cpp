@@ -110,7 +110,7 @@ std::optional<Eigen::Quaterniond> ViewEstimator::mountAt(ImuTime time, const Eig
   if (age_s > parameters_.max_pose_age_s) return std::nullopt;
   const double fraction = fractionOf(pair, time, parameters_.max_pose_age_s);
   // Of the two the earth's: the gimbal's own sensors hold it, the body only carries it.
-  if (const auto earth = between(pair.first->R_EM, pair.second->R_EM, fraction)) return earth;
+  if (auto earth = between(pair.first->R_EM, pair.second->R_EM, fraction)) return earth;
   const auto body = between(pair.first->R_BM, pair.second->R_BM, fraction);
   return body ? std::optional(R_EB * *body) : std::nullopt;
 }
