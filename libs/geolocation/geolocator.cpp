@@ -208,6 +208,7 @@ std::vector<Target> Geolocator::step(CameraTime time, const std::optional<Ground
   }
   stopUnseen(view);
   std::vector<Target> targets;
+  targets.reserve(targets_.size());
   for (const auto& [id, tracked] : targets_) {
     const Eigen::Matrix4d& P = tracked.filter.covariance();
     targets.push_back({id, stateOf(tracked), tracked.filter.position(), tracked.filter.velocity(),

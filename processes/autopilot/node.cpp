@@ -36,7 +36,7 @@ AutopilotNode::AutopilotNode(Bus& bus, const Configuration& configuration, std::
 
 bool AutopilotNode::processNext() {
   if (link_.open([this] { session_.reconnect(); })) {
-    send(link_.now_ns());
+    send(link_.now());
     const ReceivedBytes received = link_.receive();
     for (const auto& each :
          session_.receive(received.data.data(), received.data.size(), received.host_ns, link_.isDatagram())) {
@@ -44,7 +44,7 @@ bool AutopilotNode::processNext() {
     }
   }
   noteCounters();
-  describeState(link_.now_ns());
+  describeState(link_.now());
   return true;
 }
 
@@ -66,7 +66,7 @@ void AutopilotNode::publish(const mavlink::Measurement& measurement) {
     health_.noteInput(time);
     publishOn(channels.imu, messageOf(*imu));
     health_.notePublished(time);
-    imu_ns_ = link_.now_ns();
+    imu_ns_ = link_.now();
   } else if (const auto* height = std::get_if<mavlink::HeightReading>(&measurement)) {
     publishOn(channels.altimeter, messageOf(*height));
   } else if (const auto* pose = std::get_if<mavlink::Pose>(&measurement)) {

@@ -114,6 +114,7 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   }
   message.refused_horizon = geolocator_.refused().above_horizon;
   message.refused_border = geolocator_.refused().cut_off;
+  message.targets.reserve(targets.size());
   for (const Target& target : targets) message.targets.push_back(messageOf(target, views_.frame()));
   message.n = static_cast<int32_t>(message.targets.size());
   describe(message.status, estimate, camera_fault);

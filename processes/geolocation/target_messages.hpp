@@ -54,6 +54,7 @@ inline HeightAboveGround heightOf(const altimeter_t& m) {
 
 inline std::vector<ObservedBox> boxesOf(const detections_t& m) {
   std::vector<ObservedBox> boxes;
+  boxes.reserve(m.detections.size());
   for (const detection_t& d : m.detections) {
     boxes.push_back({d.id,
                      {static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.width),

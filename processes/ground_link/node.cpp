@@ -58,7 +58,7 @@ GroundLinkNode::GroundLinkNode(Bus& bus, const Configuration& configuration, std
       [this](const targets_t& m) {
         if (!isPlausible(m)) return health_.noteDamaged();
         targets_ = m;
-        targets_ns_ = link_.now_ns();
+        targets_ns_ = link_.now();
       },
       damaged));
 }
@@ -76,7 +76,7 @@ void GroundLinkNode::show(const detections_t& message) {
     object.box = mavlink::RelativeBox{inside(d.x / width), inside(d.y / height),
                                       inside((d.x + d.width) / width), inside((d.y + d.height) / height)};
   }
-  if (targets_ && link_.now_ns() - targets_ns_ < kTargetsLast_ns && targets_->has_global != 0) {
+  if (targets_ && link_.now() - targets_ns_ < kTargetsLast_ns && targets_->has_global != 0) {
     for (const target_t& target : targets_->targets) {
       mavlink::TrackedObject& object = objects[target.id];
       object.id = target.id;
@@ -84,13 +84,14 @@ void GroundLinkNode::show(const detections_t& message) {
     }
   }
   std::vector<mavlink::TrackedObject> shown;
-  for (auto& [id, object] : objects) shown.push_back(std::move(object));
-  camera_.show(std::move(shown), link_.now_ns());
+  shown.reserve(objects.size());
+  for (const auto& [id, object] : objects) shown.push_back(object);
+  camera_.show(std::move(shown), link_.now());
 }
 
 bool GroundLinkNode::processNext() {
   if (link_.open([this] { camera_.reconnect(); })) {
-    for (const mavlink::Bytes& frame : camera_.dueFrames(link_.now_ns())) link_.send(frame);
+    for (const mavlink::Bytes& frame : camera_.dueFrames(link_.now())) link_.send(frame);
     const ReceivedBytes received = link_.receive();
     camera_.receive(received.data.data(), received.data.size(), received.host_ns, link_.isDatagram());
   }

@@ -27,7 +27,7 @@ class KeptLink {
   ReceivedBytes receive();
   void send(const std::vector<uint8_t>& data) { link_->send(data); }
   bool isDatagram() const { return link_->isDatagram(); }
-  int64_t now_ns() const { return clock_(); }
+  int64_t now() const { return clock_(); }  ///< ns
   const std::string& name() const { return name_; }
   /// What is wrong with the device, in one line; empty: nothing.
   const std::string& fault() const { return fault_; }
