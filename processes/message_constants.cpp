@@ -5,8 +5,11 @@
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/fusion/fused_homography.hpp"
+#include "redbee/geolocation/geolocator.hpp"
+#include "redbee/geolocation/view_estimator.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
 #include "redbee/inertial_homography_t.hpp"
+#include "redbee/targets_t.hpp"
 #include "redbee/visual/visual_homography.hpp"
 #include "redbee/visual_homography_t.hpp"
 
@@ -41,6 +44,17 @@ static_assert(is(DetectorStatus::kGood, foreground_t::GOOD));
 static_assert(is(DetectorStatus::kLearning, foreground_t::LEARNING));
 static_assert(is(DetectorStatus::kNoHomography, foreground_t::NO_HOMOGRAPHY));
 static_assert(is(DetectorStatus::kBadImage, foreground_t::BAD_IMAGE));
+
+static_assert(is(TargetState::kMoving, target_t::MOVING));
+static_assert(is(TargetState::kStopped, target_t::STOPPED));
+static_assert(is(TargetState::kCoasting, target_t::COASTING));
+
+static_assert(is(ViewFault::kNone, targets_t::GOOD));
+static_assert(is(ViewFault::kNoPose, targets_t::NO_POSE));
+static_assert(is(ViewFault::kStalePose, targets_t::STALE_POSE));
+static_assert(is(ViewFault::kNoPosition, targets_t::NO_POSITION));
+static_assert(is(ViewFault::kNoMount, targets_t::NO_MOUNT));
+static_assert(is(ViewFault::kNoHeight, targets_t::NO_HEIGHT));
 
 }  // namespace
 }  // namespace redbee

@@ -10,6 +10,7 @@
 #include "redbee/detection/parameters.hpp"
 #include "redbee/files/user_error.hpp"
 #include "redbee/fusion/homography_fusion.hpp"
+#include "redbee/geolocation/parameters.hpp"
 #include "redbee/geometry/camera.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
 #include "redbee/mavlink/parameters.hpp"
@@ -35,6 +36,7 @@ struct Channels {
   std::string gimbal = "GIMBAL";
   std::string lens = "LENS";
   std::string autopilot_clock = "AUTOPILOT_CLOCK";
+  std::string targets = "TARGETS";
 };
 
 /// Timeouts, in message time, of each process for the companions of a frame. A process that waits for another
@@ -83,6 +85,8 @@ struct Configuration {
   CaptureParameters capture;
   AutopilotParameters autopilot;
   ServeParameters serve;
+  GeolocationParameters geolocation;
+  GroundLinkParameters ground_link;
   int overlay_period_frames = 4;  ///< OVERLAY is published for every n-th frame; 0: never
 };
 

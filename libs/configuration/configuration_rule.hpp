@@ -58,6 +58,10 @@ inline const Rule rate{[](double x) { return x >= 0.1 && x <= 1000; }, "must lie
 inline const Rule rateOrAny{[](double x) { return x >= 0 && x <= 1000; }, "must lie from 0 to 1000"};
 inline const Rule percent{[](int x) { return x >= 0 && x <= 100; }, "must lie from 0 to 100"};
 inline const Rule angleSigma{[](double x) { return x > 0 && x <= 180; }, "must lie between 0 and 180"};
+inline const Rule slopeSigma{[](double x) { return x >= 0 && x <= 45; }, "must lie from 0 to 45"};
+inline const Rule depression{[](double x) { return x >= 1 && x <= 80; }, "must lie from 1 to 80"};
+inline const Rule cameraMount{[](const std::string& x) { return x == "body" || x == "gimbal"; },
+                              "must be body or gimbal"};
 inline const Rule mounting{[](double x) { return x >= -10 && x <= 10; }, "must lie from -10 to 10"};
 inline const Rule rotation{[](const Eigen::Matrix3d& R) { return isRotation(R, 1e-5); },
                            "is no rotation: its rows must be orthonormal to 1e-5, its determinant +1"};

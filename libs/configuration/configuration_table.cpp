@@ -141,6 +141,7 @@ Settings messagingSettings() {
       setting("channels.gimbal", MEMBER(channels.gimbal), channelName),
       setting("channels.lens", MEMBER(channels.lens), channelName),
       setting("channels.autopilot_clock", MEMBER(channels.autopilot_clock), channelName),
+      setting("channels.targets", MEMBER(channels.targets), channelName),
       setting("waits.inertial_s", MEMBER(waits.inertial_s), notNegative),
       setting("waits.visual_s", MEMBER(waits.visual_s), notNegative),
       setting("waits.fusion_s", MEMBER(waits.fusion_s), notNegative),
@@ -170,6 +171,31 @@ Settings driverSettings() {
   };
 }
 
+Settings geolocationSettings() {
+  return {
+      setting("geolocation.enabled", MEMBER(geolocation.enabled), anything),
+      setting("geolocation.mount", MEMBER(geolocation.mount), cameraMount),
+      setting("geolocation.R_CM", MEMBER(geolocation.R_CM), rotation),
+      setting("geolocation.mount_sigma_deg", MEMBER(geolocation.mount_sigma_deg), angleSigma),
+      setting("geolocation.pixel_sigma_px", MEMBER(geolocation.pixel_sigma_px), positive),
+      setting("geolocation.foot_sigma", MEMBER(geolocation.foot_sigma), fraction),
+      setting("geolocation.height_over_length", MEMBER(geolocation.height_over_length), notNegative),
+      setting("geolocation.focal_sigma", MEMBER(geolocation.focal_sigma), fraction),
+      setting("geolocation.home_height_sigma_m", MEMBER(geolocation.home_height_sigma_m), positive),
+      setting("geolocation.ground_slope_sigma_deg", MEMBER(geolocation.ground_slope_sigma_deg), slopeSigma),
+      setting("geolocation.error_correlation_s", MEMBER(geolocation.error_correlation_s), positive),
+      setting("geolocation.acceleration_sigma", MEMBER(geolocation.acceleration_sigma), positive),
+      setting("geolocation.max_pose_age_s", MEMBER(geolocation.max_pose_age_s), positive),
+      setting("geolocation.min_depression_deg", MEMBER(geolocation.min_depression_deg), depression),
+      setting("geolocation.keep_stopped_s", MEMBER(geolocation.keep_stopped_s), notNegative),
+      setting("ground_link.link", MEMBER(ground_link.link), autopilotLink),
+      setting("ground_link.system_id", MEMBER(ground_link.system_id), systemId),
+      setting("ground_link.component_id", MEMBER(ground_link.component_id), systemId),
+      setting("ground_link.signing_key_file", MEMBER(ground_link.signing_key_file), absolutePath),
+      setting("ground_link.rate_hz", MEMBER(ground_link.rate_hz), rate),
+  };
+}
+
 #undef MEMBER
 
 Settings makeSettings() {
@@ -180,6 +206,7 @@ Settings makeSettings() {
   append(settings, detectionSettings());
   append(settings, messagingSettings());
   append(settings, driverSettings());
+  append(settings, geolocationSettings());
   return settings;
 }
 

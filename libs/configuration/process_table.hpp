@@ -99,6 +99,20 @@ inline constexpr ProcessDescription kServe = [] {
   return process;
 }();
 
+inline constexpr ProcessDescription kGeolocation = [] {
+  ProcessDescription process{"geolocation"};
+  process.publishes = {"targets"};
+  process.waits_for = {"detections"};
+  process.memory_limit = 300'000'000;
+  return process;
+}();
+
+inline constexpr ProcessDescription kGroundLink = [] {
+  ProcessDescription process{"ground-link"};
+  process.memory_limit = 300'000'000;
+  return process;
+}();
+
 inline constexpr ProcessDescription kWatch = [] {
   ProcessDescription process{"watch", "watch"};
   process.memory_limit = 300'000'000;
@@ -119,9 +133,9 @@ inline constexpr ProcessDescription kRecord = [] {
 /// The processing stages, in order; each is a node and a program.
 inline constexpr std::array kStages{&kImuIntegration, &kVisualHomography, &kHomographyFusion,
                                     &kMotionSegmentation};
-/// The drivers of sensors and the ground station's server, each a program that flies only where it is
-/// configured (drivers.hpp).
-inline constexpr std::array kDrivers{&kCamera, &kAutopilot, &kServe};
+/// The programs that fly only where they are configured (drivers.hpp): drivers of sensors, what places targets
+/// on the ground and tells others of them, and the ground station's server.
+inline constexpr std::array kDrivers{&kCamera, &kAutopilot, &kGeolocation, &kGroundLink, &kServe};
 /// The other processes: subcommands of `redbee`.
 inline constexpr std::array kSupportProcesses{&kWatch, &kRecord};
 

@@ -119,7 +119,7 @@ class PayloadWriter {
       std::memcpy(&word, &value, sizeof word);
       bits = word;
     } else {
-      bits = static_cast<uint64_t>(value);
+      bits = static_cast<std::make_unsigned_t<T>>(value);
     }
     for (size_t i = 0; i < sizeof(T); ++i) bytes_.push_back(static_cast<uint8_t>(bits >> (8 * i)));
   }

@@ -19,4 +19,13 @@ struct AutopilotParameters {
   double rangefinder_above_camera_m = 0;  ///< m, of the distance sensor, along the body's vertical
 };
 
+/// Of the section `ground_link`.
+struct GroundLinkParameters {
+  std::string link;              ///< linkAddressOf(); empty: none
+  int system_id = 1;             ///< of the vehicle
+  int component_id = 100;        ///< MAV_COMP_ID_CAMERA
+  std::string signing_key_file;  ///< of 64 hexadecimal digits; empty: frames are not signed
+  double rate_hz = 5;            ///< Hz, of each status message
+};
+
 }  // namespace redbee

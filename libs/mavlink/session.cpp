@@ -16,13 +16,9 @@ constexpr size_t kMostAsked = 32;           // three seconds of requests: an ans
 Session::Session(const AutopilotParameters& parameters, const std::optional<SigningKey>& key, SigningTime now)
     : parameters_(parameters),
       encoder_(static_cast<uint8_t>(parameters.system_id), kComponent),
+      trust_(key, now, encoder_),
       vehicle_(parameters),
-      rates_(parameters),
-      signing_start_(now) {
-  if (!key) return;
-  encoder_.signWith(Signer(*key, 0, now));
-  signatures_.emplace(*key, now);
-}
+      rates_(parameters) {}
 
 std::vector<Measurement> Session::receive(const uint8_t* data, size_t size, int64_t host_ns,
                                           bool is_datagram) {
@@ -31,23 +27,9 @@ std::vector<Measurement> Session::receive(const uint8_t* data, size_t size, int6
   while (const auto frame = parser_.next()) {
     if (frame->system != parameters_.system_id) continue;
     loss_.note(*frame);
-    if (isTrusted(*frame)) handle(*frame, host_ns);
+    if (trust_.accepts(*frame, encoder_)) handle(*frame, host_ns);
   }
   return std::exchange(measurements_, {});
-}
-
-bool Session::isTrusted(const Frame& frame) {
-  if (!signatures_) return true;
-  if (!frame.is_signed) {
-    ++counters_.unsigned_frames;
-    return false;
-  }
-  if (!signatures_->accepts(frame)) {
-    ++counters_.bad_signatures;
-    return false;
-  }
-  encoder_.signer()->advanceTo(signatures_->time());
-  return true;
 }
 
 void Session::handle(const Frame& frame, int64_t host_ns) {
@@ -100,16 +82,8 @@ void Session::handleTimesync(const Frame& frame, int64_t host_ns) {
   if (const auto state = clock_.state()) measurements_.emplace_back(*state);
 }
 
-void Session::advanceSignatures(int64_t host_ns) {
-  if (!signatures_) return;
-  if (!signed_since_ns_) signed_since_ns_ = host_ns;
-  const SigningTime now = signing_start_ + static_cast<SigningTime>((host_ns - *signed_since_ns_) / 10'000);
-  signatures_->advanceTo(now);
-  encoder_.signer()->advanceTo(now);
-}
-
 std::vector<Bytes> Session::dueFrames(int64_t host_ns) {
-  advanceSignatures(host_ns);
+  trust_.advanceTo(host_ns, encoder_);
   if (host_ns >= next_heartbeat_ns_) {
     next_heartbeat_ns_ = host_ns + kHeartbeatPeriod_ns;
     send(Heartbeat{0, kOnboardController, kNoAutopilot, 0, kActive, 3});
@@ -147,6 +121,8 @@ SessionCounters Session::counters() const {
   SessionCounters counters = counters_;
   counters.parser = parser_.counters();
   counters.lost = loss_.lost();
+  counters.unsigned_frames = trust_.unsignedFrames();
+  counters.bad_signatures = trust_.badSignatures();
   return counters;
 }
 

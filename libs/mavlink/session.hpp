@@ -15,7 +15,7 @@
 #include "redbee/mavlink/parameters.hpp"
 #include "redbee/mavlink/parser.hpp"
 #include "redbee/mavlink/sequence_loss.hpp"
-#include "redbee/mavlink/signing.hpp"
+#include "redbee/mavlink/trust.hpp"
 #include "redbee/mavlink/vehicle_state.hpp"
 
 namespace redbee::mavlink {
@@ -57,8 +57,6 @@ class Session {
   std::string autopilotName() const;
 
  private:
-  bool isTrusted(const Frame& frame);
-  void advanceSignatures(int64_t host_ns);
   void handle(const Frame& frame, int64_t host_ns);
   void handleHeartbeat(const Heartbeat& message, int64_t host_ns);
   void handleTimesync(const Frame& frame, int64_t host_ns);
@@ -80,7 +78,7 @@ class Session {
   AutopilotParameters parameters_;
   Parser parser_;
   Encoder encoder_;
-  std::optional<SignatureCheck> signatures_;
+  Trust trust_;
   SequenceLoss loss_;
   SessionCounters counters_;
   ClockEstimator clock_;
@@ -93,8 +91,6 @@ class Session {
   std::optional<ImuReading> last_imu_;  ///< since the clock was last set
   int64_t next_timesync_ns_ = 0;
   int64_t next_heartbeat_ns_ = 0;
-  SigningTime signing_start_;
-  std::optional<int64_t> signed_since_ns_;  ///< our clock at signing_start_
   std::vector<Bytes> outgoing_;
   std::vector<Measurement> measurements_;
 };

@@ -13,7 +13,7 @@ namespace redbee::message_limits {
 /// Symmetric and positive semidefinite, but for rounding.
 template <size_t kEntries>
 bool isCovariance(const double (&entries)[kEntries]) {
-  constexpr int kSize = kEntries == 64 ? 8 : 3;
+  constexpr int kSize = kEntries == 64 ? 8 : kEntries == 9 ? 3 : 2;
   if (!areFrom(-kMaxSigma * kMaxSigma, entries, kMaxSigma * kMaxSigma)) return false;
   Matrix8d P = Matrix8d::Zero();
   P.topLeftCorner<kSize, kSize>() =

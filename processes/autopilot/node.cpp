@@ -2,98 +2,54 @@
 
 #include <spdlog/spdlog.h>
 
-#include <chrono>
-#include <thread>
 #include <utility>
 #include <variant>
 
 #include "processes/autopilot/measurement_messages.hpp"
-#include "processes/autopilot/signing_key.hpp"
+#include "processes/link/signing_key.hpp"
 #include "redbee/configuration/process_table.hpp"
-#include "redbee/files/user_error.hpp"
 #include "redbee/node/host_clock.hpp"
 #include "redbee/node/message_check.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr std::chrono::milliseconds kPass{20};
 constexpr int64_t kImuSilence_ns = 1'000'000'000;
 constexpr double kMaxClockSigma_s = 0.02;  // more than half a frame's distance is of no use
-
-std::unique_ptr<Link> configuredLink(const AutopilotParameters& autopilot) {
-  const auto address = mavlink::linkAddressOf(autopilot.link);
-  if (!address) {
-    throw UserError("autopilot.link: is not set in this configuration; set it to " +
-                    std::string(mavlink::kLinkForms));
-  }
-  return makeLink(*address);
-}
-
-mavlink::SigningTime signingTimeNow() {
-  const auto since = std::chrono::system_clock::now().time_since_epoch();
-  return mavlink::signingTimeOf(std::chrono::duration_cast<std::chrono::microseconds>(since).count());
-}
 
 }  // namespace
 
 AutopilotNode::AutopilotNode(Bus& bus, const Configuration& configuration)
-    : AutopilotNode(bus, configuration, configuredLink(configuration.autopilot), hostNanoseconds) {}
+    : AutopilotNode(bus, configuration, linkOf("autopilot.link", configuration.autopilot.link),
+                    hostNanoseconds) {}
 
 AutopilotNode::AutopilotNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Link> link,
                              Clock clock)
     : bus_(bus),
       configuration_(configuration),
       health_(programName(kAutopilot), configurationHash(configuration)),
-      link_(std::move(link)),
-      clock_(std::move(clock)),
+      link_(configuration.autopilot.link, std::move(link), std::move(clock)),
       session_(configuration.autopilot, readSigningKey(configuration.autopilot.signing_key_file),
-               signingTimeNow()) {
+               signingTimeOfDay()) {
   health_.explainsSilence();
 }
 
-bool AutopilotNode::openLink() {
-  if (link_->isOpen()) return true;
-  const int64_t now_ns = clock_();
-  if (!back_off_.isDue(now_ns)) {
-    std::this_thread::sleep_for(kPass);
-    return false;
-  }
-  const std::string fault = link_->open();
-  if (fault.empty()) {
-    spdlog::info("{}: open", configuration_.autopilot.link);
-    session_.reconnect();
-    link_fault_.clear();
-    return true;
-  }
-  if (fault != link_fault_) spdlog::warn("{}", fault);
-  link_fault_ = fault;
-  back_off_.postpone(now_ns);
-  return false;
-}
-
 bool AutopilotNode::processNext() {
-  if (openLink()) {
-    send(clock_());
-    const ReceivedBytes received = link_->receive(kPass);
-    if (!received.data.empty()) back_off_.reset();
-    for (const auto& each : session_.receive(received.data.data(), received.data.size(), received.host_ns,
-                                             link_->isDatagram())) {
+  if (link_.open([this] { session_.reconnect(); })) {
+    send(link_.now());
+    const ReceivedBytes received = link_.receive();
+    for (const auto& each :
+         session_.receive(received.data.data(), received.data.size(), received.host_ns, link_.isDatagram())) {
       publish(each);
-    }
-    if (!link_->isOpen()) {
-      link_fault_ = configuration_.autopilot.link + ": the device is gone";
-      spdlog::warn("{}", link_fault_);
-      back_off_.postpone(clock_());
     }
   }
   noteCounters();
-  describeState(clock_());
+  describeState(link_.now());
   return true;
 }
 
 void AutopilotNode::send(int64_t now_ns) {
-  for (const mavlink::Bytes& frame : session_.dueFrames(now_ns)) link_->send(frame);
+  for (const mavlink::Bytes& frame : session_.dueFrames(now_ns)) link_.send(frame);
 }
 
 void AutopilotNode::publish(const mavlink::Measurement& measurement) {
@@ -110,7 +66,7 @@ void AutopilotNode::publish(const mavlink::Measurement& measurement) {
     health_.noteInput(time);
     publishOn(channels.imu, messageOf(*imu));
     health_.notePublished(time);
-    imu_ns_ = clock_();
+    imu_ns_ = link_.now();
   } else if (const auto* height = std::get_if<mavlink::HeightReading>(&measurement)) {
     publishOn(channels.altimeter, messageOf(*height));
   } else if (const auto* pose = std::get_if<mavlink::Pose>(&measurement)) {
@@ -126,7 +82,7 @@ void AutopilotNode::publish(const mavlink::Measurement& measurement) {
 
 void AutopilotNode::noteCounters() {
   const mavlink::SessionCounters now = session_.counters();
-  const std::string& link = configuration_.autopilot.link;
+  const std::string& link = link_.name();
   health_.noteDamaged(now.parser.crc_errors - reported_.parser.crc_errors);
   health_.noteDamaged(now.bad_signatures - reported_.bad_signatures);
   health_.noteLost(now.lost - reported_.lost);
@@ -145,10 +101,10 @@ void AutopilotNode::noteCounters() {
 }
 
 void AutopilotNode::describeState(int64_t now_ns) {
-  const std::string& link = configuration_.autopilot.link;
+  const std::string& link = link_.name();
   const std::string system = "system " + std::to_string(configuration_.autopilot.system_id);
   const auto degraded = [&](const std::string& why) { health_.setState(HealthState::kDegraded, why); };
-  if (!link_fault_.empty()) return degraded(link_fault_);
+  if (!link_.fault().empty()) return degraded(link_.fault());
   if (!session_.hasAutopilot(now_ns)) return degraded(link + ": no heartbeat of " + system);
   const auto clock = session_.clock();
   if (!clock)

@@ -6,11 +6,10 @@
 #include <memory>
 #include <string>
 
-#include "processes/autopilot/link.hpp"
+#include "processes/link/kept_link.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/mavlink/session.hpp"
-#include "redbee/node/back_off.hpp"
 #include "redbee/node/node.hpp"
 
 namespace redbee {
@@ -19,8 +18,7 @@ namespace redbee {
 /// goes is opened again (BackOff).
 class AutopilotNode : public Node {
  public:
-  /// ns, increasing: what Link::receive() stamps with.
-  using Clock = std::function<int64_t()>;
+  using Clock = KeptLink::Clock;
 
   /// Throws UserError where autopilot.link is empty or its key cannot be read.
   AutopilotNode(Bus& bus, const Configuration& configuration);
@@ -32,7 +30,6 @@ class AutopilotNode : public Node {
   HealthMonitor& health() override { return health_; }
 
  private:
-  bool openLink();
   void publish(const mavlink::Measurement& measurement);
   void send(int64_t now_ns);
   void noteCounters();
@@ -41,12 +38,9 @@ class AutopilotNode : public Node {
   Bus& bus_;
   Configuration configuration_;
   HealthMonitor health_;
-  std::unique_ptr<Link> link_;
-  Clock clock_;
+  KeptLink link_;
   mavlink::Session session_;
   mavlink::SessionCounters reported_;
-  std::string link_fault_;
-  BackOff back_off_;
   int64_t imu_ns_ = 0;  ///< when the last sample arrived
 };
 

@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "processes/autopilot/link.hpp"
-#include "processes/autopilot/signing_key.hpp"
+#include "processes/link/link.hpp"
+#include "processes/link/signing_key.hpp"
 #include "redbee/files/new_file.hpp"
 #include "redbee/files/user_error.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -20,6 +20,7 @@
 #include "tests/fuzz/fuzz_input.hpp"
 #include "tests/fuzz/mavlink_seed.hpp"
 #include "tests/fuzz/small_vehicle.hpp"
+#include "tests/fuzz/target_seeds.hpp"
 
 namespace redbee::fuzz {
 namespace {
@@ -235,5 +236,7 @@ int main(int argc, char** argv) {
   writeGpmfSeed(folder);
   writeVideoSeed(folder);
   write(folder / "mavlink" / "one_second", mavlinkSeed());
+  write(folder / "targets" / "walker", targetsSeed());
+  write(folder / "ground_link" / "commands", groundLinkSeed());
   return 0;
 }

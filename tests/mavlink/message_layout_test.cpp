@@ -6,6 +6,7 @@
 #include "redbee/mavlink/message_table.hpp"
 #include "redbee/mavlink/messages.hpp"
 #include "redbee/mavlink/sensor_messages.hpp"
+#include "redbee/mavlink/tracking_messages.hpp"
 #include "tests/mavlink/vectors.hpp"
 
 namespace redbee::mavlink {
@@ -13,10 +14,10 @@ namespace {
 
 template <typename Message>
 class MessageLayoutOf : public testing::Test {};
-using Ours =
-    testing::Types<Heartbeat, Timesync, CommandLong, CommandAck, CameraInformation, CameraSettings,
-                   MountOrientation, GimbalDeviceAttitudeStatus, HighresImu, RawImu, ScaledImu2,
-                   AttitudeQuaternion, LocalPositionNed, GlobalPositionInt, GpsRawInt, DistanceSensor>;
+using Ours = testing::Types<Heartbeat, Timesync, CommandLong, CommandAck, CameraInformation, CameraSettings,
+                            MountOrientation, GimbalDeviceAttitudeStatus, CameraTrackingImageStatus,
+                            CameraTrackingGeoStatus, HighresImu, RawImu, ScaledImu2, AttitudeQuaternion,
+                            LocalPositionNed, GlobalPositionInt, GpsRawInt, DistanceSensor>;
 TYPED_TEST_SUITE(MessageLayoutOf, Ours);
 
 TYPED_TEST(MessageLayoutOf, FollowsFromItsFields) {

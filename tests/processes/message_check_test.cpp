@@ -116,7 +116,7 @@ Message randomMessage(std::mt19937& random) {
 template <typename Message>
 class MessageCheck : public testing::Test {};
 using SentTypes = testing::Types<altimeter_t, clock_offset_t, detections_t, gimbal_t, lens_t, pose_t,
-                                 filter_snapshot_t, foreground_t, fused_homography_t, image_t,
+                                 targets_t, filter_snapshot_t, foreground_t, fused_homography_t, image_t,
                                  inertial_homography_t, ins_t, process_health_t, visual_homography_t>;
 TYPED_TEST_SUITE(MessageCheck, SentTypes);
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "processes/autopilot/measurement_messages.hpp"
+#include "processes/geolocation/target_messages.hpp"
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/node/message_check.hpp"
 #include "tests/support/fault_trial.hpp"
@@ -119,6 +120,33 @@ inline lens_t TrueMessages::get() const {
 template <>
 inline clock_offset_t TrueMessages::get() const {
   return messageOf(mavlink::ClockState{100'000'000'000, -5'000'000, 1e-5, 1e-3, 2e-3});
+}
+
+/// Of a flight with a fix, its one target in view.
+template <>
+inline targets_t TrueMessages::get() const {
+  LocalFrame frame;
+  VehiclePose pose;
+  pose.global = Geodetic{47.3, 8.5};
+  frame.placeOf(pose);
+  Target target;
+  target.id = 3;
+  target.position = {10, 20};
+  target.velocity = {1, -2};
+  target.position_covariance = target.velocity_covariance = Eigen::Matrix2d::Identity();
+  target.size = {1, 2};
+  target.range_m = 50;
+  target.unseen_s = 0.5;
+  targets_t message{};
+  message.utime = 100'000'000;
+  message.has_global = message.has_view = message.has_ground_altitude = 1;
+  message.camera_height = 40;
+  message.camera_axis[2] = -1;
+  message.ground_altitude = 500;
+  fillFootprint(message, Eigen::Matrix<double, 2, 4>::Ones());
+  message.n = 1;
+  message.targets.push_back(messageOf(target, frame));
+  return message;
 }
 
 }  // namespace redbee::test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "processes/autopilot/link.hpp"
+#include "processes/link/link.hpp"
 #include "redbee/files/new_file.hpp"
 
 namespace redbee {

@@ -12,4 +12,7 @@ namespace redbee {
 /// its owner and group may read.
 std::optional<mavlink::SigningKey> readSigningKey(const std::filesystem::path& file);
 
+/// By the computer's time of day.
+mavlink::SigningTime signingTimeOfDay();
+
 }  // namespace redbee

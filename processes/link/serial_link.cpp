@@ -1,4 +1,4 @@
-#include "processes/autopilot/serial_link.hpp"
+#include "processes/link/serial_link.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

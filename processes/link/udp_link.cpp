@@ -1,4 +1,4 @@
-#include "processes/autopilot/udp_link.hpp"
+#include "processes/link/udp_link.hpp"
 
 #include <arpa/inet.h>
 #include <poll.h>

@@ -1,7 +1,7 @@
-#include "processes/autopilot/link.hpp"
+#include "processes/link/link.hpp"
 
-#include "processes/autopilot/serial_link.hpp"
-#include "processes/autopilot/udp_link.hpp"
+#include "processes/link/serial_link.hpp"
+#include "processes/link/udp_link.hpp"
 
 namespace redbee {
 

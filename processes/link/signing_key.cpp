@@ -1,7 +1,8 @@
-#include "processes/autopilot/signing_key.hpp"
+#include "processes/link/signing_key.hpp"
 
 #include <sys/stat.h>
 
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -26,6 +27,11 @@ std::optional<mavlink::SigningKey> readSigningKey(const std::filesystem::path& f
   const auto key = mavlink::signingKeyOf(text);
   if (!key) throw InputError(file, "is no key of 64 hexadecimal digits; openssl rand -hex 32 makes one");
   return key;
+}
+
+mavlink::SigningTime signingTimeOfDay() {
+  const auto since = std::chrono::system_clock::now().time_since_epoch();
+  return mavlink::signingTimeOf(std::chrono::duration_cast<std::chrono::microseconds>(since).count());
 }
 
 }  // namespace redbee

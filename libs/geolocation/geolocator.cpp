@@ -1,0 +1,235 @@
+#include "redbee/geolocation/geolocator.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "redbee/geolocation/ground_point.hpp"
+#include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/chi_square.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr double kStartVelocity_m_s = 5;  // one standard deviation, before it was measured
+constexpr double kFootCorrelation_s = 1;  // a gait's step, a turn of the object
+constexpr double kUnseenDecay_s = 0.5;  // what is no longer found has probably stopped; as the boxes' tracker
+constexpr double kCoasting_s = 2;       // after which who is slow has stopped
+constexpr double kStoppedSpeed_m_s = 0.3;  // slower than a walk
+constexpr double kStoppedSigma_m_s = 0.1;  // of who has stopped
+constexpr double kGateProbability = 0.9999;
+constexpr int kMostGated = 5;  // then the target is where it is measured
+constexpr double kSamePlaceProbability = 0.99;
+constexpr double kLongestGap_s = 10;  // after which nothing is known of who moved
+constexpr double kBorder_px = 1;
+constexpr double kFlattest = 1e-3;  // rad below the horizon, whatever is configured
+
+/// A square root A of a covariance: A A' = P.
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> rootOf(const Eigen::Matrix<double, kSize, kSize>& P) {
+  return Eigen::LLT<Eigen::Matrix<double, kSize, kSize>>(
+             P + 1e-15 * Eigen::Matrix<double, kSize, kSize>::Identity())
+      .matrixL();
+}
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+Geolocator::Geolocator(const CameraIntrinsics& camera, const GeolocationParameters& parameters)
+    : intrinsics_(camera), camera_(makeCameraModel(camera)), parameters_(parameters) {}
+
+void Geolocator::restart() {
+  targets_.clear();
+  last_.reset();
+}
+
+bool Geolocator::isCutOff(const Eigen::Vector2d& foot) const {
+  return foot.x() < kBorder_px || foot.y() < kBorder_px || foot.x() > intrinsics_.width - 1 - kBorder_px ||
+         foot.y() > intrinsics_.height - 1 - kBorder_px;
+}
+
+std::optional<Eigen::Vector2d> Geolocator::project(const Eigen::Vector2d& position,
+                                                   const GroundView& view) const {
+  const Eigen::Vector2d offset = position - view.position;
+  return camera_->project(view.R_EC.transpose() * Eigen::Vector3d(offset.x(), offset.y(), -view.height_m));
+}
+
+/// The foot's point on the ground. Of a known target, to first order about the pixel where it is expected: a
+/// derivative that was taken at the measured pixel would depend on that pixel's error, and as large errors
+/// that last are multiplied by it, the filter's gain would, too.
+std::optional<GroundPoint> Geolocator::pointOf(const Eigen::Vector2d& foot, const GroundView& view,
+                                               const std::optional<Eigen::Vector2d>& predicted) const {
+  const double flattest = std::max(kFlattest, parameters_.min_depression_deg * kDegree);
+  auto measured = groundPointOf(*camera_, foot, view, flattest);
+  if (!measured || !predicted) return measured;
+  const auto expected_pixel = project(*predicted, view);
+  auto expected = expected_pixel ? groundPointOf(*camera_, *expected_pixel, view, flattest) : std::nullopt;
+  if (!expected) return measured;
+  expected->position += expected->J_pixel * (foot - *expected_pixel);
+  return expected;
+}
+
+std::optional<Geolocator::Placed> Geolocator::place(const ImageBox& box, const GroundView& view,
+                                                    const std::optional<Eigen::Vector2d>& predicted) {
+  const Eigen::Vector3d down = -view.R_EC.row(2).transpose();
+  const auto foot = footOf(box, *camera_, down, parameters_.height_over_length);
+  const auto point = foot ? pointOf(foot->pixel, view, predicted) : std::nullopt;
+  if (!point) {
+    ++refused_.above_horizon;
+    return std::nullopt;
+  }
+  const Eigen::Vector2d edge = box.centre() + (foot->pixel - box.centre()).normalized() * foot->along_px / 2;
+  if (isCutOff(edge)) {
+    ++refused_.cut_off;
+    return std::nullopt;
+  }
+  Placed placed;
+  placed.range_m = point->range_m;
+  const double metres_per_px = point->range_m / std::sqrt(intrinsics_.fx * intrinsics_.fy);
+  placed.size = Eigen::Vector2d(foot->across_px, foot->along_px) * metres_per_px;
+  GroundMeasurement& m = placed.measurement;
+  m.z = point->position;
+  m.R = square(parameters_.pixel_sigma_px) * point->J_pixel * point->J_pixel.transpose();
+  const Eigen::Matrix3d attitude =
+      view.attitude_covariance + square(parameters_.mount_sigma_deg * kDegree) * Eigen::Matrix3d::Identity();
+  const double slope_m =
+      point->range_m * std::cos(point->depression) * std::tan(parameters_.ground_slope_sigma_deg * kDegree);
+  m.G << point->J_attitude * rootOf<3>(attitude), rootOf<2>(view.position_covariance),
+      point->J_height * std::hypot(view.height_sigma_m, slope_m), point->J_focal * parameters_.focal_sigma,
+      point->J_pixel * parameters_.foot_sigma * foot->along_px;
+  return placed;
+}
+
+void Geolocator::predict(double seconds) {
+  for (auto& [id, tracked] : targets_) {
+    const bool seen = tracked.unseen_s == 0;
+    tracked.filter.predict({seconds, tracked.has_stopped ? 0 : parameters_.acceleration_sigma,
+                            seen ? 0 : kUnseenDecay_s, parameters_.error_correlation_s, kFootCorrelation_s});
+    tracked.unseen_s += seconds;
+  }
+}
+
+void Geolocator::begin(int id, const Placed& placed) {
+  targets_.insert_or_assign(id, Tracked{TargetFilter(placed.measurement, kStartVelocity_m_s), placed.size,
+                                        placed.range_m, placed.measurement.z});
+}
+
+/// The tracker gives who stopped and starts again a new identity: its old one goes.
+void Geolocator::giveWay(const Placed& newcomer) {
+  for (auto it = targets_.begin(); it != targets_.end();) {
+    const bool is_same =
+        it->second.has_stopped && !it->second.is_reported &&
+        it->second.filter.distance(newcomer.measurement) < chiSquareQuantile(kSamePlaceProbability, 2);
+    it = is_same ? targets_.erase(it) : std::next(it);
+  }
+}
+
+void Geolocator::observe(int id, const Placed& placed) {
+  const auto found = targets_.find(id);
+  if (found == targets_.end()) {
+    giveWay(placed);
+    return begin(id, placed);
+  }
+  Tracked& tracked = found->second;
+  if (tracked.filter.distance(placed.measurement) > chiSquareQuantile(kGateProbability, 2)) {
+    if (++tracked.gated >= kMostGated) begin(id, placed);
+    return;
+  }
+  tracked.gated = 0;
+  tracked.filter.update(placed.measurement);
+  tracked.size += 0.1 * (placed.size - tracked.size);
+  tracked.range_m = placed.range_m;
+  tracked.last_seen = tracked.filter.position();
+  tracked.unseen_s = 0;
+  tracked.has_stopped = false;
+}
+
+TargetState Geolocator::stateOf(const Tracked& tracked) {
+  if (tracked.has_stopped) return TargetState::kStopped;
+  if (tracked.unseen_s > 0) return TargetState::kCoasting;
+  const double speed_sigma = std::sqrt(tracked.filter.covariance().bottomRightCorner<2, 2>().trace() / 2);
+  const bool is_slow =
+      tracked.filter.velocity().norm() < kStoppedSpeed_m_s && speed_sigma < kStoppedSpeed_m_s;
+  return is_slow ? TargetState::kStopped : TargetState::kMoving;
+}
+
+bool Geolocator::isInView(const Eigen::Vector2d& position, const GroundView& view) const {
+  const auto pixel = project(position, view);
+  return pixel && !isCutOff(*pixel);
+}
+
+void Geolocator::noteVisibility(const std::optional<GroundView>& view,
+                                const std::vector<ObservedBox>& boxes) {
+  for (auto& [id, tracked] : targets_) {
+    tracked.is_reported = tracked.is_seen = false;
+    if (view) tracked.is_in_view = isInView(tracked.filter.position(), *view);
+  }
+  for (const ObservedBox& each : boxes) {
+    const auto known = targets_.find(each.id);
+    if (known == targets_.end()) continue;
+    known->second.is_reported = true;
+    known->second.is_seen = each.seen;
+  }
+}
+
+/// Who is in view and no longer seen to move has stopped; of who has left the view, nothing is known soon.
+void Geolocator::stopUnseen(const std::optional<GroundView>& view) {
+  const auto is_forgotten = [&](const Tracked& tracked) {
+    if (tracked.has_stopped) return tracked.unseen_s > parameters_.keep_stopped_s;
+    const bool is_explained = tracked.is_seen || !view;
+    return tracked.unseen_s > (is_explained ? kLongestGap_s : kCoasting_s);
+  };
+  for (auto it = targets_.begin(); it != targets_.end();) {
+    Tracked& tracked = it->second;
+    if (tracked.unseen_s > kCoasting_s && view && tracked.is_in_view && !tracked.is_seen &&
+        !tracked.has_stopped) {
+      tracked.has_stopped = true;
+      tracked.filter.stop(tracked.last_seen, kStoppedSigma_m_s);
+    }
+    it = is_forgotten(tracked) ? targets_.erase(it) : std::next(it);
+  }
+}
+
+std::vector<Target> Geolocator::step(CameraTime time, const std::optional<GroundView>& view,
+                                     const std::vector<ObservedBox>& boxes) {
+  const double elapsed = last_ ? seconds(time - *last_) : 0;
+  if (elapsed < 0 || elapsed > kLongestGap_s) restart();
+  last_ = time;
+  refused_ = {};
+  predict(std::max(0.0, elapsed));
+  noteVisibility(view, boxes);
+  for (const ObservedBox& each : boxes) {
+    if (!each.seen || !view) continue;
+    const auto known = targets_.find(each.id);
+    const auto predicted =
+        known != targets_.end() ? std::optional(known->second.filter.position()) : std::nullopt;
+    if (const auto placed = place(each.box, *view, predicted)) observe(each.id, *placed);
+  }
+  stopUnseen(view);
+  std::vector<Target> targets;
+  targets.reserve(targets_.size());
+  for (const auto& [id, tracked] : targets_) {
+    const Eigen::Matrix4d& P = tracked.filter.covariance();
+    targets.push_back({id, stateOf(tracked), tracked.filter.position(), tracked.filter.velocity(),
+                       P.topLeftCorner<2, 2>(), P.bottomRightCorner<2, 2>(), tracked.size, tracked.range_m,
+                       tracked.unseen_s});
+  }
+  return targets;
+}
+
+std::optional<Eigen::Matrix<double, 2, 4>> footprintOf(const CameraIntrinsics& intrinsics,
+                                                       const CameraModel& camera, const GroundView& view,
+                                                       double min_depression) {
+  const double right = intrinsics.width - 1, bottom = intrinsics.height - 1;
+  const Eigen::Vector2d corners[] = {{0, 0}, {right, 0}, {right, bottom}, {0, bottom}};
+  Eigen::Matrix<double, 2, 4> footprint;
+  for (int i = 0; i < 4; ++i) {
+    const auto point = groundPointOf(camera, corners[i], view, min_depression);
+    if (!point) return std::nullopt;
+    footprint.col(i) = point->position;
+  }
+  return footprint;
+}
+
+}  // namespace redbee

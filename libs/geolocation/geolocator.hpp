@@ -1,0 +1,112 @@
+// From boxes in images to targets on the ground.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "redbee/geolocation/foot_point.hpp"
+#include "redbee/geolocation/ground_point.hpp"
+#include "redbee/geolocation/ground_view.hpp"
+#include "redbee/geolocation/parameters.hpp"
+#include "redbee/geolocation/target_filter.hpp"
+#include "redbee/geometry/camera_intrinsics.hpp"
+#include "redbee/geometry/time.hpp"
+
+namespace redbee {
+
+struct ObservedBox {
+  int id = 0;
+  ImageBox box;
+  bool seen = false;  ///< false: predicted by the tracker, no measurement
+};
+
+enum class TargetState : int8_t {
+  kMoving = 0,
+  kStopped = 1,   ///< slow, or no longer seen to move where it was last seen
+  kCoasting = 2,  ///< not seen, predicted
+};
+
+struct Target {
+  int id = 0;
+  TargetState state = TargetState::kMoving;
+  Eigen::Vector2d position;             ///< m, east and north in the local frame
+  Eigen::Vector2d velocity;             ///< m/s, over ground
+  Eigen::Matrix2d position_covariance;  ///< m^2
+  Eigen::Matrix2d velocity_covariance;  ///< m^2/s^2
+  Eigen::Vector2d size;                 ///< m, across and along the vertical in the image, at its range
+  double range_m = 0;                   ///< from the camera, when it was last seen
+  double unseen_s = 0;
+};
+
+/// Boxes that could not be placed in a step.
+struct RefusedBoxes {
+  int above_horizon = 0;  ///< their ray does not meet the ground, or too flat
+  int cut_off = 0;        ///< their foot lies outside of the image
+};
+
+class Geolocator {
+ public:
+  /// Throws std::invalid_argument as makeCameraModel() does.
+  Geolocator(const CameraIntrinsics& camera, const GeolocationParameters& parameters);
+
+  /// One frame, later than the one before. Without a view all targets are predicted.
+  std::vector<Target> step(CameraTime time, const std::optional<GroundView>& view,
+                           const std::vector<ObservedBox>& boxes);
+  RefusedBoxes refused() const { return refused_; }
+  /// The local coordinates have another origin, or the clock was set: forgets all targets.
+  void restart();
+
+ private:
+  struct Tracked {
+    TargetFilter filter;
+    Eigen::Vector2d size;
+    double range_m = 0;
+    Eigen::Vector2d last_seen;  ///< m
+    double unseen_s = 0;
+    int gated = 0;            ///< measurements in a row that were not believed
+    bool is_reported = true;  ///< the tracker still reports the identity
+    bool is_seen = true;      ///< in this frame, measured or not
+    bool is_in_view = true;   ///< its place is, as far as it is known
+    bool has_stopped = false;
+  };
+  struct Placed {
+    GroundMeasurement measurement;
+    Eigen::Vector2d size;
+    double range_m = 0;
+  };
+
+  /// `predicted`: where the object is expected [m], if it is known.
+  std::optional<Placed> place(const ImageBox& box, const GroundView& view,
+                              const std::optional<Eigen::Vector2d>& predicted);
+  std::optional<GroundPoint> pointOf(const Eigen::Vector2d& foot, const GroundView& view,
+                                     const std::optional<Eigen::Vector2d>& predicted) const;
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector2d& position, const GroundView& view) const;
+  bool isCutOff(const Eigen::Vector2d& foot) const;
+  void predict(double seconds);
+  void observe(int id, const Placed& placed);
+  void begin(int id, const Placed& placed);
+  void giveWay(const Placed& newcomer);
+  void noteVisibility(const std::optional<GroundView>& view, const std::vector<ObservedBox>& boxes);
+  bool isInView(const Eigen::Vector2d& position, const GroundView& view) const;
+  void stopUnseen(const std::optional<GroundView>& view);
+  static TargetState stateOf(const Tracked& tracked);
+
+  CameraIntrinsics intrinsics_;
+  std::shared_ptr<const CameraModel> camera_;
+  GeolocationParameters parameters_;
+  std::map<int, Tracked> targets_;
+  std::optional<CameraTime> last_;
+  RefusedBoxes refused_;
+};
+
+/// East and north of the ground points [m] of the image's corners, clockwise from the upper left;
+/// std::nullopt unless each sees the ground.
+std::optional<Eigen::Matrix<double, 2, 4>> footprintOf(const CameraIntrinsics& intrinsics,
+                                                       const CameraModel& camera, const GroundView& view,
+                                                       double min_depression);
+
+}  // namespace redbee

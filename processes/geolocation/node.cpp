@@ -1,0 +1,165 @@
+#include "processes/geolocation/node.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "processes/geolocation/target_messages.hpp"
+#include "redbee/configuration/process_table.hpp"
+#include "redbee/foreground_t.hpp"
+#include "redbee/geometry/angle.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr size_t kMaxPendingDetections = 64;
+constexpr Duration kPoseWait = std::chrono::milliseconds(100);
+constexpr double kFocalTolerance = 0.05;  // of a lens that is the configured one
+
+const Configuration& enabled(const Configuration& configuration) {
+  if (configuration.geolocation.enabled) return configuration;
+  throw UserError("geolocation.enabled: is false in this configuration; set it to true");
+}
+
+}  // namespace
+
+GeolocationNode::GeolocationNode(Bus& bus, const Configuration& configuration)
+    : Stage(bus, programName(kGeolocation), configurationHash(enabled(configuration))),
+      configuration_(configuration),
+      timeshift_(fromSeconds(configuration.inertial.extrinsics.timeshift_s)),
+      camera_(makeCameraModel(configuration.camera)),
+      views_(configuration.geolocation, configuration.inertial.extrinsics.R_CI,
+             configuration.inertial.extrinsics.p_IC),
+      geolocator_(configuration.camera, configuration.geolocation) {
+  const auto& channels = configuration_.channels;
+  on<detections_t>(channels.detections, [this](const detections_t& m) { onDetections(m); });
+  on<pose_t>(channels.pose, [this](const pose_t& m) {
+    const VehiclePose pose = vehiclePoseOf(m);
+    clock_.noteOther(pose.time);
+    views_.note(pose);
+  });
+  on<gimbal_t>(channels.gimbal, [this](const gimbal_t& m) { views_.note(mountAttitudeOf(m)); });
+  on<lens_t>(channels.lens, [this](const lens_t& m) { onLens(m); });
+  if (configuration_.has_altimeter) {
+    on<altimeter_t>(channels.altimeter, [this](const altimeter_t& m) { views_.note(heightOf(m)); });
+  }
+}
+
+void GeolocationNode::onDetections(const detections_t& message) {
+  queueFrame(pending_, configuration_.channels.detections, CameraTime(fromUtime(message.utime)),
+             Frame{message, WorkTimer()});
+  health().noteSkipped(static_cast<int64_t>(pending_.limitTo(kMaxPendingDetections).size()));
+  if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
+}
+
+void GeolocationNode::onLens(const lens_t& message) {
+  if (message.has_focal_length == 0) return;
+  const CameraIntrinsics& camera = configuration_.camera;
+  const double focal_px = message.focal_length * camera.width / message.width;
+  const bool fits = std::abs(focal_px - camera.fx) <= kFocalTolerance * camera.fx;
+  lens_fault_ = fits
+                    ? ""
+                    : fmt::format("{} says a focal length of {:.0f} px, configured are {:.0f} px (camera.fx)",
+                                  configuration_.channels.lens, focal_px, camera.fx);
+}
+
+void GeolocationNode::restart(CameraTime) {
+  geolocator_.restart();
+  clock_.restart();
+}
+
+bool GeolocationNode::isReadyFor(CameraTime time) const {
+  return isFinishing() || views_.hasPoseAt(imuTimeOf(time)) || now() >= time + kPoseWait;
+}
+
+bool GeolocationNode::processNext() {
+  if (pending_.empty() || !isInOrder(pending_) || !isReadyFor(pending_.frontTime())) return false;
+  const CameraTime time = pending_.frontTime();
+  const Frame frame = pending_.pop();
+  workOn(time, frame.arrival, [&] { locate(time, frame.message); });
+  return true;
+}
+
+std::string GeolocationNode::cameraFault(const detections_t& detections) const {
+  if (!lens_fault_.empty()) return lens_fault_;
+  const CameraIntrinsics& camera = configuration_.camera;
+  for (const detection_t& d : detections.detections) {
+    if (d.x >= 0 && d.y >= 0 && d.x + d.width <= camera.width && d.y + d.height <= camera.height) continue;
+    return fmt::format("{} are of another camera: a box ends at {},{} px, configured is an image of {}x{}",
+                       configuration_.channels.detections, d.x + d.width, d.y + d.height, camera.width,
+                       camera.height);
+  }
+  return "";
+}
+
+void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
+  const std::string camera_fault = cameraFault(detections);
+  const ViewEstimate estimate = views_.at(imuTimeOf(time));
+  if (views_.frame().takeRestart()) geolocator_.restart();
+  // A frame without a trusted mask shows nothing, not even that nobody moves.
+  const bool is_blind = !camera_fault.empty() || detections.status != foreground_t::GOOD;
+  const std::vector<Target> targets =
+      geolocator_.step(time, is_blind ? std::nullopt : estimate.view, boxesOf(detections));
+  noteResultReady();
+  targets_t message{};
+  message.status =
+      camera_fault.empty() ? static_cast<int8_t>(estimate.fault) : int8_t{targets_t::OTHER_CAMERA};
+  message.has_global = views_.frame().isGlobal() ? 1 : 0;
+  fillView(message, estimate);
+  if (estimate.view) {
+    const auto footprint = footprintOf(configuration_.camera, *camera_, *estimate.view,
+                                       configuration_.geolocation.min_depression_deg * kDegree);
+    if (footprint) fillFootprint(message, *footprint);
+  }
+  message.refused_horizon = geolocator_.refused().above_horizon;
+  message.refused_border = geolocator_.refused().cut_off;
+  message.targets.reserve(targets.size());
+  for (const Target& target : targets) message.targets.push_back(messageOf(target, views_.frame()));
+  message.n = static_cast<int32_t>(message.targets.size());
+  describe(message.status, estimate, camera_fault);
+  if (!isPlausible(message)) {
+    // Covariances that no estimator has, or a camera that is off its orbit: nothing follows from them.
+    geolocator_.restart();
+    message = {};
+    message.status = targets_t::NO_POSITION;
+    health().setState(HealthState::kDegraded, "from " + configuration_.channels.pose +
+                                                  " no plausible place follows: targets are forgotten");
+  }
+  publish(configuration_.channels.targets, message);
+}
+
+std::string GeolocationNode::faultText(const ViewEstimate& estimate) const {
+  const auto& channels = configuration_.channels;
+  switch (estimate.fault) {
+    case ViewFault::kNoPose:
+      return "no " + channels.pose + " has come: redbee-autopilot publishes it, where autopilot.link is set";
+    case ViewFault::kStalePose:
+      return fmt::format("the nearest {} is {:.2f} s from the frame, allowed are {:.2f} s", channels.pose,
+                         estimate.age_s, configuration_.geolocation.max_pose_age_s);
+    case ViewFault::kNoPosition:
+      return channels.pose + " has no position, neither by satellites nor from the place of take-off";
+    case ViewFault::kNoMount:
+      return "no " + channels.gimbal + " near the frame: geolocation.mount is gimbal";
+    case ViewFault::kNoHeight:
+      return "no height above ground: no " + channels.altimeter + ", and " + channels.pose +
+             " is not above the place of take-off";
+    default:
+      return "";
+  }
+}
+
+void GeolocationNode::describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault) {
+  if (status == targets_t::GOOD) {
+    const RefusedBoxes refused = geolocator_.refused();
+    return health().setState(
+        HealthState::kGood,
+        refused.above_horizon == 0
+            ? ""
+            : fmt::format("{} boxes less than {:.0f} deg below the horizon are not placed",
+                          refused.above_horizon, configuration_.geolocation.min_depression_deg));
+  }
+  health().setState(HealthState::kDegraded, camera_fault.empty() ? faultText(estimate) : camera_fault);
+}
+
+}  // namespace redbee

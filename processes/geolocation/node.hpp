@@ -1,0 +1,53 @@
+// DETECTIONS, POSE, GIMBAL, ALTIMETER and LENS in; TARGETS out.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "redbee/configuration/configuration.hpp"
+#include "redbee/detections_t.hpp"
+#include "redbee/geolocation/geolocator.hpp"
+#include "redbee/geolocation/view_estimator.hpp"
+#include "redbee/lens_t.hpp"
+#include "redbee/node/message_clock.hpp"
+#include "redbee/node/stage.hpp"
+#include "redbee/targets_t.hpp"
+
+namespace redbee {
+
+/// Answers each DETECTIONS in order of time, as soon as a pose of that time has come, or after a tenth of a
+/// second of message time without one.
+class GeolocationNode : public Stage {
+ public:
+  /// Throws UserError unless geolocation.enabled is set.
+  GeolocationNode(Bus& bus, const Configuration& configuration);
+  bool processNext() override;
+
+ private:
+  struct Frame {
+    detections_t message;
+    WorkTimer arrival;
+  };
+  void onDetections(const detections_t& message);
+  void onLens(const lens_t& message);
+  ImuTime imuTimeOf(CameraTime time) const { return toImu(time, timeshift_); }
+  bool isReadyFor(CameraTime time) const;
+  void locate(CameraTime time, const detections_t& detections);
+  /// What shows that the boxes are of another camera than the configured one; empty: nothing does.
+  std::string cameraFault(const detections_t& detections) const;
+  void describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault);
+  std::string faultText(const ViewEstimate& estimate) const;
+  void restart(CameraTime newest) override;
+  CameraTime now() const override { return clock_.now(); }
+
+  Configuration configuration_;
+  Duration timeshift_;
+  std::shared_ptr<const CameraModel> camera_;
+  ViewEstimator views_;
+  Geolocator geolocator_;
+  FrameQueue<Frame> pending_;
+  MessageClock clock_;
+  std::string lens_fault_;
+};
+
+}  // namespace redbee

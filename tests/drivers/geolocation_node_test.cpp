@@ -1,0 +1,174 @@
+// redbee-geolocation on messages: what it publishes, and what its health says where something is missing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "processes/geolocation/node.hpp"
+#include "redbee/foreground_t.hpp"
+#include "redbee/gimbal_t.hpp"
+#include "tests/support/target_flight.hpp"
+
+namespace redbee::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int64_t kStart_us = 1'000'000'000;
+constexpr int64_t kShift_us = 20'000;
+
+class GeolocationNodeTest : public testing::Test {
+ protected:
+  void begin(Configuration configuration = TargetFlight::configuration()) {
+    node_ = std::make_unique<GeolocationNode>(*bus_, configuration);
+    subscription_ =
+        bus_->subscribe<targets_t>("TARGETS", 1000, [this](const targets_t& m) { targets_.push_back(m); });
+  }
+  void settle() {
+    do {
+      while (bus_->handle(std::chrono::milliseconds(0))) {
+      }
+    } while (node_->processNext());
+    while (bus_->handle(std::chrono::milliseconds(0))) {
+    }
+  }
+  static int64_t utimeOf(double t) { return kStart_us + std::llround(t * 1e6); }
+  /// Frames of [from, to) seconds, each with the pose of its time.
+  void fly(double from, double to, bool has_pose = true, bool has_global = true) {
+    for (int k = static_cast<int>(std::lround(from * TargetFlight::kRate_hz));
+         k < to * TargetFlight::kRate_hz; ++k) {
+      const double t = k / TargetFlight::kRate_hz;
+      bus_->publish("DETECTIONS", TargetFlight{}.detections(utimeOf(t), t, k));
+      if (has_pose) {
+        bus_->publish("POSE", TargetFlight::pose(utimeOf(t) + kShift_us, t, has_global));
+        bus_->publish("ALTIMETER", TargetFlight::altimeter(utimeOf(t) + kShift_us));
+      }
+      settle();
+    }
+  }
+  process_health_t health() { return node_->health().nextMessage(); }
+
+  std::unique_ptr<Bus> bus_ = makeLcmBus("memq://");
+  std::unique_ptr<GeolocationNode> node_;
+  Subscription subscription_;
+  std::vector<targets_t> targets_;
+};
+
+TEST_F(GeolocationNodeTest, PlacesTheWalkerOnWgs84AndKeepsWhereItStopped) {
+  begin();
+  fly(0, 9);
+  ASSERT_EQ(targets_.size(), 216U);
+  const targets_t moving = targets_.back();
+  ASSERT_EQ(moving.n, 1);
+  EXPECT_EQ(moving.status, targets_t::GOOD);
+  EXPECT_EQ(moving.has_global, 1);
+  EXPECT_EQ(moving.targets[0].id, TargetFlight::kId);
+  EXPECT_EQ(moving.targets[0].state, target_t::MOVING);
+  const double t = 215 / TargetFlight::kRate_hz;
+  EXPECT_LT(TargetFlight{}.missOf(moving.targets[0].latitude, moving.targets[0].longitude, t), 0.15);
+  EXPECT_NEAR(moving.targets[0].velocity[0], 3.5, 0.2);
+  EXPECT_NEAR(moving.targets[0].velocity[1], 0, 0.2);
+  EXPECT_NEAR(moving.ground_altitude, TargetFlight::kHomeAltitude, 1e-6);
+  EXPECT_NEAR(moving.camera_height, TargetFlight::kHeight_m, 1e-6);
+  EXPECT_EQ(moving.has_footprint, 1);
+  EXPECT_EQ(health().state, process_health_t::GOOD);
+  fly(9, 20);
+  const targets_t stopped = targets_.back();
+  ASSERT_EQ(stopped.n, 1);
+  EXPECT_EQ(stopped.targets[0].state, target_t::STOPPED);
+  EXPECT_LT(TargetFlight{}.missOf(stopped.targets[0].latitude, stopped.targets[0].longitude, 20), 1.2)
+      << "within what it went in a third of a second";
+  for (const targets_t& m : targets_) EXPECT_EQ(faultOf(m), nullptr);
+}
+
+TEST_F(GeolocationNodeTest, WithoutAFixItCountsFromTheTakeOff) {
+  begin();
+  fly(0, 3, true, false);
+  const targets_t message = targets_.back();
+  ASSERT_EQ(message.n, 1);
+  EXPECT_EQ(message.has_global, 0);
+  const Eigen::Vector2d truth = TargetFlight{}.walkerPosition(71 / TargetFlight::kRate_hz);
+  EXPECT_NEAR(message.targets[0].position[0], truth.x(), 0.3);
+  EXPECT_NEAR(message.targets[0].position[1], truth.y(), 0.3);
+}
+
+TEST_F(GeolocationNodeTest, SaysThatNoPoseComes) {
+  begin();
+  fly(0, 1, false);
+  ASSERT_GT(targets_.size(), 15U) << "frames are answered all the same";
+  EXPECT_EQ(targets_.back().status, targets_t::NO_POSE);
+  EXPECT_EQ(health().state, process_health_t::DEGRADED);
+  EXPECT_THAT(health().message, HasSubstr("no POSE has come"));
+}
+
+TEST_F(GeolocationNodeTest, SaysThatThePoseIsStaleAndPredicts) {
+  begin();
+  fly(0, 3);
+  fly(3, 4, false);
+  EXPECT_EQ(targets_.back().status, targets_t::STALE_POSE);
+  EXPECT_THAT(health().message, HasSubstr("s from the frame, allowed are 0.20 s"));
+  ASSERT_EQ(targets_.back().n, 1);
+  EXPECT_EQ(targets_.back().targets[0].state, target_t::COASTING);
+  fly(4, 5);
+  EXPECT_EQ(targets_.back().status, targets_t::GOOD);
+  EXPECT_EQ(targets_.back().targets[0].state, target_t::MOVING);
+}
+
+TEST_F(GeolocationNodeTest, SaysThatTheDetectionsAreOfAnotherCamera) {
+  Configuration small = TargetFlight::configuration();
+  small.camera = {320, 200, 250, 250, 159.5, 99.5, {}};
+  begin(small);
+  fly(0, 1);
+  EXPECT_EQ(targets_.back().status, targets_t::OTHER_CAMERA);
+  EXPECT_EQ(targets_.back().n, 0);
+  EXPECT_THAT(health().message, HasSubstr("DETECTIONS are of another camera"));
+  EXPECT_THAT(health().message, HasSubstr("configured is an image of 320x200"));
+}
+
+TEST_F(GeolocationNodeTest, SaysThatTheLensIsNotTheConfiguredOne) {
+  begin();
+  fly(0, 1);
+  lens_t lens{};
+  lens.utime = utimeOf(1);
+  lens.has_focal_length = 1;
+  lens.width = 1280;
+  lens.focal_length = 2000;  // twice the configured 500 px of 640
+  bus_->publish("LENS", lens);
+  fly(1, 2);
+  EXPECT_EQ(targets_.back().status, targets_t::OTHER_CAMERA);
+  EXPECT_THAT(health().message, HasSubstr("LENS says a focal length of 1000 px, configured are 500 px"));
+}
+
+TEST_F(GeolocationNodeTest, SaysThatTheGimbalIsSilent) {
+  Configuration configuration = TargetFlight::configuration();
+  configuration.geolocation.mount = "gimbal";
+  begin(configuration);
+  fly(0, 1);
+  EXPECT_EQ(targets_.back().status, targets_t::NO_MOUNT);
+  EXPECT_THAT(health().message, HasSubstr("no GIMBAL near the frame"));
+}
+
+TEST_F(GeolocationNodeTest, AFrameWithoutATrustedMaskStopsNobody) {
+  begin();
+  fly(0, 3);
+  for (int k = 72; k < 144; ++k) {
+    const double t = k / TargetFlight::kRate_hz;
+    detections_t blind{};
+    blind.utime = utimeOf(t);
+    blind.sequence = k;
+    blind.status = foreground_t::NO_HOMOGRAPHY;
+    bus_->publish("DETECTIONS", blind);
+    bus_->publish("POSE", TargetFlight::pose(utimeOf(t) + kShift_us, t));
+    settle();
+  }
+  ASSERT_EQ(targets_.back().n, 1);
+  EXPECT_EQ(targets_.back().targets[0].state, target_t::COASTING);
+}
+
+TEST(GeolocationNode, NeedsToBeEnabled) {
+  Configuration configuration = TargetFlight::configuration();
+  configuration.geolocation.enabled = false;
+  const auto bus = makeLcmBus("memq://");
+  EXPECT_THROW(GeolocationNode(*bus, configuration), UserError);
+}
+
+}  // namespace
+}  // namespace redbee::test
