@@ -48,7 +48,8 @@ void expectVisionAlone(const StackFlight& changed, const std::string& reason) {
   const process_health_t& inertial = output.health.at("redbee-imu-integration");
   EXPECT_EQ(inertial.state, process_health_t::DEGRADED);
   EXPECT_NE(inertial.message.find(reason), std::string::npos) << inertial.message;
-  std::cout << visual << " of " << kFrames - kDecided << " frames by vision alone; " << inertial.message << "\n";
+  std::cout << visual << " of " << kFrames - kDecided << " frames by vision alone; " << inertial.message
+            << "\n";
 }
 
 /// Mounted a quarter turn about the vertical away from where the vehicle file says.
