@@ -57,6 +57,12 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box) {
 }  // namespace
 
 void ForegroundPublisher::publish(const image_t& image, CameraTime time_previous, DetectorOutput output) {
+  // Of any detector: most know nothing of the vehicle's own parts.
+  if (const cv::Mat1b& own_parts = camera_.rectifier().ownParts(); !own_parts.empty()) {
+    output.probability.setTo(0, own_parts);
+    output.mask.setTo(0, own_parts);
+    output.unknown.setTo(kUnknown, own_parts);
+  }
   output.probability = camera_.rectifier().toRaw(output.probability);
   output.mask = camera_.rectifier().toRaw(output.mask);
   output.unknown = camera_.rectifier().toRaw(output.unknown, kUnknown);

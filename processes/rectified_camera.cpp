@@ -20,9 +20,10 @@ CameraIntrinsics shrunk(CameraIntrinsics camera, int downscale) {
 
 }  // namespace
 
-RectifiedCamera::RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale)
+RectifiedCamera::RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale,
+                                 const cv::Mat1b& own_parts)
     : camera_(intrinsics),
-      rectifier_(camera_),
+      rectifier_(camera_, own_parts),
       downscale_(downscale),
       image_rectifier_(Camera(shrunk(intrinsics, downscale), shrunk(camera_.ideal(), downscale))) {}
 

@@ -20,7 +20,9 @@ class RectifiedCamera {
  public:
   /// `downscale`: 1, 2 or 4, of the images that ideal() returns; must divide width and height of the raw and
   /// of the ideal camera.
-  explicit RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale = 1);
+  /// `own_parts`: see Rectifier.
+  explicit RectifiedCamera(const CameraIntrinsics& intrinsics, int downscale = 1,
+                           const cv::Mat1b& own_parts = {});
 
   const Camera& camera() const { return camera_; }
   const Rectifier& rectifier() const { return rectifier_; }

@@ -32,6 +32,7 @@ Configuration loadConfiguration(const std::filesystem::path& file, const Configu
   loader.loadFile(file);
   loader.applyOverrides(overrides);
   loader.checkWhole(file);
+  loader.loadMask();
   return loader.configuration();
 }
 

@@ -72,6 +72,8 @@ struct ServeParameters {
 struct Configuration {
   std::string vehicle = "unnamed";
   CameraIntrinsics camera;
+  std::string mask;           ///< image file of the vehicle's own parts in the camera's images; empty: none
+  cv::Mat1b own_parts;        ///< its content when it was loaded: 255 where it is 128 or brighter, else 0
   bool has_imu = true;        ///< false: vision only, no process waits for the IMU
   bool has_altimeter = true;  ///< false: altimeter messages are ignored
   InertialParameters inertial;
@@ -102,7 +104,8 @@ class ConfigurationError : public UserError {
 ///   preset: default | paper | vision_only   overrides included files and is overridden by its own file's
 ///   keys
 /// Throws ConfigurationError on the first error: unknown, renamed or duplicate keys, wrong types, invalid
-/// values, a missing camera, duplicate channel names, timeouts in the wrong order, an extent threshold above
+/// values, a missing camera, duplicate channel names, an unusable
+/// camera.mask, timeouts in the wrong order, an extent threshold above
 /// its threshold, circular includes.
 Configuration loadConfiguration(const std::filesystem::path& file);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "redbee/configuration/configuration_preset.hpp"
@@ -127,6 +128,42 @@ void Loader::apply(const std::string& key, const YAML::Node& value, const Place&
     fail(place, key, error.what());
   }
   places_[key] = place;
+  if (key == "camera.mask" && !configuration_.mask.empty()) {
+    // Beside the file that names it; from then on the same wherever it is read.
+    const std::filesystem::path folder =
+        place.line == 0 ? std::filesystem::path() : std::filesystem::path(place.file).parent_path();
+    configuration_.mask = std::filesystem::absolute(folder / configuration_.mask).lexically_normal().string();
+  }
+}
+
+void Loader::loadMask() {
+  constexpr double kMostOfImage = 0.9;
+  const std::string key = "camera.mask";
+  const std::string& name = configuration_.mask;
+  if (name.empty()) return;
+  const Place& place = places_.at(key);
+  if (const std::string fault = faultOfFile(name); !fault.empty()) fail(place, key, name + " " + fault);
+  cv::Mat1b image;
+  try {
+    image = cv::imread(name, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {  // of a size that OpenCV refuses
+    image.release();
+  }
+  if (image.empty()) fail(place, key, name + " is no image");
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  const CameraIntrinsics& camera = configuration_.camera;
+  if (image.cols != camera.width || image.rows != camera.height) {
+    fail(place, key,
+         name + " has " + size(image.cols, image.rows) + " px, the camera " +
+             size(camera.width, camera.height));
+  }
+  configuration_.own_parts = image >= 128;
+  const double covered = cv::countNonZero(configuration_.own_parts) / static_cast<double>(image.total());
+  if (covered > kMostOfImage)
+    fail(place, key, name + " leaves less than a tenth of the image: white are the vehicle's own parts");
+  if (covered == 0) fail(place, key, name + " marks nothing: white are the vehicle's own parts");
 }
 
 void Loader::checkWhole(const std::filesystem::path& file) const {

@@ -21,6 +21,8 @@ class Loader {
   /// Checks that involve several keys: a missing camera, the wrong number of distortion coefficients,
   /// duplicate channel names, timeouts in the wrong order, an extent threshold above its threshold.
   void checkWhole(const std::filesystem::path& file) const;
+  /// Reads camera.mask. To be called after checkWhole().
+  void loadMask();
   const Configuration& configuration() const { return configuration_; }
 
  private:

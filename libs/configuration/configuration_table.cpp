@@ -31,6 +31,7 @@ Settings vehicleSettings() {
       setting("camera.R_CI", MEMBER(inertial.extrinsics.R_CI), rotation),
       setting("camera.p_IC", MEMBER(inertial.extrinsics.p_IC), anything),
       setting("camera.timeshift_s", MEMBER(inertial.extrinsics.timeshift_s), anything),
+      setting("camera.mask", MEMBER(mask), anything),
       setting("plane.height_m", MEMBER(inertial.extrinsics.start_height_m), positive),
       setting("plane.height_sigma_m", MEMBER(inertial.extrinsics.start_height_sigma_m), positive),
       setting("imu.present", MEMBER(has_imu), anything),

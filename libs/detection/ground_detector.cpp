@@ -66,6 +66,7 @@ DetectorOutput GroundDetector::process(const FrameInput& input, bool continues, 
   ForegroundMaps maps = learn(input);
   if (maps.foreground.empty()) maps.foreground = cv::Mat1b::zeros(size_);
   if (maps.unknown.empty()) maps.unknown = output.unknown;
+  if (!input.own_parts.empty()) maps.unknown |= input.own_parts;
   cv::Mat1b probability = refinement_.enabled ? refined(maps.foreground, input) : maps.foreground;
   ++learned_;
   if (!continues && !is_first) {

@@ -1,6 +1,7 @@
 #include "redbee/imaging/rectifier.hpp"
 
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 namespace redbee {
 namespace {
@@ -26,15 +27,24 @@ void tabulate(const CameraIntrinsics& size, const Mapping& mapping, cv::Mat& map
 
 }  // namespace
 
-Rectifier::Rectifier(const Camera& camera) {
-  if (!camera.isDistorted()) return;
+Rectifier::Rectifier(const Camera& camera, const cv::Mat1b& own_parts) {
+  const cv::Size raw_size(camera.intrinsics().width, camera.intrinsics().height);
+  if (!own_parts.empty() && own_parts.size() != raw_size)
+    throw std::invalid_argument("the mask of the vehicle's own parts has another size than the images");
+  if (!camera.isDistorted()) {
+    own_parts_ = unknown_ = own_parts.clone();
+    return;
+  }
   const auto distort = [&](const Eigen::Vector2d& ideal) { return camera.distort(ideal); };
   const auto undistort = [&](const Eigen::Vector2d& raw) { return camera.undistort(raw); };
   tabulate(camera.ideal(), distort, to_ideal_1_, to_ideal_2_);
   tabulate(camera.intrinsics(), undistort, to_raw_1_, to_raw_2_);
-  const cv::Mat shown(camera.intrinsics().height, camera.intrinsics().width, CV_8U, cv::Scalar(0));
+  const cv::Mat shown(raw_size, CV_8U, cv::Scalar(0));
   cv::remap(shown, unknown_, to_ideal_1_, to_ideal_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
   if (cv::countNonZero(unknown_) == 0) unknown_.release();
+  if (own_parts.empty()) return;
+  cv::remap(own_parts, own_parts_, to_ideal_1_, to_ideal_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 0);
+  unknown_ = unknown_.empty() ? own_parts_.clone() : cv::Mat1b(unknown_ | own_parts_);
 }
 
 cv::Mat Rectifier::toIdeal(const cv::Mat& raw) const {

@@ -15,6 +15,11 @@ namespace {
 /// the inliers of the predicted plane.
 constexpr double kContradiction = 0.6;
 constexpr double kOverwhelming = 2.0;
+/// A rotation in wrong units or axes leads every search astray, and vision would never find what contradicts
+/// it.
+constexpr int kMostFailures = 5;
+/// Long enough for the contradiction to be noticed (inertial/vision_agreement.hpp).
+constexpr Duration kWithoutPrediction = std::chrono::seconds(2);
 
 /// Mean squared gradient [grey levels^2] of the half-size image in the direction with the smallest: noise has
 /// little effect at half size, and motion blur affects one direction only.
@@ -121,6 +126,13 @@ std::optional<HomographyEstimate> VisualHomographyEstimator::estimateGround(
   return largest;
 }
 
+void VisualHomographyEstimator::noteOutcome(bool predicted, bool found) {
+  if (predicted) failures_ = found ? 0 : failures_ + 1;
+  if (failures_ < kMostFailures) return;
+  failures_ = 0;
+  unpredicted_until_ = *previous_time_ + kWithoutPrediction;
+}
+
 VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat1b& grey,
                                                  const std::optional<HomographyPrediction>& prediction) {
   if (grey.empty()) throw std::invalid_argument("the visual stage needs an image");
@@ -139,8 +151,9 @@ VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat1
     result.status = VisualStatus::kNoTexture;
     return result;
   }
+  const bool is_ignored = connected && unpredicted_until_ && time < *unpredicted_until_;
   const std::optional<Eigen::Matrix3d> guess =
-      prediction && prediction->H.allFinite() ? std::optional(prediction->H) : std::nullopt;
+      prediction && prediction->H.allFinite() && !is_ignored ? std::optional(prediction->H) : std::nullopt;
   if (connected && isRepeated(time, half, guess)) {
     result.status = VisualStatus::kRepeated;
     return result;
@@ -151,10 +164,12 @@ VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat1
 
   if (static_cast<int>(result.tracks.previous.size()) < parameters_.ransac.min_inliers) {
     result.status = VisualStatus::kNoTexture;
+    noteOutcome(guess.has_value(), false);
     return result;
   }
   result.ground = estimateGround(result.tracks, guess ? prediction : std::nullopt);
   result.status = result.ground ? VisualStatus::kGood : VisualStatus::kNoPlane;
+  noteOutcome(guess.has_value(), result.ground.has_value());
   return result;
 }
 

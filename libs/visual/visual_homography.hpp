@@ -59,7 +59,8 @@ class VisualHomographyEstimator {
   /// `grey`: undistorted; throws std::invalid_argument if it is empty. A blank or blurred frame
   /// (kNoTexture) or a repeated one does not become the reference: the next one is tracked from the last good
   /// frame, unless that is older than max_frame_gap_s, so `prediction` starts at previousTime(). A time that
-  /// does not increase restarts from this frame.
+  /// does not increase restarts from this frame. After five frames in a row without a plane the prediction is
+  /// ignored for two seconds: it may be what is wrong.
   VisualHomography step(CameraTime time, const cv::Mat1b& grey,
                         const std::optional<HomographyPrediction>& prediction);
 
@@ -69,6 +70,7 @@ class VisualHomographyEstimator {
   bool isRepeated(CameraTime time, const cv::Mat1b& half,
                   const std::optional<Eigen::Matrix3d>& predicted) const;
   bool lacksTexture(const Pyramid& image, double sharpness) const;
+  void noteOutcome(bool predicted, bool found);
   std::optional<HomographyEstimate> estimateGround(
       const PointTracks& tracks, const std::optional<HomographyPrediction>& prediction) const;
 
@@ -78,6 +80,8 @@ class VisualHomographyEstimator {
   cv::Size size_;
   cv::Mat1b reference_half_;        ///< the reference frame at half size
   double reference_sharpness_ = 0;  ///< of the reference frame; 0 if there is none
+  int failures_ = 0;                ///< frames in a row that had a prediction, and no plane
+  std::optional<CameraTime> unpredicted_until_;
 };
 
 }  // namespace redbee

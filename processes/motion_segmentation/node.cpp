@@ -40,7 +40,7 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
       configuration_(configuration),
       detector_(std::move(detector)),
       needs_(detector_->needs()),
-      camera_(configuration.camera, imageDownscale(needs_, configuration.camera)),
+      camera_(configuration.camera, imageDownscale(needs_, configuration.camera), configuration.own_parts),
       foreground_(publisher(), configuration_, camera_),
       visual_(fromSeconds(configuration.waits.segmentation_s), needs_.camera_motion) {
   const auto& channels = configuration_.channels;
@@ -78,6 +78,7 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message) {
   input.time_previous = last_.value_or(input.time);
   input.K = camera_.camera().K();
   input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
+  input.own_parts = camera_.rectifier().ownParts();
   input.sample_grid_px = configuration_.visual.tracker.grid_px;
   if (!last_) return input;
   if (std::optional<FrameStep> step = stepAlong(companions(), *last_, input.time)) {

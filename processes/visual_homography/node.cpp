@@ -12,7 +12,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
                  fromSeconds(configuration.waits.visual_s), configuration.has_imu),
       configuration_(configuration),
       camera_(configuration.camera),
-      rectifier_(camera_),
+      rectifier_(camera_, configuration.own_parts),
       estimator_(std::make_unique<VisualHomographyEstimator>(configuration.visual, rectifier_.unknown())) {
   on<inertial_homography_t>(configuration_.channels.inertial_homography,
                             [this](const inertial_homography_t& m) {

@@ -45,5 +45,39 @@ TEST(Rectifier, MarksWhatTheRawImageDoesNotShow) {
   EXPECT_EQ(ideal.at<uchar>(0, 0), 0);
 }
 
+cv::Mat1b cornerOfParts() {
+  cv::Mat1b parts(480, 640, uchar{0});
+  parts(cv::Rect(0, 0, 200, 100)).setTo(255);
+  return parts;
+}
+
+TEST(Rectifier, OwnPartsOfAnIdealCameraAreUnknown) {
+  const cv::Mat1b parts = cornerOfParts();
+  const Rectifier rectifier(Camera({640, 480, 500, 500, 319.5, 239.5, {}}), parts);
+  EXPECT_EQ(cv::countNonZero(rectifier.unknown() != parts), 0);
+  EXPECT_EQ(cv::countNonZero(rectifier.ownParts() != parts), 0);
+}
+
+TEST(Rectifier, OwnPartsOfALensAreUnknownBesideWhatItDoesNotShow) {
+  CameraIntrinsics pincushion{640, 480, 500, 500, 319.5, 239.5, {0.2, 0, 0, 0, 0}};
+  const Camera camera(pincushion);
+  const Rectifier without(camera);
+  const Rectifier rectifier(camera, cornerOfParts());
+  EXPECT_EQ(cv::countNonZero(without.unknown() & ~rectifier.unknown()), 0) << "nothing becomes known";
+  for (const Eigen::Vector2d& raw : {Eigen::Vector2d(100, 50), Eigen::Vector2d(190, 90)}) {
+    const auto ideal = camera.undistort(raw);
+    ASSERT_TRUE(ideal);
+    EXPECT_EQ(rectifier.ownParts()(cvRound(ideal->y()), cvRound(ideal->x())), 255);
+  }
+  const auto beside = camera.undistort({230, 120});
+  ASSERT_TRUE(beside);
+  EXPECT_EQ(rectifier.unknown()(cvRound(beside->y()), cvRound(beside->x())), 0);
+}
+
+TEST(Rectifier, OwnPartsOfAnotherSizeAreRefused) {
+  const Camera camera({64, 48, 50, 50, 31.5, 23.5, {}});
+  EXPECT_THROW(Rectifier(camera, cornerOfParts()), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace redbee::test

@@ -76,6 +76,27 @@ TEST(VisualHomography, SimulatedFlight) {
   EXPECT_EQ(front_planes, 0);
 }
 
+TEST(VisualHomography, APredictionThatLeadsNowhereIsIgnored) {
+  const simulation::FlightSimulator flight(simulation::groundOnly(2));
+  VisualHomographyEstimator estimator({});
+  HomographyPrediction wrong{Eigen::Matrix3d::Identity(), 1e-6 * Matrix8d::Identity()};
+  wrong.H(0, 2) = 300;  // px, far beyond what the search reaches
+  int lost = 0, found = 0;
+  for (int k = 0; k < 20; ++k) {
+    const auto frame = flight.frame(k);
+    const VisualHomography result = estimator.step(frame.time, frame.image.grey, wrong);
+    if (k == 0) continue;
+    if (result.status != VisualStatus::kGood) {
+      ++lost;
+      continue;
+    }
+    ++found;
+    EXPECT_LT(meanTransferError(result.ground->H, flight.homography(k), 640, 480), 0.2) << "frame " << k;
+  }
+  EXPECT_EQ(lost, 5);
+  EXPECT_EQ(found, 14);
+}
+
 TEST(VisualHomography, BlankBlackAndBlurredFramesAreNoHomography) {
   cv::Mat blurred;
   cv::GaussianBlur(still(3), blurred, {}, 9);

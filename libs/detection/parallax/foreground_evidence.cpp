@@ -79,10 +79,11 @@ void ForegroundEvidence::resizeToBackground(cv::Mat1f& foreground, SurfaceSpeed&
 }
 
 ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey, const cv::Mat3b& colour,
-                                         const Eigen::Matrix3d& K, cv::Size full) {
+                                         const Eigen::Matrix3d& K, cv::Size full,
+                                         const cv::Mat1b& own_parts) {
   const double elapsed_s = seconds(time - last_time_);
   last_time_ = time;
-  const cv::Mat1f motion = motion_.learn(time, grey, K, full);
+  const cv::Mat1f motion = motion_.learn(time, grey, K, full, own_parts);
   cv::Mat1f foreground;
   if (!motion.empty()) foreground = motion / (motion + parallax_.motion_half);
   if (appearance_.enabled) {
@@ -103,6 +104,11 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
       if (parallax_.region_radius_px > 0) fillRegions(image, foreground);
       // Half is enough: an object learned as background would be missed for the model's whole span.
       moving = cv::min(2 * foreground, 1);
+    }
+    if (!own_parts.empty()) {  // the background behind them stays what it was
+      cv::Mat1b covered;
+      cv::resize(own_parts, covered, image.size(), 0, 0, cv::INTER_NEAREST);
+      moving.setTo(1, covered);
     }
     background_.learn(image, moving, speed, elapsed_s);
   }

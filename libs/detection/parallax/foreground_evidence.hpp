@@ -27,8 +27,9 @@ class ForegroundEvidence {
 
   /// Classifies the image, then learns it. Returns maps of the size `full`, empty if there is no earlier
   /// frame. `grey` may be smaller; `colour`: of grey's size, or empty if the camera is grey.
+  /// `own_parts`: see FrameInput.
   ForegroundMaps learn(CameraTime time, const cv::Mat1b& grey, const cv::Mat3b& colour,
-                       const Eigen::Matrix3d& K, cv::Size full);
+                       const Eigen::Matrix3d& K, cv::Size full, const cv::Mat1b& own_parts = {});
 
  private:
   void resizeToBackground(cv::Mat1f& foreground, SurfaceSpeed& speed, cv::Size size) const;

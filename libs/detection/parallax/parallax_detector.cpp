@@ -22,7 +22,7 @@ void ParallaxDetector::warpBackground(const FrameInput& input) {
 }
 
 ForegroundMaps ParallaxDetector::learn(const FrameInput& input) {
-  return evidence_.learn(input.time, input.grey, input.colour, input.K, input.fullSize());
+  return evidence_.learn(input.time, input.grey, input.colour, input.K, input.fullSize(), input.own_parts);
 }
 
 }  // namespace redbee

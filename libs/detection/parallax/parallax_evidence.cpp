@@ -92,8 +92,10 @@ void ParallaxEvidence::propagate(const Eigen::Matrix3d& ground, const std::optio
 }
 
 cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
-                                  cv::Size full) {
+                                  cv::Size full, const cv::Mat1b& own_parts) {
   cv::Mat1b small;
+  own_parts_.release();
+  if (!own_parts.empty()) cv::resize(own_parts, own_parts_, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::resize(grey, small, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
   cv::Mat1f found;
   compared_.reset();
@@ -109,11 +111,24 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
   return found;
 }
 
+/// Neither image shows the scene there.
+void ParallaxEvidence::leaveOutOwnParts(const EarlierFrame& frame, const Eigen::Matrix3d& K) {
+  if (own_parts_.empty()) return;
+  EarlierFrame parts = frame;
+  parts.grey = own_parts_;
+  cv::Mat1b covered = alignImage(parts, K, 0).grey > 0;
+  covered |= own_parts_ > 0;
+  const int side = 2 * (search_.patch() / 2) + 1;
+  cv::dilate(covered, covered, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+  unknown_ |= covered;
+}
+
 cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b& grey,
                                      const Eigen::Matrix3d& K, double frames) {
   // Within half a patch of unknown pixels the flow is extrapolated.
   const AlignedImage reference = alignImage(frame, K, search_.patch() / 2);
   unknown_ = reference.unknown;
+  leaveOutOwnParts(frame, K);
   const cv::Mat2f& flow = search_.flow(grey, reference.grey);
   const FlowTexture texture(grey, scale_);
   FlowCovariance covariance = texture.covariance({parameters_.noise_px, parameters_.min_gradient});

@@ -38,7 +38,9 @@ class ParallaxEvidence {
                  const std::optional<PlaneMotion>& motion);
   /// Evidence of motion, 0..1, at work_downscale; empty if there is no earlier frame. Stores the image (of
   /// size `full` or smaller).
-  cv::Mat1f learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full);
+  /// `own_parts`: see FrameInput; unknown where they are and where they were.
+  cv::Mat1f learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full,
+                  const cv::Mat1b& own_parts = {});
 
   /// 255 where the reference frame of the last learn() does not show the scene; at work_downscale.
   const cv::Mat1b& unknown() const { return unknown_; }
@@ -52,6 +54,7 @@ class ParallaxEvidence {
   cv::Mat1f photometricGain(const cv::Mat1f& foreground) const;
 
  private:
+  void leaveOutOwnParts(const EarlierFrame& frame, const Eigen::Matrix3d& K);
   cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
                      double frames);
   /// By the epipole, or else by the front plane. `error`: of the registration without parallax.
@@ -78,6 +81,7 @@ class ParallaxEvidence {
   Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< pixels at work_downscale
   double elapsed_s_ = 0;                                     ///< between the last two frames
   bool fast_ = false;                                        ///< the last frame had fast movers
+  cv::Mat1b own_parts_;                                      ///< at work_downscale; empty: none
   cv::Mat1b unknown_;
   cv::Mat2f speed_;
   cv::Mat2f normalized_residual_, nearest_;  ///< ParallaxSegment::Residual

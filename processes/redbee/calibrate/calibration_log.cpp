@@ -87,7 +87,7 @@ class LogIntake {
       : log_(log),
         configuration_(configuration),
         input_(input),
-        rectifier_(Camera(configuration.camera)),
+        rectifier_(Camera(configuration.camera), configuration.own_parts),
         tracker_(configuration.visual.tracker, rectifier_.unknown()) {
     for (const int delay : {0, 3, 6, 9})
       long_baselines_.emplace_back(configuration.visual.tracker, rectifier_.unknown(), delay);
