@@ -13,9 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How far from the first frame an altitude is still the start height.
-constexpr Duration kStartHeightWindow = std::chrono::milliseconds(200);
-
 struct NamedFrame {
   CameraTime time{};
   std::string name;
@@ -78,16 +75,6 @@ std::vector<AltitudeSample> readAltitudes(const fs::path& folder) {
     samples.push_back({time, csv.number(1), sigma});
   }
   return samples;
-}
-
-std::optional<AltitudeSample> altitudeAt(const std::vector<AltitudeSample>& altitudes, ImuTime time) {
-  std::optional<AltitudeSample> nearest;
-  for (const AltitudeSample& sample : altitudes) {
-    const Duration distance = std::chrono::abs(sample.time - time);
-    if (distance > kStartHeightWindow || sample.height_m <= 0) continue;
-    if (!nearest || distance < std::chrono::abs(nearest->time - time)) nearest = sample;
-  }
-  return nearest;
 }
 
 void describeExtrinsics(const SensorPose& camera, const SensorPose& imu, VehicleDescription& vehicle) {
@@ -171,7 +158,7 @@ ImportSummary importAsl(const ImportOptions& options, Progress& progress) {
   describeVehicle(mav, has_imu, summary);
   summary.vehicle.name =
       fs::weakly_canonical(mav.filename() == "mav0" ? mav.parent_path() : mav).filename().string();
-  summary.vehicle.start_height = altitudeAt(altitudes, toImu(frames.front().time, Duration(0)));
+  summary.vehicle.start_height = startHeight(altitudes, toImu(frames.front().time, Duration(0)));
 
   FlightMerger merger(options.log, options.channels, imu, altitudes);
   if (has_imu) merger.requirePlausibleImu(imu_file, options.units);

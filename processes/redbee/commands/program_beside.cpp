@@ -1,5 +1,7 @@
 #include "processes/redbee/commands/program_beside.hpp"
 
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -9,18 +11,35 @@
 #include <filesystem>
 #include <vector>
 
+#include "redbee/files/user_error.hpp"
+
 namespace redbee {
 namespace {
 
-void replaceBy(const std::filesystem::path& program, const std::string& subcommand,
-               std::vector<std::string> arguments) {
-  std::vector<std::string> words{program.string(), subcommand};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+using Words = std::vector<std::string>;
+
+std::filesystem::path beside(const std::string& program) {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
+}
+
+/// PROGRAM SUBCOMMAND ARGUMENT..., as exec wants it; it points into the words.
+std::vector<char*> argumentsOf(Words& words) {
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  execv(program.c_str(), argv.data());
+  return argv;
+}
+
+Words wordsOf(const std::filesystem::path& program, const std::string& subcommand, const Words& arguments) {
+  Words words{program.string(), subcommand};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
+void replaceBy(const std::filesystem::path& program, const std::string& subcommand, const Words& arguments) {
+  Words words = wordsOf(program, subcommand, arguments);
+  execv(program.c_str(), argumentsOf(words).data());
   std::fprintf(stderr, "%s: cannot be started: %s (build it with scripts/build release %s)\n",
                program.c_str(), std::strerror(errno), program.filename().c_str());
   throw CLI::RuntimeError(2);
@@ -33,10 +52,30 @@ Command::Setup programBeside(const std::string& program) {
     command.set_help_flag();
     command.prefix_command();
     command.callback([program, &command] {
-      const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-      replaceBy(folder / program, command.get_name(), command.remaining());
+      replaceBy(beside(program), command.get_name(), command.remaining());
     });
   };
+}
+
+void runProgramBeside(const std::string& program, const std::string& subcommand, const Words& arguments,
+                      const std::string& how) {
+  Words words = wordsOf(beside(program), subcommand, arguments);
+  std::fflush(stdout);
+  pid_t child = 0;
+  if (const int error =
+          posix_spawn(&child, words.front().c_str(), nullptr, nullptr, argumentsOf(words).data(), environ);
+      error != 0) {
+    throw UserError(words.front() + ": cannot be started: " + std::strerror(error) + " (" + how + ")");
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status)) {
+    std::fprintf(stderr, "%s: ended by signal %d (%s): its input is damaged\n", program.c_str(), WTERMSIG(status),
+                 strsignal(WTERMSIG(status)));
+    throw CLI::RuntimeError(2);
+  }
+  if (WEXITSTATUS(status) != 0) throw CLI::RuntimeError(WEXITSTATUS(status));
 }
 
 }  // namespace redbee

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "processes/redbee/commands/command.hpp"
 
@@ -10,5 +11,11 @@ namespace redbee {
 /// Replaces the process by `program`, with the same arguments. Where it has not been built: one line, and
 /// exit code 2.
 Command::Setup programBeside(const std::string& program);
+
+/// Runs `program SUBCOMMAND ARGUMENT...` and waits for it. Throws UserError where it cannot be started, with
+/// `how` to get it; CLI::RuntimeError with its exit code where that is not 0, after one line and with 2 where
+/// a signal ended it.
+void runProgramBeside(const std::string& program, const std::string& subcommand,
+                      const std::vector<std::string>& arguments, const std::string& how);
 
 }  // namespace redbee
