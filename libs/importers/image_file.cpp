@@ -140,8 +140,7 @@ GreyRange ValueHistogram::range() const {
   const auto valueAt = [&](double fraction) {
     int64_t below = 0;
     size_t value = 0;
-    while (value + 1 < counts_.size() &&
-           (below += counts_[value]) <= fraction * static_cast<double>(total_))
+    while (value + 1 < counts_.size() && (below += counts_[value]) <= fraction * static_cast<double>(total_))
       ++value;
     return static_cast<double>(value);
   };

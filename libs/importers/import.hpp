@@ -42,7 +42,7 @@ struct ImportOptions {
   bool keep_going = false;  ///< damage of a video is passed over
   /// See readImuCsv(). The axes are the IMU's; the vehicle's R_CI relates the camera to them.
   std::optional<std::filesystem::path> imu;
-  ImuUnits units;  ///< of the IMU's samples where the recording does not state them
+  ImuUnits units;         ///< of the IMU's samples where the recording does not state them
   RosTopicChoice topics;  ///< of a recording of ROS messages
   /// Kalibr's camchain.yaml or camchain-imucam.yaml; what it states counts before what the recording states.
   std::optional<std::filesystem::path> camchain;

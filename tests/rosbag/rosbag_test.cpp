@@ -102,7 +102,7 @@ TEST_P(RosbagCompression, EveryMessageComesInAtItsStamp) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RosbagCompression, testing::Values("none", "bz2", "lz4"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& compression) { return compression.param; });
 
 TEST_F(RosbagTest, TheVehicleIsWhatTheBagStates) {
   make("plain");
@@ -122,13 +122,15 @@ TEST_F(RosbagTest, OfARectifiedImageTheProjectionMatrixCounts) {
   const auto camera = import().vehicle.intrinsics;
   ASSERT_TRUE(camera);
   EXPECT_DOUBLE_EQ(camera->fx, 28);
-  EXPECT_TRUE(std::all_of(camera->distortion.begin(), camera->distortion.end(), [](double k) { return k == 0; }));
+  EXPECT_TRUE(
+      std::all_of(camera->distortion.begin(), camera->distortion.end(), [](double k) { return k == 0; }));
 }
 
 TEST_F(RosbagTest, OfSeveralCamerasOneIsChosen) {
   make("stereo");
-  expectError("several topics with images: choose one with --image-topic: /cam0/image_raw (20 sensor_msgs/Image), "
-              "/cam1/image_raw (20 sensor_msgs/Image)");
+  expectError(
+      "several topics with images: choose one with --image-topic: /cam0/image_raw (20 sensor_msgs/Image), "
+      "/cam1/image_raw (20 sensor_msgs/Image)");
   options_.topics.image = "/cam2/image_raw";
   expectError("holds no images on /cam2/image_raw (--image-topic); it has /cam0/image_raw");
   options_.topics.image = "/cam0/image_raw";

@@ -63,14 +63,15 @@ class ImageTrack {
   /// Throws InputError if there was no image.
   void finish(ImportSummary& summary) const {
     if (frames_ == 0)
-      throw InputError(damaged_ > 0 ? first_fault_ : options_.source.string() + ": " + topic_.name + ": no images");
+      throw InputError(damaged_ > 0 ? first_fault_
+                                    : options_.source.string() + ": " + topic_.name + ": no images");
     if (damaged_ > 0)
-      summary.warnings.push_back(fmt::format("{} of {} images are damaged and left out; the first: {}", damaged_,
-                                             number_, first_fault_));
+      summary.warnings.push_back(fmt::format("{} of {} images are damaged and left out; the first: {}",
+                                             damaged_, number_, first_fault_));
     if (repeated_ > 0)
-      summary.warnings.push_back(fmt::format(
-          "{}: {} of {} images do not come after the one before by their stamps and are left out", topic_.name,
-          repeated_, number_));
+      summary.warnings.push_back(
+          fmt::format("{}: {} of {} images do not come after the one before by their stamps and are left out",
+                      topic_.name, repeated_, number_));
   }
 
   int64_t number() const { return number_; }

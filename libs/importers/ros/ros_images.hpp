@@ -11,9 +11,9 @@
 
 namespace redbee {
 
-/// Its time is the stamp, or where that is 0 when it was logged. Grey stays raw, JPEG stays as it is, all else
-/// becomes JPEG. Throws RosMessageError for a damaged message
-/// or an encoding that is not read, InputError with `source` for a damaged JPEG or PNG.
+/// Its time is the stamp, or where that is 0 when it was logged. Grey stays raw, JPEG stays as it is, all
+/// else becomes JPEG. Throws RosMessageError for a damaged message or an encoding that is not read,
+/// InputError with `source` for a damaged JPEG or PNG.
 LoadedImage convertRosImage(const RosMessage& message, const std::filesystem::path& source,
                             const ImageOptions& options);
 

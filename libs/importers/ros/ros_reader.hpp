@@ -42,8 +42,7 @@ class RosReader {
     align(sizeof(Number));
     const uint8_t* from = take(sizeof(Number));
     uint8_t native[sizeof(Number)];
-    for (size_t i = 0; i < sizeof(Number); ++i)
-      native[i] = from[is_big_endian_ ? sizeof(Number) - 1 - i : i];
+    for (size_t i = 0; i < sizeof(Number); ++i) native[i] = from[is_big_endian_ ? sizeof(Number) - 1 - i : i];
     Number value;
     std::memcpy(&value, native, sizeof(Number));
     return value;
@@ -76,8 +75,7 @@ class RosReader {
     const uint8_t* header = take(4);
     const int kind = header[1];
     constexpr int kCdrBig = 0, kCdrLittle = 1, kCdr2Big = 6, kCdr2Little = 7;
-    if (header[0] != 0 ||
-        (kind != kCdrBig && kind != kCdrLittle && kind != kCdr2Big && kind != kCdr2Little))
+    if (header[0] != 0 || (kind != kCdrBig && kind != kCdrLittle && kind != kCdr2Big && kind != kCdr2Little))
       throw RosMessageError("does not start like CDR");
     is_big_endian_ = kind == kCdrBig || kind == kCdr2Big;
     most_alignment_ = kind == kCdr2Big || kind == kCdr2Little ? 4 : 8;

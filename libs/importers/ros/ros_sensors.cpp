@@ -32,9 +32,11 @@ ImuTime timeOf(int64_t stamp_ns, const RosMessage& message, Counts& counts) {
 ImuSample imuSample(const RosMessage& message, const ImuUnits& units, Counts& counts) {
   const RosImu imu = readRosImu(message.bytes, message.topic->encoding);
   if (!imu.has_gyro || !imu.has_accel)
-    throw RosMessageError(std::string("has no ") + (imu.has_gyro ? "linear_acceleration" : "angular_velocity") +
+    throw RosMessageError(std::string("has no ") +
+                          (imu.has_gyro ? "linear_acceleration" : "angular_velocity") +
                           ": choose another topic with --imu-topic, or none");
-  if (!imu.gyro.allFinite() || !imu.accel.allFinite()) throw RosMessageError("has values that are not finite");
+  if (!imu.gyro.allFinite() || !imu.accel.allFinite())
+    throw RosMessageError("has values that are not finite");
   ImuSample sample;
   sample.time = timeOf(imu.stamp_ns, message, counts);
   sample.gyro = factorOf(gyroUnits(), units.gyro, "--gyro-unit") * imu.gyro;
@@ -53,8 +55,8 @@ void sortByTime(std::vector<Sample>& samples, const std::string& topic, std::vec
   const auto end = std::unique(samples.begin(), samples.end(),
                                [](const Sample& a, const Sample& b) { return a.time == b.time; });
   if (end == samples.end()) return;
-  warnings.push_back(
-      fmt::format("{}: {} messages repeat the stamp of another and are left out", topic, samples.end() - end));
+  warnings.push_back(fmt::format("{}: {} messages repeat the stamp of another and are left out", topic,
+                                 samples.end() - end));
   samples.erase(end, samples.end());
 }
 
@@ -86,7 +88,8 @@ void addRange(const RosMessage& message, RosSensors& sensors, Counts& counts) {
   sensors.altitudes.push_back({timeOf(range.stamp_ns, message, counts), range.range, kRangeSigma});
 }
 
-void addMessage(const RosMessage& message, const ImportOptions& options, RosSensors& sensors, Counts& counts) {
+void addMessage(const RosMessage& message, const ImportOptions& options, RosSensors& sensors,
+                Counts& counts) {
   switch (rosKindOf(message.topic->type)) {
     case RosKind::kImu:
       sensors.imu.push_back(imuSample(message, options.units, counts));
@@ -103,7 +106,9 @@ void addMessage(const RosMessage& message, const ImportOptions& options, RosSens
   }
 }
 
-bool isRectified(const std::string& image_topic) { return image_topic.find("image_rect") != std::string::npos; }
+bool isRectified(const std::string& image_topic) {
+  return image_topic.find("image_rect") != std::string::npos;
+}
 
 }  // namespace
 
@@ -137,7 +142,8 @@ RosSensors readRosSensors(RosRecording& recording, const RosTopics& topics, cons
   if (topics.imu) sortByTime(sensors.imu, topics.imu->name, sensors.warnings);
   if (topics.range) {
     sortByTime(sensors.altitudes, topics.range->name, sensors.warnings);
-    sensors.warnings.push_back(fmt::format("{}: a sigma of {:g} m is assumed", topics.range->name, kRangeSigma));
+    sensors.warnings.push_back(
+        fmt::format("{}: a sigma of {:g} m is assumed", topics.range->name, kRangeSigma));
   }
   return sensors;
 }
@@ -160,7 +166,8 @@ std::optional<CameraIntrinsics> intrinsicsOf(const RosCameraInfo& info, const st
   const CameraModelType* type = findCameraModel(info.distortion_model);
   const std::string fault = type == nullptr ? "is not supported, only " + cameraModelNames()
                                             : coefficientFault(*type, info.D.size());
-  const bool is_finite_lens = std::all_of(info.D.begin(), info.D.end(), [](double k) { return std::isfinite(k); });
+  const bool is_finite_lens =
+      std::all_of(info.D.begin(), info.D.end(), [](double k) { return std::isfinite(k); });
   if (!fault.empty() || !is_finite_lens) {
     throw InputError(file, "camera_info's distortion_model '" + info.distortion_model + "' " +
                                (fault.empty() ? "has coefficients that are not finite" : fault) +

@@ -62,17 +62,18 @@ std::string cameraInfoOf(const std::string& image, const Topics& topics) {
 
 RosTopics chooseRosTopics(const Topics& topics, const RosTopicChoice& choice,
                           const std::filesystem::path& file) {
-  const auto image =
-      choose(topics, choice.image,
-             {{RosKind::kImage, RosKind::kCompressedImage}, "images", "--image-topic"}, file);
+  const auto image = choose(topics, choice.image,
+                            {{RosKind::kImage, RosKind::kCompressedImage}, "images", "--image-topic"}, file);
   if (!image)
-    throw InputError(file, "holds no images (sensor_msgs Image or CompressedImage); it has " + listOf(topics));
+    throw InputError(file,
+                     "holds no images (sensor_msgs Image or CompressedImage); it has " + listOf(topics));
   RosTopics chosen{*image, {}, {}, {}};
   chosen.imu = choose(topics, choice.imu, {{RosKind::kImu}, "an IMU", "--imu-topic"}, file);
   chosen.range = choose(topics, choice.range, {{RosKind::kRange}, "a range", "--range-topic"}, file);
-  const std::string info = choice.camera_info.empty() ? cameraInfoOf(image->name, topics) : choice.camera_info;
-  chosen.camera_info = choose(topics, info,
-                              {{RosKind::kCameraInfo}, "a camera_info", "--camera-info-topic"}, file);
+  const std::string info =
+      choice.camera_info.empty() ? cameraInfoOf(image->name, topics) : choice.camera_info;
+  chosen.camera_info =
+      choose(topics, info, {{RosKind::kCameraInfo}, "a camera_info", "--camera-info-topic"}, file);
   return chosen;
 }
 

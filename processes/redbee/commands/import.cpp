@@ -13,9 +13,8 @@ namespace {
 void addRosbag(CLI::App& command) {
   command.set_help_flag();
   command.prefix_command();
-  command.callback([&command] {
-    runProgramBeside(kRosbagProgram, kRosbagName, command.remaining(), kRosbagMissing);
-  });
+  command.callback(
+      [&command] { runProgramBeside(kRosbagProgram, kRosbagName, command.remaining(), kRosbagMissing); });
 }
 
 void addImporters(CLI::App& command) {

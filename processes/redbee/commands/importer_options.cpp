@@ -35,8 +35,8 @@ void setUpImporter(CLI::App& command, const Importer& importer) {
     command.add_option("further", options->further_sources, "the chapters that follow");
   if (importer.takes.imu) {
     command.add_option("--imu", options->imu,
-                        "IMU samples, CSV with the columns t_s,gx,gy,gz,ax,ay,az in its first line "
-                        "(s since the start of the video, rad/s, m/s^2)");
+                       "IMU samples, CSV with the columns t_s,gx,gy,gz,ax,ay,az in its first line "
+                       "(s since the start of the video, rad/s, m/s^2)");
     addUnitOption(command, "--time-unit", options->units.time, timeUnits());
   }
   if (importer.takes.units) {
@@ -56,7 +56,7 @@ void setUpImporter(CLI::App& command, const Importer& importer) {
   if (importer.takes.topics) addTopicOptions(command, options->topics);
   addOutOption(command, options->log, "log to write; the vehicle's configuration goes beside it");
   command.add_option("--camchain", options->camchain,
-                      "the camera's calibration: Kalibr's camchain.yaml or camchain-imucam.yaml");
+                     "the camera's calibration: Kalibr's camchain.yaml or camchain-imucam.yaml");
   command.add_option("--camera", options->camchain_camera, "the camera's section of the camchain")
       ->capture_default_str();
   command.callback([options, importer] { printFlight(importFlight(importer, *options), options->log); });

@@ -51,9 +51,8 @@ Command::Setup programBeside(const std::string& program) {
   return [program](CLI::App& command) {
     command.set_help_flag();
     command.prefix_command();
-    command.callback([program, &command] {
-      replaceBy(beside(program), command.get_name(), command.remaining());
-    });
+    command.callback(
+        [program, &command] { replaceBy(beside(program), command.get_name(), command.remaining()); });
   };
 }
 
@@ -71,8 +70,9 @@ void runProgramBeside(const std::string& program, const std::string& subcommand,
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status)) {
-    std::fprintf(stderr, "%s: ended by signal %d (%s): its input is damaged\n", program.c_str(), WTERMSIG(status),
-                 strsignal(WTERMSIG(status)));
+    std::fprintf(stderr, "%s: is damaged so that %s was ended by signal %d (%s)\n",
+                 arguments.empty() ? "its input" : arguments.front().c_str(), program.c_str(),
+                 WTERMSIG(status), strsignal(WTERMSIG(status)));
     throw CLI::RuntimeError(2);
   }
   if (WEXITSTATUS(status) != 0) throw CLI::RuntimeError(WEXITSTATUS(status));

@@ -23,12 +23,13 @@ const char* const kRepair = " (Debian's python3-rosbag, or python3 -m rosbag.ros
 
 void requireMagic(const std::filesystem::path& file) {
   requireFile(file);
-  std::array<char, kMagic.size()> start{};
-  std::ifstream(file, std::ios::binary).read(start.data(), start.size());
-  if (std::string_view(start.data(), start.size()) == "SQLite format 3") {
-    throw InputError(file, "is a ROS 2 bag in SQLite: ros2 bag convert makes an MCAP of it");
-  }
-  if (std::string_view(start.data(), start.size()) != kMagic)
+  std::array<char, 15> bytes{};
+  std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
+  const std::string_view start(bytes.data(), bytes.size());
+  if (start == "SQLite format 3")
+    throw InputError(
+        file, "is a ROS 2 bag in SQLite: ros2 bag convert makes an MCAP of it, which import mcap reads");
+  if (start.substr(0, kMagic.size()) != kMagic)
     throw InputError(file, "is no ROS 1 bag: it does not start with '" + std::string(kMagic) + "'");
 }
 
@@ -75,7 +76,8 @@ class BagRecording : public RosRecording {
                                     [&](const RosTopic& t) { return t.name == instance.getTopic(); });
     if (topic == topics_.end() || topic->type != instance.getDataType()) return true;
     const uint32_t size = instance.size();
-    if (size > kLargestMessage) throw rosbag::BagFormatException("a message of " + std::to_string(size) + " bytes");
+    if (size > kLargestMessage)
+      throw rosbag::BagFormatException("a message of " + std::to_string(size) + " bytes");
     bytes_.resize(size);
     ros::serialization::OStream stream(bytes_.data(), size);
     instance.write(stream);
@@ -90,8 +92,10 @@ class BagRecording : public RosRecording {
     } catch (const UserError&) {
       throw;
     } catch (const rosbag::BagUnindexedException&) {
-      throw InputError(file_, std::string("has no index, as a bag whose recording was cut short: rosbag reindex "
-                                          "writes it") + kRepair);
+      throw InputError(file_,
+                       std::string("has no index, as a bag whose recording was cut short: rosbag reindex "
+                                   "writes it") +
+                           kRepair);
     } catch (const std::exception& error) {
       std::string line = error.what();
       std::replace(line.begin(), line.end(), '\n', ' ');
