@@ -119,7 +119,8 @@ ImportSummary importRosRecording(RosRecording& recording, const ImportOptions& o
   const RosSensors sensors = readRosSensors(recording, topics, options);
   ImportSummary summary;
   summary.vehicle.name = options.source.stem().string();
-  summary.warnings = sensors.warnings;
+  summary.warnings = recording.warnings();
+  summary.warnings.insert(summary.warnings.end(), sensors.warnings.begin(), sensors.warnings.end());
   FlightMerger merger(options.log, options.channels, sensors.imu, sensors.altitudes);
   if (topics.imu) merger.requirePlausibleImu(options.source, options.units);
   ImageTrack track(topics.image, options, rangeOfImages(recording, topics.image, options));

@@ -109,6 +109,7 @@ RosRange readRosRange(ByteView bytes, RosEncoding encoding) {
   range.least = reader.number<float>();
   range.most = reader.number<float>();
   range.range = reader.number<float>();
+  if (reader.left() >= sizeof(float)) range.variance = reader.number<float>();
   return range;
 }
 

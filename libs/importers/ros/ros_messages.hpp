@@ -40,9 +40,10 @@ struct RosImu {
 };
 struct RosRange {
   int64_t stamp_ns = 0;
-  double range = 0;  ///< m
-  double least = 0;  ///< m
-  double most = 0;   ///< m
+  double range = 0;     ///< m
+  double least = 0;     ///< m
+  double most = 0;      ///< m
+  double variance = 0;  ///< m^2; 0: not known (ROS 1, ROS 2 before Jazzy)
 };
 struct RosCameraInfo {
   uint32_t width = 0;   ///< px

@@ -7,13 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace redbee {
+#include "redbee/files/byte_view.hpp"
 
-/// Bytes that somebody else owns.
-struct ByteView {
-  const uint8_t* data = nullptr;
-  size_t size = 0;
-};
+namespace redbee {
 
 enum class RosEncoding {
   kRos1,  ///< wiki.ros.org/roscpp/Overview/MessagesSerializationAndAdaptingTypes: little-endian, packed

@@ -34,6 +34,8 @@ class RosRecording {
   /// returns false. Can be called again. Throws InputError.
   virtual void read(const std::set<std::string>& topics,
                     const std::function<bool(const RosMessage&)>& on_message) = 0;
+  /// One line each.
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 }  // namespace redbee

@@ -20,6 +20,7 @@ struct Counts {
   int64_t damaged = 0;
   int64_t without_stamp = 0;
   int64_t invalid = 0;
+  int64_t without_variance = 0;
   std::string first_fault;
 };
 
@@ -70,6 +71,8 @@ void warnOf(const std::string& topic, const Counts& counts, std::vector<std::str
         "{}: {} of {} messages have no stamp: they get the time of their recording, which jitters", topic,
         counts.without_stamp, counts.messages));
   }
+  if (counts.without_variance > 0)
+    warnings.push_back(fmt::format("{}: a sigma of {:g} m is assumed", topic, kRangeSigma));
   if (counts.invalid > 0) {
     warnings.push_back(fmt::format("{}: {} of {} ranges are outside of the sensor's limits and left out",
                                    topic, counts.invalid, counts.messages));
@@ -85,7 +88,10 @@ void addRange(const RosMessage& message, RosSensors& sensors, Counts& counts) {
     ++counts.invalid;
     return;
   }
-  sensors.altitudes.push_back({timeOf(range.stamp_ns, message, counts), range.range, kRangeSigma});
+  const bool has_variance = std::isfinite(range.variance) && range.variance > 0;
+  if (!has_variance) ++counts.without_variance;
+  const double sigma = has_variance ? std::sqrt(range.variance) : kRangeSigma;
+  sensors.altitudes.push_back({timeOf(range.stamp_ns, message, counts), range.range, sigma});
 }
 
 void addMessage(const RosMessage& message, const ImportOptions& options, RosSensors& sensors,
@@ -140,11 +146,7 @@ RosSensors readRosSensors(RosRecording& recording, const RosTopics& topics, cons
   });
   for (const auto& [name, count] : counts) warnOf(name, count, sensors.warnings);
   if (topics.imu) sortByTime(sensors.imu, topics.imu->name, sensors.warnings);
-  if (topics.range) {
-    sortByTime(sensors.altitudes, topics.range->name, sensors.warnings);
-    sensors.warnings.push_back(
-        fmt::format("{}: a sigma of {:g} m is assumed", topics.range->name, kRangeSigma));
-  }
+  if (topics.range) sortByTime(sensors.altitudes, topics.range->name, sensors.warnings);
   return sensors;
 }
 
