@@ -19,6 +19,7 @@
 #include "tests/bus/sample_messages.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 #include "tests/fuzz/mavlink_seed.hpp"
+#include "tests/fuzz/mcap_seed.hpp"
 #include "tests/fuzz/small_vehicle.hpp"
 
 namespace redbee::fuzz {
@@ -216,6 +217,19 @@ void writeVideoSeed(const fs::path& folder) {
   fs::rename(folder / "video" / "clip.mp4", folder / "video" / "clip");
 }
 
+void writeMcapSeeds(const fs::path& folder) {
+  const auto messages = exportedMessages(smallVehicle().camera);
+  fs::create_directories(folder / "mcap");
+  writeMcapFile(folder / "mcap" / "compressed", messages, 0);
+  writeMcapFile(folder / "mcap" / "raw", messages, 1);
+  write(folder / "mcap" / "without_chunks", mcapWithoutChunks(messages, 1));
+  for (const ExportedMessage& message : messages) {
+    Bytes seed{message.ros_pick};
+    seed.insert(seed.end(), message.bytes.begin(), message.bytes.end());
+    write(folder / "ros" / message.name, seed);
+  }
+}
+
 }  // namespace
 }  // namespace redbee::fuzz
 
@@ -234,6 +248,7 @@ int main(int argc, char** argv) {
   writeTableSeeds(folder);
   writeGpmfSeed(folder);
   writeVideoSeed(folder);
+  writeMcapSeeds(folder);
   write(folder / "mavlink" / "one_second", mavlinkSeed());
   return 0;
 }

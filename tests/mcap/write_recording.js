@@ -1,10 +1,11 @@
 // write_recording.js OUT COMPRESSION (none, zstd, lz4): a recording as rosbag2 makes it, written by Foxglove's implementation, with what
 // check_import.js expects. COMPRESSION json: one that holds no ROS messages.
+const {execFileSync} = require('child_process');
 const fs = require('fs');
 const {McapWriter} = require('@mcap/core');
 const {parse} = require('@foxglove/rosmsg');
 const {MessageWriter} = require('@foxglove/rosmsg2-serialization');
-const Zstd = require('@foxglove/wasm-zstd'), Lz4 = require('@foxglove/wasm-lz4');
+const zstd = require('@foxglove/wasm-zstd');
 const {frameOf, imuOf, FRAMES, FPS, IMU_RATE, WIDTH, HEIGHT, timeOf} = require('./recording.js');
 
 const [out, compression] = process.argv.slice(2);
@@ -23,9 +24,9 @@ const definitions = {
 };
 
 async function main() {
-  await Promise.all([Zstd.isLoaded, Lz4.isLoaded ?? Lz4.default?.isLoaded]);
-  const lz4 = Lz4.compress ?? Lz4.default.compress, zstd = Zstd.compress ?? Zstd.default.compress;
-  const compress = {zstd: data => zstd(data, 3), lz4: data => lz4(data)}[compression];
+  await zstd.isLoaded;
+  // Debian's lz4: Foxglove's only decompresses.
+  const compress = {zstd: data => zstd.compress(data, 3), lz4: data => execFileSync('lz4', ['-c'], {input: data})}[compression];
   const parts = [];
   let size = 0n;
   const writable = {position: () => size, write: async bytes => { parts.push(Buffer.from(bytes)); size += BigInt(bytes.length); }};
