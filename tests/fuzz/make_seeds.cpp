@@ -219,15 +219,10 @@ void writeVideoSeed(const fs::path& folder) {
 
 void writeMcapSeeds(const fs::path& folder) {
   const auto messages = exportedMessages(smallVehicle().camera);
-  fs::create_directories(folder / "mcap");
   writeMcapFile(folder / "mcap" / "compressed", messages, 0);
   writeMcapFile(folder / "mcap" / "raw", messages, 1);
   write(folder / "mcap" / "without_chunks", mcapWithoutChunks(messages, 1));
-  for (const ExportedMessage& message : messages) {
-    Bytes seed{message.ros_pick};
-    seed.insert(seed.end(), message.bytes.begin(), message.bytes.end());
-    write(folder / "ros" / message.name, seed);
-  }
+  for (const ExportedMessage& message : messages) write(folder / "ros" / message.name, message.rosSeed());
 }
 
 }  // namespace

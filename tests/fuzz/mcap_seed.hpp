@@ -19,6 +19,12 @@ struct ExportedMessage {
       ros_pick;  ///< the first byte of ros_fuzz.cpp's input: place of the type, times two, plus one for CDR
   McapSchema schema;
   std::vector<uint8_t> bytes;
+
+  std::vector<uint8_t> rosSeed() const {
+    std::vector<uint8_t> seed{ros_pick};
+    seed.insert(seed.end(), bytes.begin(), bytes.end());
+    return seed;
+  }
 };
 
 inline std::vector<ExportedMessage> exportedMessages(const CameraIntrinsics& camera) {
@@ -34,6 +40,7 @@ inline std::vector<ExportedMessage> exportedMessages(const CameraIntrinsics& cam
 /// Without the message at `left_out`: one topic of images is enough.
 inline void writeMcapFile(const std::filesystem::path& file, const std::vector<ExportedMessage>& messages,
                           size_t left_out) {
+  std::filesystem::create_directories(file.parent_path());
   McapWriter writer(file, "ros2");
   for (size_t i = 0; i < messages.size(); ++i) {
     if (i == left_out) continue;
