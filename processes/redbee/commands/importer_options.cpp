@@ -19,6 +19,8 @@ void addUnitOption(CLI::App& command, const std::string& name, std::string& unit
       ->capture_default_str();
 }
 
+}  // namespace
+
 void addTopicOptions(CLI::App& command, RosTopicChoice& topics) {
   command.add_option("--image-topic", topics.image, "topic of the images, where there are several");
   command.add_option("--imu-topic", topics.imu, "topic of the IMU; none: without");
@@ -26,17 +28,17 @@ void addTopicOptions(CLI::App& command, RosTopicChoice& topics) {
   command.add_option("--camera-info-topic", topics.camera_info, "topic of the calibration; none: without");
 }
 
-}  // namespace
-
 void setUpImporter(CLI::App& command, const Importer& importer) {
   auto options = std::make_shared<ImportOptions>(importer.defaults);
   command.add_option("source", options->source, importer.source)->required();
   if (importer.takes.chapters)
     command.add_option("further", options->further_sources, "the chapters that follow");
   if (importer.takes.imu) {
-    command.add_option("--imu", options->imu,
-                       "IMU samples, CSV with the columns t_s,gx,gy,gz,ax,ay,az in its first line "
-                       "(s since the start of the video, rad/s, m/s^2)");
+    command.add_option(
+        "--imu", options->imu,
+        "IMU samples: what Sensor Logger, MARS Logger, OpenCamera Sensors or a logger of Gyroflow's "
+        "(.gcsv) left, file or folder; or CSV with the columns t_s,gx,gy,gz,ax,ay,az in its first "
+        "line (s since the start of the video, rad/s, m/s^2)");
     addUnitOption(command, "--time-unit", options->units.time, timeUnits());
   }
   if (importer.takes.units) {
