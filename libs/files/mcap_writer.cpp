@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "redbee/bus/build_version.hpp"
-
 namespace redbee {
 namespace {
 
@@ -45,9 +43,11 @@ std::string compressed(const std::string& plain) {
 
 }  // namespace
 
-McapWriter::McapWriter(const std::filesystem::path& path, const std::string& profile) : file_(path) {
+McapWriter::McapWriter(const std::filesystem::path& path, const std::string& profile,
+                       const std::string& library)
+    : file_(path) {
   append({kMcapMagic.begin(), kMcapMagic.end()});
-  appendRecord(McapRecord::kHeader, counted(profile) + counted(std::string("redbee ") + releaseVersion()));
+  appendRecord(McapRecord::kHeader, counted(profile) + counted(library));
 }
 
 uint16_t McapWriter::addChannel(const std::string& topic, const McapSchema& schema,

@@ -17,8 +17,8 @@ namespace redbee {
 /// cannot be written.
 class McapWriter {
  public:
-  /// `profile`: "ros2" for CDR with ROS 2's definitions.
-  McapWriter(const std::filesystem::path& path, const std::string& profile);
+  /// `profile`: "ros2" for CDR with ROS 2's definitions. `library`: who writes it.
+  McapWriter(const std::filesystem::path& path, const std::string& profile, const std::string& library);
 
   /// The number of the channel. A schema that is there already is shared.
   uint16_t addChannel(const std::string& topic, const McapSchema& schema,

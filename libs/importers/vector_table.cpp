@@ -16,7 +16,7 @@ size_t columnOf(const CsvReader& csv, const std::string& name) {
 }
 
 std::vector<AxisSample> readVectors(CsvReader& csv, const VectorColumns& columns,
-                                     std::vector<std::string>& warnings) {
+                                    std::vector<std::string>& warnings) {
   std::vector<AxisSample> samples;
   int64_t repeated = 0;
   while (csv.next(csv.columns())) {

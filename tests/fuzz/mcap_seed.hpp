@@ -41,7 +41,7 @@ inline std::vector<ExportedMessage> exportedMessages(const CameraIntrinsics& cam
 inline void writeMcapFile(const std::filesystem::path& file, const std::vector<ExportedMessage>& messages,
                           size_t left_out) {
   std::filesystem::create_directories(file.parent_path());
-  McapWriter writer(file, "ros2");
+  McapWriter writer(file, "ros2", "seed");
   for (size_t i = 0; i < messages.size(); ++i) {
     if (i == left_out) continue;
     const uint16_t channel = writer.addChannel("/" + messages[i].name, messages[i].schema, "cdr");

@@ -5,6 +5,7 @@
 
 #include "processes/redbee/export/ros_export.hpp"
 #include "processes/redbee/export/ros_schemas.hpp"
+#include "redbee/bus/build_version.hpp"
 #include "redbee/bus/codec.hpp"
 #include "redbee/bus/message_name.hpp"
 #include "redbee/configuration/configuration.hpp"
@@ -30,7 +31,8 @@ std::string topicOf(const std::string& channel) {
 
 class Exporter {
  public:
-  explicit Exporter(const McapExport& options) : options_(options), writer_(options.out, "ros2") {
+  explicit Exporter(const McapExport& options)
+      : options_(options), writer_(options.out, "ros2", std::string("redbee ") + releaseVersion()) {
     if (options.configuration) camera_ = loadConfiguration(*options.configuration).camera;
     if (!options.results) return;
     for (const auto& [utime, box] : RunFolder(*options.results).detections()) boxes_[utime].push_back(box);
