@@ -28,7 +28,9 @@ class RosbagTest : public testing::Test {
     options_.log = folder_ / "f.lcm";
   }
   void SetUp() override {
-    if (std::system("/usr/bin/python3 -c 'import rosbag, sensor_msgs.msg' 2>/dev/null") != 0)
+    static const bool has_python =
+        std::system("/usr/bin/python3 -c 'import rosbag, sensor_msgs.msg' 2>/dev/null") == 0;
+    if (!has_python)
       GTEST_SKIP() << "no rosbag for Python: scripts/setup scripts/packages-rosbag.txt installs it";
   }
   void make(const std::string& kind, const std::string& compression = "none", const std::string& jpeg = "") {
