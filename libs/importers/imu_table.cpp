@@ -89,7 +89,10 @@ std::optional<int64_t> startOfSensorLoggersVideo(const fs::path& video) {
                          return std::isdigit(c) != 0;
                        });
   if (!is_time) return std::nullopt;
-  return int64_t{1'000'000} * std::stoll(name);
+  constexpr int64_t kLatest_ms = 4'000'000'000'000;
+  const int64_t start_ms = std::stoll(name);
+  if (start_ms > kLatest_ms) return std::nullopt;
+  return int64_t{1'000'000} * start_ms;
 }
 
 /// When seconds_elapsed was 0.
@@ -101,7 +104,7 @@ int64_t startOfSensorLogger(const fs::path& file) {
   constexpr double kLongest_s = 1e7;
   const double elapsed_s = csv.number(elapsed);
   if (!(std::abs(elapsed_s) < kLongest_s)) csv.fail("'" + csv.fields()[elapsed] + "' s have not elapsed");
-  return csv.integer(time) - static_cast<int64_t>(1e9 * elapsed_s);
+  return timeOf(csv, time) - static_cast<int64_t>(1e9 * elapsed_s);
 }
 
 ImuTable readSensorLoggerFolder(const fs::path& folder, const fs::path& video) {

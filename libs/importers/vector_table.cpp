@@ -15,13 +15,24 @@ size_t columnOf(const CsvReader& csv, const std::string& name) {
   csv.fail("header names no column '" + name + "' (found: " + list + ")");
 }
 
+int64_t timeOf(const CsvReader& csv, size_t column) {
+  constexpr int64_t kLatest_ns = 4'000'000'000'000'000'000;  // the year 2096; differences cannot overflow
+  const int64_t time_ns = csv.integer(column);
+  if (time_ns < -kLatest_ns || time_ns > kLatest_ns)
+    csv.fail("'" + csv.fields().at(column) + "' is no time in ns");
+  return time_ns;
+}
+
 std::vector<AxisSample> readVectors(CsvReader& csv, const VectorColumns& columns,
                                     std::vector<std::string>& warnings) {
   std::vector<AxisSample> samples;
   int64_t repeated = 0;
-  while (csv.next(csv.columns())) {
+  // A table without a header has these columns alone.
+  const size_t width = csv.header().empty() ? 1 + std::max({columns.time, columns.x, columns.y, columns.z})
+                                            : csv.header().size();
+  while (csv.next(width)) {
     AxisSample sample;
-    sample.time_ns = csv.integer(columns.time);
+    sample.time_ns = timeOf(csv, columns.time);
     sample.value = {csv.number(columns.x), csv.number(columns.y), csv.number(columns.z)};
     if (!samples.empty() && sample.time_ns <= samples.back().time_ns) {
       ++repeated;
@@ -66,7 +77,7 @@ int64_t firstInteger(const std::filesystem::path& file) {
   CsvReader csv(file);
   csv.skipHeader();
   if (!csv.next(0)) throw InputError(file, "is empty");
-  return csv.integer(0);
+  return timeOf(csv, 0);
 }
 
 }  // namespace redbee

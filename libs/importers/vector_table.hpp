@@ -26,6 +26,9 @@ struct VectorColumns {
 /// The place of a column by its name, blanks left out; fails with what is there.
 size_t columnOf(const CsvReader& csv, const std::string& name);
 
+/// A whole number that can be a time; fails otherwise.
+int64_t timeOf(const CsvReader& csv, size_t column);
+
 /// The rest of the table. Rows whose time is not after the one before (apps repeat some) are left out, and
 /// counted in `warnings`. Throws InputError with file and line, also for an empty table.
 std::vector<AxisSample> readVectors(CsvReader& csv, const VectorColumns& columns,

@@ -154,6 +154,20 @@ TEST_F(ImuTableTest, OpenCameraSensorsTablesHaveNoHeader) {
   expectMotion(read(""), 0.05);
 }
 
+/// The first was found by fuzzing.
+TEST_F(ImuTableTest, RowsThatDoNotFitAreNamed) {
+  write("v_gyro.csv", "0.1,0.2,3\n");
+  write("v_accel.csv", "0,9.8,0,1000\n");
+  write("v_timestamps.csv", "1000\n");
+  expectError("v_gyro.csv", "v_gyro.csv:1: has 3 columns instead of 4");
+  write("v_gyro.csv", "0.1,0.2,0.3,9000000000000000000\n");
+  expectError("v_gyro.csv", "v_gyro.csv:1: '9000000000000000000' is no time in ns");
+  write("v_gyro.csv", "0.1,0.2,0.3,5\n");
+  expectError("v_gyro.csv", "has no time in common");
+  writeSensorLogger("android,false", 1);
+  EXPECT_TRUE(warns(read("", "9999999999999.mp4"), "is taken to begin with the recording"));
+}
+
 TEST_F(ImuTableTest, GyroflowsScalesAndOrientationCount) {
   const std::string header =
       "GYROFLOW IMU LOG\nversion,1.3\nid,custom_logger_name\norientation,YxZ\ntscale,0.001\n"
