@@ -1,5 +1,7 @@
 #include "redbee/importers/mcap/import_mcap.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <map>
 #include <utility>
 
@@ -75,7 +77,7 @@ class McapRecording : public RosRecording {
     if (others.empty()) return;
     std::string list;
     for (const auto& [topic, encoding] : others)
-      list += (list.empty() ? "" : ", ") + topic + " (" + encoding + ")";
+      list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", topic, encoding);
     throw InputError(file_, "holds no images of ROS messages (cdr, ros1); what it has is not read: " + list);
   }
 

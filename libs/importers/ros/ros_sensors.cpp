@@ -170,7 +170,7 @@ std::optional<CameraIntrinsics> intrinsicsOf(const RosCameraInfo& info, const st
                                             : coefficientFault(*type, info.D.size());
   const bool is_finite_lens =
       std::all_of(info.D.begin(), info.D.end(), [](double k) { return std::isfinite(k); });
-  if (!fault.empty() || !is_finite_lens) {
+  if (type == nullptr || !fault.empty() || !is_finite_lens) {
     throw InputError(file, "camera_info's distortion_model '" + info.distortion_model + "' " +
                                (fault.empty() ? "has coefficients that are not finite" : fault) +
                                ": calibrate with one of them and give it with --camchain, and "
