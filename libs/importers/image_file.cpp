@@ -100,46 +100,64 @@ bool isPng16(const std::vector<uint8_t>& bytes) {
 
 }  // namespace
 
-LoadedImage loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options) {
-  std::vector<uint8_t> bytes = readWhole(file);
-  if (startsWith(bytes, {0xFF, 0xD8})) return loadJpeg(file, utime, std::move(bytes), options);
-  if (!isPng(bytes)) throw InputError(file, "is neither JPEG nor PNG");
-  cv::Mat image = decodePng(file, bytes);
-  if (image.depth() == CV_16U) {
-    const GreyRange range = options.range.value_or(GreyRange{});
-    const double scale = 255 / (range.white - range.black);
-    image.convertTo(image, CV_8U, scale, -scale * range.black);
-  }
+LoadedImage imageOf(const std::filesystem::path& source, std::vector<uint8_t> bytes, int64_t utime,
+                    const ImageOptions& options) {
+  if (startsWith(bytes, {0xFF, 0xD8})) return loadJpeg(source, utime, std::move(bytes), options);
+  if (!isPng(bytes)) throw InputError(source, "is neither JPEG nor PNG");
+  cv::Mat image = decodePng(source, bytes);
+  if (image.depth() == CV_16U) image = scaledTo8Bits(image, options.range.value_or(GreyRange{}));
   if (image.channels() == 1 && options.lossless_grey) return {rawGreyMessage(utime, image), false};
   return {jpegMessage(utime, image, options.jpeg_quality), false};
 }
 
-std::optional<GreyRange> rangeOf(const std::vector<std::filesystem::path>& files) {
-  if (files.empty() || !isPng16(readWhole(files.front()))) return std::nullopt;
-  std::vector<int64_t> histogram(1 << 16);
-  int64_t values = 0;
-  for (const std::filesystem::path& file : files) {
-    const std::vector<uint8_t> bytes = readWhole(file);
-    if (!isPng16(bytes)) throw InputError(file, "is no 16-bit PNG, as the images before it are");
-    cv::Mat image = decodePng(file, bytes);
-    image = image.reshape(1);
-    for (int row = 0; row < image.rows; ++row) {
-      const auto* pixels = image.ptr<uint16_t>(row);
-      for (int column = 0; column < image.cols; ++column) ++histogram[pixels[column]];
-    }
-    values += static_cast<int64_t>(image.total());
+LoadedImage loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options) {
+  return imageOf(file, readWhole(file), utime, options);
+}
+
+std::optional<cv::Mat> valuesOf16BitPng(const std::filesystem::path& source,
+                                        const std::vector<uint8_t>& bytes) {
+  if (!isPng16(bytes)) return std::nullopt;
+  return decodePng(source, bytes);
+}
+
+cv::Mat scaledTo8Bits(const cv::Mat& values, const GreyRange& range) {
+  const double scale = 255 / (range.white - range.black);
+  cv::Mat image;
+  values.convertTo(image, CV_8U, scale, -scale * range.black);
+  return image;
+}
+
+void ValueHistogram::add(const cv::Mat& values) {
+  const cv::Mat single = values.reshape(1);
+  for (int row = 0; row < single.rows; ++row) {
+    const auto* pixels = single.ptr<uint16_t>(row);
+    for (int column = 0; column < single.cols; ++column) ++counts_[pixels[column]];
   }
+  total_ += static_cast<int64_t>(single.total());
+}
+
+GreyRange ValueHistogram::range() const {
   const auto valueAt = [&](double fraction) {
     int64_t below = 0;
     size_t value = 0;
-    while (value + 1 < histogram.size() &&
-           (below += histogram[value]) <= fraction * static_cast<double>(values))
+    while (value + 1 < counts_.size() && (below += counts_[value]) <= fraction * static_cast<double>(total_))
       ++value;
     return static_cast<double>(value);
   };
   constexpr double kEnd = 1e-3;
   const GreyRange range{valueAt(kEnd), valueAt(1 - kEnd)};
   return range.white > range.black ? range : GreyRange{range.black, range.black + 255};
+}
+
+std::optional<GreyRange> rangeOf(const std::vector<std::filesystem::path>& files) {
+  if (files.empty() || !isPng16(readWhole(files.front()))) return std::nullopt;
+  ValueHistogram histogram;
+  for (const std::filesystem::path& file : files) {
+    const auto values = valuesOf16BitPng(file, readWhole(file));
+    if (!values) throw InputError(file, "is no 16-bit PNG, as the images before it are");
+    histogram.add(*values);
+  }
+  return histogram.range();
 }
 
 void ResolutionCheck::check(const std::filesystem::path& file, const image_t& image) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +34,31 @@ struct LoadedImage {
 /// truncated or neither JPEG nor PNG.
 LoadedImage loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options);
 
-/// The range of values of a sequence whose first image is a 16-bit PNG, but for 0.1 % at each end, where dead
-/// and saturated pixels lie; otherwise std::nullopt. Reads every file. Throws InputError.
+/// The same from the bytes of such a file; `source` stands in the errors.
+LoadedImage imageOf(const std::filesystem::path& source, std::vector<uint8_t> bytes, int64_t utime,
+                    const ImageOptions& options);
+
+/// The pixels of a 16-bit PNG, std::nullopt for anything else. Throws InputError as loadImage() does.
+std::optional<cv::Mat> valuesOf16BitPng(const std::filesystem::path& source,
+                                        const std::vector<uint8_t>& bytes);
+
+/// `values`: 16 bits a channel.
+cv::Mat scaledTo8Bits(const cv::Mat& values, const GreyRange& range);
+
+/// The values of a sequence of 16-bit images.
+class ValueHistogram {
+ public:
+  void add(const cv::Mat& values);
+  /// All but 0.1 % at each end, where dead and saturated pixels lie.
+  GreyRange range() const;
+
+ private:
+  std::vector<int64_t> counts_ = std::vector<int64_t>(1 << 16);
+  int64_t total_ = 0;
+};
+
+/// The range of values of a sequence whose first image is a 16-bit PNG; otherwise std::nullopt. Reads every
+/// file. Throws InputError.
 std::optional<GreyRange> rangeOf(const std::vector<std::filesystem::path>& files);
 
 /// check() throws InputError for an image whose size differs from the first one's.

@@ -47,6 +47,17 @@ std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu,
          " ms after the first and ends " + milliseconds(tail) + " ms before the last";
 }
 
+std::optional<AltitudeSample> startHeight(const std::vector<AltitudeSample>& altitudes, ImuTime first_frame) {
+  constexpr Duration kWindow = std::chrono::milliseconds(200);
+  std::optional<AltitudeSample> nearest;
+  for (const AltitudeSample& sample : altitudes) {
+    const Duration distance = std::chrono::abs(sample.time - first_frame);
+    if (distance > kWindow || sample.height_m <= 0) continue;
+    if (!nearest || distance < std::chrono::abs(nearest->time - first_frame)) nearest = sample;
+  }
+  return nearest;
+}
+
 double meanRate(const std::vector<ImuSample>& imu) {
   if (imu.size() < 2 || imu.back().time <= imu.front().time) return 0;
   return 1e6 * static_cast<double>(imu.size() - 1) /

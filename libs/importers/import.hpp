@@ -11,6 +11,7 @@
 #include "redbee/files/log.hpp"
 #include "redbee/geometry/camera.hpp"
 #include "redbee/importers/imu_units.hpp"
+#include "redbee/importers/ros/ros_topics.hpp"
 #include "redbee/inertial/imu.hpp"
 
 namespace redbee {
@@ -41,7 +42,8 @@ struct ImportOptions {
   bool keep_going = false;  ///< damage of a video is passed over
   /// See readImuCsv(). The axes are the IMU's; the vehicle's R_CI relates the camera to them.
   std::optional<std::filesystem::path> imu;
-  ImuUnits units;  ///< of the IMU's samples where the recording does not state them
+  ImuUnits units;         ///< of the IMU's samples where the recording does not state them
+  RosTopicChoice topics;  ///< of a recording of ROS messages
   /// Kalibr's camchain.yaml or camchain-imucam.yaml; what it states counts before what the recording states.
   std::optional<std::filesystem::path> camchain;
   std::string camchain_camera = "cam0";  ///< its section of the camchain
@@ -80,6 +82,8 @@ void assumeIntrinsics(ImportSummary& summary);
 /// Warning if IMU samples do not cover all frames, otherwise std::nullopt.
 std::optional<std::string> imuCoverageWarning(const std::vector<ImuSample>& imu, CameraTime first_frame,
                                               CameraTime last_frame);
+/// The altitude at the first frame: the nearest within 0.2 s that lies above the ground.
+std::optional<AltitudeSample> startHeight(const std::vector<AltitudeSample>& altitudes, ImuTime first_frame);
 double meanRate(const std::vector<ImuSample>& imu);
 
 }  // namespace redbee

@@ -1,5 +1,7 @@
 #include "redbee/importers/import_asl.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cstdlib>
 
 #include "redbee/files/csv.hpp"
@@ -13,9 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How far from the first frame an altitude is still the start height.
-constexpr Duration kStartHeightWindow = std::chrono::milliseconds(200);
-
 struct NamedFrame {
   CameraTime time{};
   std::string name;
@@ -27,6 +26,31 @@ fs::path findVehicleFolder(const fs::path& folder) {
   if (fs::is_directory(folder / "mav0")) return folder / "mav0";
   if (fs::is_directory(folder / "cam0")) return folder;
   throw InputError(folder, "holds neither mav0 nor cam0");
+}
+
+/// Kalibr's own layout (kalibr_bagcreater): DIR/cam0/<ns>.png and DIR/imu0.csv, without a list of images.
+bool hasKalibrsLayout(const fs::path& camera) {
+  return fs::is_directory(camera) && !fs::is_directory(camera / "data") && !fs::exists(camera / "data.csv");
+}
+
+std::vector<NamedFrame> readFrameNames(const fs::path& folder) {
+  std::vector<NamedFrame> frames;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string(), time = entry.path().stem().string();
+    int64_t time_ns = 0;
+    const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), time_ns);
+    const bool is_time = !time.empty() && error == std::errc() && end == time.data() + time.size();
+    if (is_time) frames.push_back({CameraTime(fromNanoseconds(time_ns)), name, 0});
+  }
+  std::sort(frames.begin(), frames.end(),
+            [](const NamedFrame& a, const NamedFrame& b) { return a.time < b.time; });
+  if (frames.empty())
+    throw InputError(folder, "holds neither data.csv nor images named by their time in ns (Kalibr's layout)");
+  for (size_t i = 1; i < frames.size(); ++i) {
+    if (frames[i].time == frames[i - 1].time)
+      throw InputError(folder / frames[i].name, "is within a microsecond of " + frames[i - 1].name);
+  }
+  return frames;
 }
 
 std::vector<NamedFrame> readFrameList(const fs::path& file) {
@@ -80,16 +104,6 @@ std::vector<AltitudeSample> readAltitudes(const fs::path& folder) {
   return samples;
 }
 
-std::optional<AltitudeSample> altitudeAt(const std::vector<AltitudeSample>& altitudes, ImuTime time) {
-  std::optional<AltitudeSample> nearest;
-  for (const AltitudeSample& sample : altitudes) {
-    const Duration distance = std::chrono::abs(sample.time - time);
-    if (distance > kStartHeightWindow || sample.height_m <= 0) continue;
-    if (!nearest || distance < std::chrono::abs(nearest->time - time)) nearest = sample;
-  }
-  return nearest;
-}
-
 void describeExtrinsics(const SensorPose& camera, const SensorPose& imu, VehicleDescription& vehicle) {
   vehicle.R_CI = camera.R_BS.transpose() * imu.R_BS;
   vehicle.p_IC = imu.R_BS.transpose() * (camera.p_BS - imu.p_BS);
@@ -120,8 +134,10 @@ void describeVehicle(const fs::path& mav, bool has_imu, ImportSummary& summary) 
 
 std::vector<fs::path> listedFiles(const fs::path& list, const std::vector<NamedFrame>& frames) {
   std::vector<fs::path> files;
+  const fs::path camera = list.parent_path();
+  const fs::path folder = hasKalibrsLayout(camera) ? camera : camera / "data";
   for (const NamedFrame& frame : frames) {
-    files.push_back(list.parent_path() / "data" / frame.name);
+    files.push_back(folder / frame.name);
     if (!fs::exists(files.back()))
       throw InputError(list, frame.line, "image " + files.back().string() + " is missing");
   }
@@ -161,9 +177,10 @@ void addListedFrames(const fs::path& list, const std::vector<NamedFrame>& frames
 ImportSummary importAsl(const ImportOptions& options, Progress& progress) {
   const fs::path mav = findVehicleFolder(options.source);
   const fs::path list = mav / "cam0" / "data.csv";
-  const std::vector<NamedFrame> frames = readFrameList(list);
-  const fs::path imu_file = mav / "imu0" / "data.csv";
-  const bool has_imu = fs::is_directory(mav / "imu0");
+  const bool is_kalibrs = hasKalibrsLayout(mav / "cam0");
+  const std::vector<NamedFrame> frames = is_kalibrs ? readFrameNames(mav / "cam0") : readFrameList(list);
+  const fs::path imu_file = is_kalibrs ? mav / "imu0.csv" : mav / "imu0" / "data.csv";
+  const bool has_imu = is_kalibrs ? fs::exists(imu_file) : fs::is_directory(mav / "imu0");
   const std::vector<ImuSample> imu = has_imu ? readImu(imu_file, options.units) : std::vector<ImuSample>{};
   const std::vector<AltitudeSample> altitudes = readAltitudes(mav / "altimeter0");
 
@@ -171,7 +188,7 @@ ImportSummary importAsl(const ImportOptions& options, Progress& progress) {
   describeVehicle(mav, has_imu, summary);
   summary.vehicle.name =
       fs::weakly_canonical(mav.filename() == "mav0" ? mav.parent_path() : mav).filename().string();
-  summary.vehicle.start_height = altitudeAt(altitudes, toImu(frames.front().time, Duration(0)));
+  summary.vehicle.start_height = startHeight(altitudes, toImu(frames.front().time, Duration(0)));
 
   FlightMerger merger(options.log, options.channels, imu, altitudes);
   if (has_imu) merger.requirePlausibleImu(imu_file, options.units);

@@ -1,4 +1,5 @@
-// EuRoC's folder layout (ASL): DIR/mav0/{cam0,imu0,altimeter0}/{data.csv,sensor.yaml}.
+// EuRoC's folder layout (ASL): DIR/mav0/{cam0,imu0,altimeter0}/{data.csv,sensor.yaml}; and Kalibr's,
+// DIR/cam0/<ns>.png and DIR/imu0.csv.
 #pragma once
 
 #include "redbee/importers/importer.hpp"

@@ -5,7 +5,7 @@
 #include "redbee/files/progress.hpp"
 #include "redbee/importers/flight_merger.hpp"
 #include "redbee/importers/image_folder.hpp"
-#include "redbee/importers/imu_csv.hpp"
+#include "redbee/importers/imu_table.hpp"
 #include "redbee/importers/video_log.hpp"
 #include "redbee/importers/video_reader.hpp"
 
@@ -34,12 +34,12 @@ VideoPart addVideoFrames(const VideoSource& source, const ImportOptions& options
 namespace {
 
 ImportSummary importVideo(const ImportOptions& options, Progress& progress) {
-  const std::vector<ImuSample> imu =
-      options.imu ? readImuCsv(*options.imu, options.units) : std::vector<ImuSample>{};
+  const ImuTable imu = options.imu ? readImuTable(*options.imu, options.source, options.units) : ImuTable{};
   ImportSummary summary;
   summary.vehicle.name = options.source.stem().string();
-  FlightMerger merger(options.log, options.channels, imu, {});
-  if (options.imu) merger.requirePlausibleImu(*options.imu, options.units);
+  summary.warnings = imu.warnings;
+  FlightMerger merger(options.log, options.channels, imu.samples, {});
+  if (options.imu) merger.requirePlausibleImu(*options.imu, imu.units);
   if (std::filesystem::is_directory(options.source)) {
     addImages(options, merger, summary, progress);
   } else {

@@ -7,6 +7,7 @@
 #include "redbee/importers/import_asl.hpp"
 #include "redbee/importers/import_gopro.hpp"
 #include "redbee/importers/import_video.hpp"
+#include "redbee/importers/mcap/import_mcap.hpp"
 #include "redbee/importers/sensor_yaml.hpp"
 
 namespace redbee {
@@ -52,7 +53,7 @@ void refuseToOverwrite(const ImportOptions& options) {
 }  // namespace
 
 const std::vector<Importer>& importers() {
-  static const std::vector<Importer> all{aslImporter(), videoImporter(), goproImporter()};
+  static const std::vector<Importer> all{aslImporter(), videoImporter(), goproImporter(), mcapImporter()};
   return all;
 }
 

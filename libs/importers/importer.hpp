@@ -17,6 +17,7 @@ struct ImporterTakes {
   bool units = false;     ///< of gyro and accelerometer
   bool chapters = false;  ///< several files of one recording
   bool keep_going = false;
+  bool topics = false;  ///< of ROS messages
 };
 
 struct Importer {

@@ -1,11 +1,12 @@
 #include "redbee/importers/recognise.hpp"
 
-#include <array>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
+#include "redbee/files/mcap_format.hpp"
 #include "redbee/importers/data_track.hpp"
 
 namespace redbee {
@@ -13,12 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// By its first event, or by its name where that is damaged.
-bool isLog(const fs::path& file) {
-  std::array<char, 4> bytes{};
+std::string startOf(const fs::path& file) {
+  std::string bytes(16, '\0');
   requireFile(file);
-  std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
-  return std::string_view(bytes.data(), bytes.size()) == "\xED\xA1\xDA\x01" || file.extension() == ".lcm";
+  std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+bool startsWith(const std::string& text, std::string_view start) {
+  return text.compare(0, start.size(), start) == 0;
 }
 
 bool hasMotionTrack(const fs::path& file) {
@@ -37,7 +41,11 @@ std::string recogniseRecording(const fs::path& path) {
     const bool is_asl = fs::is_directory(path / "mav0") || fs::is_directory(path / "cam0");
     return is_asl ? "asl" : "video";
   }
-  if (isLog(path)) return "";
+  const std::string start = startOf(path);
+  // By its first event, or by its name where that is damaged.
+  if (startsWith(start, "\xED\xA1\xDA\x01") || path.extension() == ".lcm") return "";
+  if (startsWith(start, {reinterpret_cast<const char*>(kMcapMagic.data()), kMcapMagic.size()})) return "mcap";
+  if (startsWith(start, "#ROSBAG V") || path.extension() == ".bag") return "rosbag";
   return hasMotionTrack(path) ? "gopro" : "video";
 }
 

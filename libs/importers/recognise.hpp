@@ -6,8 +6,8 @@
 
 namespace redbee {
 
-/// The name of the importer that reads it ("asl", "gopro" or "video"), by its content; empty for an LCM log,
-/// which needs none. Throws InputError if there is no such file or folder.
+/// The name of the importer that reads it ("asl", "gopro", "mcap", "rosbag" or "video"), by its content;
+/// empty for an LCM log, which needs none. Throws InputError if there is no such file or folder.
 std::string recogniseRecording(const std::filesystem::path& path);
 
 }  // namespace redbee

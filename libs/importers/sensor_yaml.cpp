@@ -24,8 +24,11 @@ constexpr size_t kManyCoefficients = 64;
 /// One parsed file; every access throws with file and line.
 class SensorFile {
  public:
-  /// `section`: the key that holds the keys; empty for those of the file itself.
-  explicit SensorFile(const std::filesystem::path& file, const std::string& section = "") : file_(file) {
+  /// `section`: the key that holds the keys; empty for those of the file itself. `is_optional`: also where
+  /// there is no such section.
+  explicit SensorFile(const std::filesystem::path& file, const std::string& section = "",
+                      bool is_optional = false)
+      : file_(file) {
     requireFile(file);
     std::ifstream in(file);
     if (!in) throw InputError(file, "cannot be read");
@@ -39,7 +42,7 @@ class SensorFile {
     } catch (const YAML::Exception& error) {
       throw InputError(file, error.mark.line + 1, error.msg);
     }
-    if (!section.empty()) root_ = sectionOf(root_, section);
+    if (!section.empty() && (!is_optional || hasKey(section))) root_ = sectionOf(root_, section);
     if (!root_.IsMap()) throw InputError(file, 1, "holds no keys");
   }
 
@@ -81,6 +84,8 @@ class SensorFile {
   }
 
  private:
+  bool hasKey(const std::string& key) const { return root_.IsMap() && root_[key].IsDefined(); }
+
   YAML::Node sectionOf(const YAML::Node& root, const std::string& section) const {
     if (!root.IsMap() || !root[section].IsDefined())
       throw InputError(file_, "holds no '" + section + "': is it a camchain?");
@@ -151,6 +156,15 @@ CameraIntrinsics cameraIntrinsics(const SensorFile& file, const char* coefficien
   return camera;
 }
 
+ImuNoise imuNoise(const SensorFile& file) {
+  ImuNoise noise;
+  noise.gyro_noise_density = file.positive("gyroscope_noise_density");
+  noise.accel_noise_density = file.positive("accelerometer_noise_density");
+  noise.gyro_random_walk = file.positive("gyroscope_random_walk");
+  noise.accel_random_walk = file.positive("accelerometer_random_walk");
+  return noise;
+}
+
 }  // namespace
 
 CameraSensor readCameraSensor(const std::filesystem::path& path) {
@@ -174,15 +188,16 @@ ImuSensor readImuSensor(const std::filesystem::path& path) {
   const SensorFile file(path);
   ImuSensor imu;
   imu.pose = file.pose();
-  if (file.has("gyroscope_noise_density")) {
-    ImuNoise noise;
-    noise.gyro_noise_density = file.positive("gyroscope_noise_density");
-    noise.accel_noise_density = file.positive("accelerometer_noise_density");
-    noise.gyro_random_walk = file.positive("gyroscope_random_walk");
-    noise.accel_random_walk = file.positive("accelerometer_random_walk");
-    imu.noise = noise;
-  }
+  if (file.has("gyroscope_noise_density")) imu.noise = imuNoise(file);
   return imu;
+}
+
+ImuNoise readKalibrImu(const std::filesystem::path& path) {
+  const SensorFile file(path, "imu0", true);
+  const auto T_i_b = file.pose("T_i_b");
+  if (T_i_b && (!T_i_b->R_BS.isIdentity(1e-6) || !T_i_b->p_BS.isZero(1e-6)))
+    file.fail("T_i_b", "is not the identity: T_cam_imu of the camchain is of another IMU");
+  return imuNoise(file);
 }
 
 double readAltimeterSigma(const std::filesystem::path& path) {

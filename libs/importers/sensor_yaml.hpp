@@ -1,4 +1,4 @@
-// sensor.yaml of the ASL layout, and Kalibr's camchain.yaml.
+// sensor.yaml of the ASL layout, and Kalibr's camchain.yaml and imu.yaml.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,6 +42,8 @@ struct TrueExtrinsics {
 /// All throw InputError with file and line. OpenCV's "%YAML:1.0" line is skipped.
 CameraSensor readCameraSensor(const std::filesystem::path& file);
 CamchainCamera readCamchain(const std::filesystem::path& file, const std::string& camera = "cam0");
+/// Kalibr's imu.yaml as it is given to Kalibr, or the imu-*.yaml that it writes (section imu0).
+ImuNoise readKalibrImu(const std::filesystem::path& file);
 ImuSensor readImuSensor(const std::filesystem::path& file);
 /// noise_sigma [m] of an altimeter.
 double readAltimeterSigma(const std::filesystem::path& file);

@@ -18,7 +18,10 @@
 #include "redbee/results/video_writer.hpp"
 #include "tests/bus/sample_messages.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
+#include "tests/fuzz/gpmf_seed.hpp"
+#include "tests/fuzz/imu_table_seed.hpp"
 #include "tests/fuzz/mavlink_seed.hpp"
+#include "tests/fuzz/mcap_seed.hpp"
 #include "tests/fuzz/small_vehicle.hpp"
 #include "tests/fuzz/target_seeds.hpp"
 
@@ -185,36 +188,20 @@ void writeTableSeeds(const fs::path& folder) {
         "{present: false}\n");
 }
 
-std::string bigEndian(uint64_t value, int bytes) {
-  std::string out;
-  for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift);
-  return out;
-}
-std::string gpmf(const std::string& key, char type, size_t size, size_t count, std::string data) {
-  data.resize((data.size() + 3) / 4 * 4);
-  return key + type + bigEndian(size, 1) + bigEndian(count, 2) + data;
-}
-std::string gpmfStream(const std::string& key, const std::string& unit) {
-  std::string samples;
-  for (int i = 0; i < 12; ++i) samples += bigEndian(static_cast<uint64_t>(100 + i), 2);
-  const std::string inside = gpmf("TSMP", 'L', 4, 1, bigEndian(4, 4)) +
-                             gpmf("SIUN", 'c', unit.size(), 1, unit) +
-                             gpmf("SCAL", 's', 2, 1, bigEndian(418, 2)) + gpmf("ORIO", 'c', 1, 3, "ZXY") +
-                             gpmf(key, 's', 6, 4, samples);
-  return gpmf("STRM", '\0', 1, inside.size(), inside);
-}
-void writeGpmfSeed(const fs::path& folder) {
-  const std::string streams = gpmfStream("GYRO", "rad/s") + gpmfStream("ACCL", "m/s\xb2");
-  const std::string payload = gpmf("DEVC", '\0', 1, streams.size(), streams);
-  write(folder / "gpmf" / "two_payloads", payload + "\n%%\n" + payload);
-}
-
 void writeVideoSeed(const fs::path& folder) {
   fs::create_directories(folder / "video");
   VideoWriter video(folder / "video" / "clip.mp4", cv::Size(32, 32), 24);
   for (int k = 0; k < 4; ++k) video.write(cv::Mat(32, 32, CV_8U, cv::Scalar(40 * k)));
   video.close();
   fs::rename(folder / "video" / "clip.mp4", folder / "video" / "clip");
+}
+
+void writeMcapSeeds(const fs::path& folder) {
+  const auto messages = exportedMessages(smallVehicle().camera);
+  writeMcapFile(folder / "mcap" / "compressed", messages, 0);
+  writeMcapFile(folder / "mcap" / "raw", messages, 1);
+  write(folder / "mcap" / "without_chunks", mcapWithoutChunks(messages, 1));
+  for (const ExportedMessage& message : messages) write(folder / "ros" / message.name, message.rosSeed());
 }
 
 }  // namespace
@@ -233,8 +220,10 @@ int main(int argc, char** argv) {
   writeCodecSeeds(folder, redbee::MessageTypes{});
   writeLogSeed(folder, flight);
   writeTableSeeds(folder);
-  writeGpmfSeed(folder);
+  write(folder / "gpmf" / "two_payloads", gpmfSeed());
   writeVideoSeed(folder);
+  writeMcapSeeds(folder);
+  for (const auto& [name, text] : imuTableSeeds()) write(folder / "imu_table" / name, text);
   write(folder / "mavlink" / "one_second", mavlinkSeed());
   write(folder / "targets" / "walker", targetsSeed());
   write(folder / "ground_link" / "commands", groundLinkSeed());

@@ -43,6 +43,25 @@ TEST_F(ImportAslTest, AWholeFlightBecomesALogInTheOrderOfTime) {
   EXPECT_EQ(altitudes[1].sigma, 0.05);
 }
 
+/// As kalibr_bagcreater takes it (github.com/ethz-asl/kalibr/wiki/bag-format).
+TEST_F(ImportAslTest, KalibrsFoldersHaveNoList) {
+  for (const fs::path& image : images_) fs::rename(image, mav() / "cam0" / image.filename());
+  fs::remove_all(mav() / "cam0" / "data");
+  fs::remove(mav() / "cam0" / "data.csv");
+  std::string imu = readText(mav() / "imu0" / "data.csv");
+  imu.replace(0, imu.find('\n'), "timestamp,omega_x,omega_y,omega_z,alpha_x,alpha_y,alpha_z");
+  writeText(mav() / "imu0.csv", imu);
+  fs::remove_all(mav() / "imu0");
+  const ImportSummary summary = import();
+  EXPECT_EQ(summary.frames, 5);
+  EXPECT_EQ(summary.imu_samples, 60);
+  const auto frames = messagesOn<image_t>(readEvents(log()), "CAMERA");
+  ASSERT_EQ(frames.size(), 5u);
+  EXPECT_EQ(frames[3].utime, kAslStart / 1000 + 150'000);
+  for (const auto& entry : fs::directory_iterator(mav() / "cam0")) fs::remove(entry.path());
+  EXPECT_NE(errorMessageOf([&] { import(); }).find("nor images named by their time"), std::string::npos);
+}
+
 TEST_F(ImportAslTest, TheVehicleIsDescribed) {
   const VehicleDescription vehicle = import().vehicle;
   ASSERT_TRUE(vehicle.intrinsics && vehicle.R_CI && vehicle.p_IC && vehicle.noise && vehicle.start_height);

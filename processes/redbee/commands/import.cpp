@@ -1,65 +1,53 @@
 // redbee import KIND: one subcommand for each importer.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 
 #include "processes/common_options.hpp"
 #include "processes/redbee/commands/command.hpp"
-#include "processes/redbee/vehicle/import_flight.hpp"
+#include "processes/redbee/commands/importer_options.hpp"
+#include "processes/redbee/commands/program_beside.hpp"
+#include "processes/redbee/rosbag/rosbag_program.hpp"
+#include "processes/redbee/vehicle/import_kalibr.hpp"
 #include "redbee/importers/importer.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr int kMostPixels = 16384;  ///< per side, of an image_t
-constexpr double kLeastFps = 0.01;
-constexpr double kMostFps = 10000;
-
-void addUnitOption(CLI::App& command, const std::string& name, std::string& unit, const UnitTable& table) {
-  command.add_option(name, unit, "of the IMU's samples")
-      ->check(CLI::IsMember(namesOf(table)))
-      ->capture_default_str();
+void addRosbag(CLI::App& command) {
+  command.set_help_flag();
+  command.prefix_command();
+  command.callback(
+      [&command] { runProgramBeside(kRosbagProgram, kRosbagName, command.remaining(), kRosbagMissing); });
 }
 
-void addImporter(CLI::App& import, const Importer& importer) {
-  auto options = std::make_shared<ImportOptions>(importer.defaults);
-  auto* command = import.add_subcommand(importer.name, importer.description);
-  command->add_option("source", options->source, importer.source)->required();
-  if (importer.takes.chapters)
-    command->add_option("further", options->further_sources, "the chapters that follow");
-  if (importer.takes.imu) {
-    command->add_option("--imu", options->imu,
-                        "IMU samples, CSV with the columns t_s,gx,gy,gz,ax,ay,az in its first line "
-                        "(s since the start of the video, rad/s, m/s^2)");
-    addUnitOption(*command, "--time-unit", options->units.time, timeUnits());
-  }
-  if (importer.takes.units) {
-    addUnitOption(*command, "--gyro-unit", options->units.gyro, gyroUnits());
-    addUnitOption(*command, "--accel-unit", options->units.accel, accelUnits());
-  }
-  if (importer.takes.width) {
-    command->add_option("--width", options->width, "width of the images at most, px; 0: as in the video")
-        ->check(CLI::Range(0, kMostPixels))
-        ->capture_default_str();
-  }
-  if (importer.takes.fps)
-    command->add_option("--fps", options->fps, "frames per second of a folder of images, or of a raw stream")
-        ->check(CLI::Range(kLeastFps, kMostFps));
-  if (importer.takes.keep_going)
-    command->add_flag("--keep-going", options->keep_going, "pass over damage, up to the next key frame");
-  addOutOption(*command, options->log, "log to write; the vehicle's configuration goes beside it");
-  command->add_option("--camchain", options->camchain,
-                      "the camera's calibration: Kalibr's camchain.yaml or camchain-imucam.yaml");
-  command->add_option("--camera", options->camchain_camera, "the camera's section of the camchain")
+void addKalibr(CLI::App& command) {
+  auto options = std::make_shared<KalibrImport>();
+  command.add_option("camchain", options->camchain, "Kalibr's camchain.yaml or camchain-imucam.yaml")
+      ->required();
+  command.add_option("--imu-noise", options->imu, "Kalibr's imu.yaml; without it the vehicle has no IMU");
+  command.add_option("--camera", options->camera, "the camera's section of the camchain")
       ->capture_default_str();
-  command->callback([options, importer] { printFlight(importFlight(importer, *options), options->log); });
+  addOutOption(command, options->out, "configuration of the vehicle to write, a YAML file");
+  command.callback([options] {
+    for (const std::string& warning : importKalibr(*options))
+      std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    std::printf("%s: the vehicle as Kalibr calibrated it; check it before use\n", options->out.c_str());
+  });
+}
+
+void addImporters(CLI::App& command) {
+  command.require_subcommand(1);
+  for (const Importer& importer : importers())
+    setUpImporter(*command.add_subcommand(importer.name, importer.description), importer);
+  addKalibr(
+      *command.add_subcommand("kalibr", "Kalibr's camchain.yaml and imu.yaml, as a vehicle's configuration"));
+  addRosbag(*command.add_subcommand(kRosbagName, kRosbagDescription));
 }
 
 const Command kImportCommand(CommandGroup::kFlights, "import",
                              "turn a recording into an LCM log and a vehicle configuration beside it",
-                             [](CLI::App& command) {
-                               command.require_subcommand(1);
-                               for (const Importer& importer : importers()) addImporter(command, importer);
-                             });
+                             addImporters);
 
 }  // namespace
 }  // namespace redbee

@@ -1,5 +1,7 @@
 #include "processes/redbee/commands/program_beside.hpp"
 
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -10,16 +12,29 @@
 #include <utility>
 #include <vector>
 
+#include "redbee/files/user_error.hpp"
+
 namespace redbee {
 namespace {
 
-void replaceBy(const std::filesystem::path& program, std::vector<std::string> words) {
-  words.insert(words.begin(), program.string());
+using Words = std::vector<std::string>;
+
+std::filesystem::path beside(const std::string& program) {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
+}
+
+/// As exec wants them; it points into the words.
+std::vector<char*> argumentsOf(Words& words) {
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  execv(program.c_str(), argv.data());
+  return argv;
+}
+
+void replaceBy(const std::filesystem::path& program, Words arguments) {
+  arguments.insert(arguments.begin(), program.string());
+  execv(program.c_str(), argumentsOf(arguments).data());
   std::fprintf(stderr, "%s: cannot be started: %s (build it with scripts/build release %s)\n",
                program.c_str(), std::strerror(errno), program.filename().c_str());
   throw CLI::RuntimeError(2);
@@ -30,10 +45,9 @@ Command::Setup startingBeside(const std::string& program, bool names_subcommand)
     command.set_help_flag();
     command.prefix_command();
     command.callback([program, names_subcommand, &command] {
-      const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-      std::vector<std::string> words = command.remaining();
+      Words words = command.remaining();
       if (names_subcommand) words.insert(words.begin(), command.get_name());
-      replaceBy(folder / program, std::move(words));
+      replaceBy(beside(program), std::move(words));
     });
   };
 }
@@ -43,5 +57,28 @@ Command::Setup startingBeside(const std::string& program, bool names_subcommand)
 Command::Setup programBeside(const std::string& program) { return startingBeside(program, true); }
 
 Command::Setup processBeside(const std::string& program) { return startingBeside(program, false); }
+
+void runProgramBeside(const std::string& program, const std::string& subcommand, const Words& arguments,
+                      const std::string& how) {
+  Words words{beside(program).string(), subcommand};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::fflush(stdout);
+  pid_t child = 0;
+  if (const int error =
+          posix_spawn(&child, words.front().c_str(), nullptr, nullptr, argumentsOf(words).data(), environ);
+      error != 0) {
+    throw UserError(words.front() + ": cannot be started: " + std::strerror(error) + " (" + how + ")");
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status)) {
+    std::fprintf(stderr, "%s: is damaged so that %s was ended by signal %d (%s)\n",
+                 arguments.empty() ? "its input" : arguments.front().c_str(), program.c_str(),
+                 WTERMSIG(status), strsignal(WTERMSIG(status)));
+    throw CLI::RuntimeError(2);
+  }
+  if (WEXITSTATUS(status) != 0) throw CLI::RuntimeError(WEXITSTATUS(status));
+}
 
 }  // namespace redbee

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "processes/redbee/commands/command.hpp"
 
@@ -12,5 +13,11 @@ namespace redbee {
 Command::Setup programBeside(const std::string& program);
 /// The same for a process of the stack, which knows no subcommand.
 Command::Setup processBeside(const std::string& program);
+
+/// Runs `program SUBCOMMAND ARGUMENT...` and waits for it. Throws UserError where it cannot be started, with
+/// `how` to get it; CLI::RuntimeError with its exit code where that is not 0, after one line and with 2 where
+/// a signal ended it.
+void runProgramBeside(const std::string& program, const std::string& subcommand,
+                      const std::vector<std::string>& arguments, const std::string& how);
 
 }  // namespace redbee

@@ -40,6 +40,10 @@ TEST(TryCommand, RecordingsAreRecognisedByTheirContent) {
   EXPECT_EQ(recogniseRecording(folder / "g.mp4"), "gopro");
   EXPECT_EQ(recogniseRecording(folder / "l.bin"), "");
   EXPECT_EQ(recogniseRecording(folder / "flight"), "asl");
+  writeText(folder / "b.bin", "#ROSBAG V2.0\n");
+  EXPECT_EQ(recogniseRecording(folder / "b.bin"), "rosbag");
+  writeText(folder / "m.bin", "\x89MCAP0\r\n");
+  EXPECT_EQ(recogniseRecording(folder / "m.bin"), "mcap");
   EXPECT_EQ(recogniseRecording(folder.path()), "video");
   EXPECT_NE(errorMessageOf([&] { recogniseRecording(folder / "none"); }).find("no such file or folder"),
             std::string::npos);

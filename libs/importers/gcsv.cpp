@@ -1,0 +1,123 @@
+#include "redbee/importers/gcsv.hpp"
+
+#include <Eigen/LU>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "redbee/files/csv.hpp"
+#include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
+#include "redbee/geometry/median.hpp"
+#include "redbee/importers/vector_table.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr double kStandardGravityOfGcsv = 9.80665;  // m/s^2
+
+struct GcsvHeader {
+  double time_s = 1e-3;  ///< of one count
+  double gyro = 1;       ///< rad/s
+  double accel = 1;      ///< g
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
+  std::string orientation_text;
+};
+
+/// "YxZ": the first axis is Y, the second x turned round, the third Z.
+Eigen::Matrix3d orientationOf(const std::string& text, const CsvReader& csv) {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  if (text.size() != 3) csv.fail("orientation '" + text + "' has not three letters");
+  for (int row = 0; row < 3; ++row) {
+    const char letter = text[static_cast<size_t>(row)];
+    const int axis = std::tolower(static_cast<unsigned char>(letter)) - 'x';
+    if (axis < 0 || axis > 2) csv.fail("orientation '" + text + "' has another letter than x, y and z");
+    matrix(row, axis) = std::isupper(static_cast<unsigned char>(letter)) != 0 ? 1 : -1;
+  }
+  if (std::abs(matrix.determinant() - 1) > 0.5)
+    csv.fail("orientation '" + text + "' is no rotation: an axis is repeated, or one is mirrored");
+  return matrix;
+}
+
+double positiveScale(const CsvReader& csv) {
+  const double scale = csv.number(1);
+  if (!(scale > 0)) csv.fail(csv.fields()[0] + ": must be above 0");
+  return scale;
+}
+
+/// Leaves the reader before the first sample; its latest row is the names of the columns.
+GcsvHeader readGcsvHeader(CsvReader& csv) {
+  GcsvHeader header;
+  while (csv.next(0)) {
+    const auto& fields = csv.fields();
+    if (fields[0] == "t" || fields[0] == "time") return header;
+    if (fields.size() < 2) continue;  // the first line
+    if (fields[0] == "tscale") header.time_s = positiveScale(csv);
+    if (fields[0] == "gscale") header.gyro = positiveScale(csv);
+    if (fields[0] == "ascale") header.accel = positiveScale(csv);
+    if (fields[0] == "orientation") {
+      header.orientation = orientationOf(fields[1], csv);
+      header.orientation_text = fields[1];
+    }
+  }
+  throw InputError(csv.path(), "has no line with the names of the columns (t,gx,gy,gz,ax,ay,az)");
+}
+
+/// The format's scale gives g; loggers have been seen that give m/s^2, as the format's own example does.
+void fixAccelUnit(const std::filesystem::path& file, ImuTable& table) {
+  std::vector<double> lengths;
+  for (const ImuSample& sample : table.samples) lengths.push_back(sample.accel.norm());
+  const double length = median(lengths);  // in units of the file's scale
+  constexpr double kLeastForce = 6.5, kMostForce = 14.5;
+  const bool is_metric = length > kLeastForce && length < kMostForce;
+  for (ImuSample& sample : table.samples) {
+    if (!is_metric) sample.accel *= kStandardGravityOfGcsv;
+  }
+  table.units.accel = is_metric ? "m/s2" : "g";
+  if (is_metric) table.warnings.push_back(file.string() + ": ascale gives m/s^2, not g as the format has it");
+}
+
+}  // namespace
+
+bool isGcsv(const std::filesystem::path& file) {
+  if (!faultOfFile(file).empty()) return false;
+  std::string line;
+  std::ifstream in(file);
+  std::getline(in, line);
+  return line.rfind("GYROFLOW IMU LOG", 0) == 0 || line.rfind("CAMERA IMU LOG", 0) == 0;
+}
+
+ImuTable readGcsv(const std::filesystem::path& file) {
+  constexpr double kLatest_s = 1e10;
+  CsvReader csv(file);
+  const GcsvHeader header = readGcsvHeader(csv);
+  const std::vector<std::string> names = csv.fields();
+  if (names.size() < 7 || names[1] != "gx" || names[4] != "ax")
+    csv.fail(
+        "names not the columns t,gx,gy,gz,ax,ay,az: without an accelerometer there is no gravity to fly by");
+  ImuTable table;
+  IncreasingTimeCheck times;
+  while (csv.next(names.size())) {
+    ImuSample sample;
+    const double time_s = header.time_s * csv.number(0);
+    if (!(std::abs(time_s) < kLatest_s)) csv.fail("'" + csv.fields()[0] + "' is no time");
+    sample.time = ImuTime(fromSeconds(time_s));
+    times.check(csv, toUtime(sample.time));
+    sample.gyro =
+        header.gyro * (header.orientation * Eigen::Vector3d(csv.number(1), csv.number(2), csv.number(3)));
+    sample.accel =
+        header.accel * (header.orientation * Eigen::Vector3d(csv.number(4), csv.number(5), csv.number(6)));
+    table.samples.push_back(sample);
+  }
+  if (table.samples.empty()) throw InputError(file, "holds no samples");
+  fixAccelUnit(file, table);
+  if (!header.orientation_text.empty()) {
+    table.warnings.push_back(file.string() + ": axes are turned by its orientation " +
+                             header.orientation_text + "; camera.R_CI must relate the camera to those");
+  }
+  return table;
+}
+
+}  // namespace redbee

@@ -1,0 +1,18 @@
+// The options of an importer's subcommand.
+#pragma once
+
+#include "redbee/importers/importer.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace redbee {
+
+/// Adds source, --out and what the importer takes, and a callback that imports and prints the flight.
+void setUpImporter(CLI::App& command, const Importer& importer);
+
+/// --image-topic and the like.
+void addTopicOptions(CLI::App& command, RosTopicChoice& topics);
+
+}  // namespace redbee
