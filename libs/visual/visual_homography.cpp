@@ -151,7 +151,9 @@ VisualHomography VisualHomographyEstimator::step(CameraTime time, const cv::Mat1
     result.status = VisualStatus::kNoTexture;
     return result;
   }
-  const bool is_ignored = connected && unpredicted_until_ && time < *unpredicted_until_;
+  // The clock may have been set back meanwhile.
+  const bool is_ignored = connected && unpredicted_until_ && time < *unpredicted_until_ &&
+                          time >= *unpredicted_until_ - kWithoutPrediction;
   const std::optional<Eigen::Matrix3d> guess =
       prediction && prediction->H.allFinite() && !is_ignored ? std::optional(prediction->H) : std::nullopt;
   if (connected && isRepeated(time, half, guess)) {

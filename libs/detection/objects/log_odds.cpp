@@ -26,12 +26,6 @@ double gainLogOdds(double gain) {
 
 double restlessLogOdds(double squared_residual) { return -0.5 * std::log(std::max(1.0, squared_residual)); }
 
-double occupiedLogOdds(double occupied_s) {
-  constexpr double kUsual_s = 0.5;  // less is usual where objects pass one another
-  constexpr double kLogOddsPerSecond = 2;
-  return std::max(-kLogOddsPerSecond * std::max(0.0, occupied_s - kUsual_s), -logOdds(kSurest));
-}
-
 double stayedLogOdds(double age_s, double farthest) {
   if (age_s < kSettled_s || farthest >= kLeftPlace) return 0;
   return std::max(std::log(farthest / kLeftPlace), kStayedLogOdds);

@@ -10,9 +10,6 @@ double gainLogOdds(double gain);
 /// Of Component::residual_around: where all that surrounds it moves unlike a static surface, as water does,
 /// so may the component. The residual's length counts, in units of its sigma; at most 0.
 double restlessLogOdds(double squared_residual);
-/// Of a place that was foreground for so long before the object came (PlaceHistory): where the background
-/// itself moves to and fro, as on a shore, more evidence is needed. At most 0.
-double occupiedLogOdds(double occupied_s);
 /// Of a track of this age [s] that has moved `farthest` from its origin, in roots of its box's area. What has
 /// not left its place sways or is static: at most 0.
 double stayedLogOdds(double age_s, double farthest);

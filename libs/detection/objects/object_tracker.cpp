@@ -53,11 +53,10 @@ void ObjectTracker::propagate(Duration elapsed, const std::optional<Eigen::Matri
                               const std::optional<CameraStep>& camera) {
   elapsed_s_ = std::max(0.0, seconds(elapsed));
   camera_.propagate(elapsed_s_, ground, camera);
-  places_.propagate(elapsed_s_, ground);
   for (Track& track : tracks_) {
     const double decay_s = track.missed_s > 0 ? kMissedVelocityDecay_s : kSeenVelocityDecay_s;
     track.filter.predict(ground.value_or(Eigen::Matrix3d::Identity()), elapsed_s_, decay_s);
-    track.trail.propagate(elapsed_s_, ground);
+    if (ground) track.origin = transfer(*ground, track.origin);
     if (!ground) track.filter.loosen(kUnknownMotion_px * kUnknownMotion_px * elapsed_s_);
     track.age_s += elapsed_s_;
   }
@@ -148,6 +147,7 @@ void ObjectTracker::begin(size_t component, const ForegroundComponents& found) {
   const Component& first = found.components[component];
   const BoxMeasurement measured = measurementOf(first, found.image);
   Track track{BoxFilter(measured), first};
+  track.origin = track.filter.centre();
   notePlace(track, measured);
   track.components.push_back(component);
   tracks_.push_back(track);
@@ -155,13 +155,12 @@ void ObjectTracker::begin(size_t component, const ForegroundComponents& found) {
 
 void ObjectTracker::notePlace(Track& track, const BoxMeasurement& measured) const {
   track.path.push_back({camera_.current(), measured.centre(), measured.centreVariance()});
-  track.trail.note(track.filter.centre(), track.filter.size());
   while (!camera_.remembers(track.path.front().frame)) track.path.pop_front();
 }
 
 double ObjectTracker::motionLogOdds(const Track& track) const {
   const auto likelihood = movingLogLikelihood(track.path, camera_, direction_error_);
-  if (!likelihood) return stayedLogOdds(track.age_s, track.trail.farthest());
+  if (!likelihood) return stayedLogOdds(track.age_s, track.farthest);
   return movingLogOdds(track.age_s, *likelihood / std::max(1.0, track.last.residual_around));
 }
 
@@ -170,10 +169,11 @@ void ObjectTracker::observe(Track& track, const ForegroundComponents& found) con
   const BoxMeasurement measured = measurementOf(track.last, found.image);
   track.filter.update(measured);
   notePlace(track, measured);
-  const double place = occupiedLogOdds(places_.occupiedBefore(track.last.box, track.trail.velocity())) +
-                       restlessLogOdds(track.last.residual_around);
-  track.evidence_s += elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_ +
-                                    gainLogOdds(track.last.gain) + place + motionLogOdds(track));
+  const double moved_px = (track.filter.centre() - track.origin).norm();
+  track.farthest = std::max(track.farthest, moved_px / track.filter.size());
+  track.evidence_s +=
+      elapsed_s_ * (logOdds(track.last.peak) - neutral_log_odds_ + gainLogOdds(track.last.gain) +
+                    restlessLogOdds(track.last.residual_around) + motionLogOdds(track));
   track.evidence_s = std::min(track.evidence_s, std::max(kMostEvidence_s, parameters_.confirm_s));
   track.missed_s = 0;
   track.skipped_s = 0;
@@ -234,14 +234,16 @@ TrackedObjects ObjectTracker::update(ForegroundComponents& found) {
   splitMerged(found);
   assignAll(found);
   for (Track& track : tracks_) {
-    if (!track.components.empty()) observe(track, found);
-    if (track.components.empty()) miss(track);
+    if (track.components.empty()) {
+      miss(track);
+    } else {
+      observe(track, found);
+    }
   }
   elapsed_s_ = 0;
   const std::vector<size_t> fresh = unassigned(Strength::kAny, found.components);
   deleteLostTracks(found.image);
   for (const size_t c : fresh) begin(c, found);
-  places_.note(found.components);
   return report(found.image);
 }
 

@@ -10,8 +10,6 @@
 
 #include "redbee/detection/objects/box_filter.hpp"
 #include "redbee/detection/objects/components.hpp"
-#include "redbee/detection/objects/ground_trail.hpp"
-#include "redbee/detection/objects/place_history.hpp"
 #include "redbee/detection/objects/static_path.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/time.hpp"
@@ -38,10 +36,7 @@ class ObjectTracker {
  public:
   explicit ObjectTracker(const ObjectParameters& parameters, const ParallaxParameters& parallax = {});
 
-  void reset() {
-    tracks_.clear();
-    places_ = {};
-  }
+  void reset() { tracks_.clear(); }
   /// To the next frame, before update() or skip(). `elapsed`: since the previous frame; negative counts as
   /// none. `ground`: homography, previous to current [px]; `camera`: over the same step, for the test of the
   /// paths against static surfaces. std::nullopt if unknown.
@@ -57,14 +52,15 @@ class ObjectTracker {
  private:
   struct Track {
     BoxFilter filter;
-    Component last;         ///< what it was last found as
-    int id = 0;             ///< 0: not confirmed
-    double age_s = 0;       ///< since its first component
-    double missed_s = 0;    ///< since its last component
-    double skipped_s = 0;   ///< of this, in skipped frames
-    double evidence_s = 0;  ///< integral of its log odds over time
-    GroundTrail trail{};
-    std::deque<PathPoint> path{};      ///< where it was found
+    Component last;                                    ///< what it was last found as
+    int id = 0;                                        ///< 0: not confirmed
+    double age_s = 0;                                  ///< since its first component
+    double missed_s = 0;                               ///< since its last component
+    double skipped_s = 0;                              ///< of this, in skipped frames
+    double evidence_s = 0;                             ///< integral of its log odds over time
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< px: where on the ground it was first found
+    double farthest = 0;           ///< distance from there, in roots of the box's area, the greatest so far
+    std::deque<PathPoint> path{};  ///< where it was found
     std::vector<size_t> components{};  ///< of this frame
   };
   enum class Strength { kStrong, kWeak, kAny };
@@ -87,7 +83,6 @@ class ObjectTracker {
   double neutral_log_odds_;  ///< of a component that says nothing
   double direction_error_;   ///< rad
   CameraPath camera_;
-  PlaceHistory places_;
   std::vector<Track> tracks_;
   double elapsed_s_ = 0;
   int next_id_ = 1;

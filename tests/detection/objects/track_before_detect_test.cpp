@@ -48,25 +48,6 @@ TEST(TrackBeforeDetect, WhereAllMovesUnlikeAStaticSurfaceMoreEvidenceIsNeeded) {
   EXPECT_LT(reportedAfter(kStrong, 24, 4, 7.4), 2) << "unless its flow explains the image well";
 }
 
-TEST(TrackBeforeDetect, WhereTheBackgroundMovesToAndFroMoreEvidenceIsNeeded) {
-  constexpr double kRate_hz = 24, kWave = 0.45, kWalker = 0.7;  // P_FG; a wave alone is not reported
-  const auto reportedBehind = [&](int waves) {
-    TrackerFlight flight(shipped(), kRate_hz);
-    for (int k = 0; k < 4 * 24; ++k) {
-      Regions regions;
-      if (k / 12 % 2 == 0 && k / 24 < waves) regions.push_back({cv::Rect(80, 190, 220, 50), kWave});
-      EXPECT_TRUE(flight.step(regions).empty());
-    }
-    for (double time_s = 0; time_s < 2; time_s += 1 / kRate_hz) {
-      if (!flight.step({{walker(time_s), kWalker}}).empty()) return time_s;
-    }
-    return 2.0;
-  };
-  EXPECT_LT(reportedBehind(0), 0.5);
-  EXPECT_EQ(reportedBehind(1), reportedBehind(0)) << "something passed here before";
-  EXPECT_EQ(reportedBehind(4), 2) << "0.65 - 2 (4 * 0.5 - 0.5)";
-}
-
 /// A camera that looks straight down from 20 m; the parallax lies along x.
 CameraStep lookingDown(double x_m) {
   CameraStep step{{Eigen::Matrix3d::Identity(), {-x_m, 0, 0}, Eigen::Vector3d::UnitZ(), 20},
