@@ -1,5 +1,6 @@
 #include "processes/serve/access.hpp"
 
+#include <arpa/inet.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -22,8 +23,27 @@ WebResponse refuse(int status, const std::string& why) {
   return response;
 }
 
-/// Without the port.
-std::string hostOf(const std::string& header) { return header.substr(0, header.rfind(':')); }
+/// A Host header without its port; empty where it is malformed.
+std::string hostOf(const std::string& header) {
+  const bool is_bracketed = !header.empty() && header[0] == '[';
+  size_t end = header.find(is_bracketed ? ']' : ':');
+  if (is_bracketed && end != std::string::npos) ++end;
+  end = std::min(end, header.size());
+  const bool is_port = end == header.size() ||
+                       (header[end] == ':' && std::all_of(header.begin() + end + 1, header.end(),
+                                                          [](char c) { return c >= '0' && c <= '9'; }));
+  return is_port ? header.substr(0, end) : "";
+}
+
+/// A name that merely begins like a loopback address may be anybody's: 127.0.0.1.evil.example.
+bool isLoopback(const std::string& host) {
+  if (host == "localhost") return true;
+  in_addr v4{};
+  if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return ntohl(v4.s_addr) >> 24 == IN_LOOPBACKNET;
+  in6_addr v6{};
+  return host.size() > 2 && host[0] == '[' && host.back() == ']' &&
+         inet_pton(AF_INET6, host.substr(1, host.size() - 2).c_str(), &v6) == 1 && IN6_IS_ADDR_LOOPBACK(&v6);
+}
 
 }  // namespace
 
@@ -64,7 +84,7 @@ std::string cookieOf(const std::string& header, const std::string& name) {
 }
 
 Access::Access(const ListenAddress& address, std::string token, bool allow_writes)
-    : is_tcp_(address.unix_socket.empty()), token_(std::move(token)), allow_writes_(allow_writes) {
+    : token_(std::move(token)), allow_writes_(allow_writes) {
   if (!address.isLocal() && token_.empty()) {
     throw UserError("redbee serve: " + address.host +
                     " can be reached from other hosts: that needs serve.token_file (--token-file)");
@@ -79,10 +99,10 @@ bool Access::hasToken(const WebRequest& request) const {
   return isSameSecret(cookieOf(request.header("cookie"), kCookie), token_);
 }
 
-/// A page of another site could otherwise lead a browser here under a name of its own (DNS rebinding).
+/// A page of another site could otherwise lead a browser here under a name of its own (DNS rebinding); to a
+/// Unix socket, too, where ssh -L makes it a port.
 std::optional<WebResponse> Access::refusalOfHost(const WebRequest& request) const {
-  const std::string host = hostOf(request.header("host"));
-  if (!is_tcp_ || host == "localhost" || host.rfind("127.", 0) == 0) return std::nullopt;
+  if (isLoopback(hostOf(request.header("host")))) return std::nullopt;
   return refuse(403, "without a token this page is at localhost or 127.0.0.1 only");
 }
 

@@ -29,7 +29,6 @@ class Access {
   std::optional<WebResponse> refusalOfHost(const WebRequest& request) const;
   std::optional<WebResponse> refusalOfWrite(const WebRequest& request) const;
 
-  bool is_tcp_;
   std::string token_;
   bool allow_writes_;
 };

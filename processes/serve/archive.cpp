@@ -7,8 +7,11 @@
 #include <iterator>
 #include <map>
 #include <regex>
+#include <set>
 #include <tuple>
 #include <utility>
+
+#include "redbee/files/natural_order.hpp"
 
 namespace redbee {
 namespace {
@@ -33,6 +36,15 @@ void newestFirst(std::vector<Archive::Entry>& entries) {
   });
 }
 
+/// `paths`: of the entries, in their order.
+void makeNamesUnique(std::vector<Archive::Entry>& entries, const std::vector<std::string>& paths) {
+  std::map<std::string, int> uses;
+  for (const Archive::Entry& entry : entries) ++uses[entry.name];
+  for (size_t i = 0; i < entries.size(); ++i) {
+    if (uses[entries[i].name] > 1) entries[i].name = paths[i];
+  }
+}
+
 }  // namespace
 
 Archive::Archive(const Configuration& configuration, std::vector<fs::path> folders)
@@ -50,21 +62,24 @@ std::vector<Archive::Entry> Archive::files() const {
 
 std::vector<Archive::Entry> Archive::readFolders() const {
   std::vector<Entry> entries;
-  for (const fs::path& folder : folders_) {
+  std::set<fs::path> known;  // one folder may be given twice, or lie in another
+  for (const fs::path& given : folders_) {
     std::error_code error;
-    fs::path parent = fs::absolute(folder, error).lexically_normal();
-    if (!parent.has_filename()) parent = parent.parent_path();
-    parent = parent.parent_path();
+    const fs::path folder = fs::canonical(given, error);
+    if (error) continue;  // that of recordings, before the first one
     auto at = fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, error);
     for (; !error && at != fs::recursive_directory_iterator() && entries.size() < kMostFiles;
          at.increment(error)) {
       if (at.depth() >= kDeepest) at.disable_recursion_pending();
       if (at->path().extension() == ".png") continue;  // the maps of a run
       struct stat status {};
-      if (stat(at->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
-      const fs::path absolute = fs::absolute(at->path(), error).lexically_normal();
-      entries.push_back(
-          {absolute.lexically_relative(parent).string(), status.st_size, status.st_mtime, {absolute}});
+      // A link may lead out of the folder.
+      if (lstat(at->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+      if (!known.insert(at->path()).second) continue;
+      entries.push_back({at->path().lexically_relative(folder.parent_path()).string(),
+                         status.st_size,
+                         status.st_mtime,
+                         {at->path()}});
     }
   }
   newestFirst(entries);
@@ -74,28 +89,35 @@ std::vector<Archive::Entry> Archive::readFolders() const {
 std::vector<Archive::Entry> Archive::flights() const {
   std::map<std::string, Entry> logs;
   for (const Entry& file : files()) {
-    const std::string name = logOf(file.name);
-    if (name.empty()) continue;
-    Entry& entry = logs[name];
-    entry.name = name;
+    const std::string path = logOf(file.files.front().string());
+    if (path.empty()) continue;
+    Entry& entry = logs[path];
+    entry.name = logOf(file.name);
     entry.bytes += file.bytes;
     entry.modified_s = std::max(entry.modified_s, file.modified_s);
     entry.files.push_back(file.files.front());
   }
   std::vector<Entry> result;
-  for (auto& [name, entry] : logs) {
-    std::sort(entry.files.begin(), entry.files.end());
+  std::vector<std::string> paths;
+  for (auto& [path, entry] : logs) {
+    std::sort(entry.files.begin(), entry.files.end(), isFileNaturallyBefore);
+    paths.push_back(path);
     result.push_back(std::move(entry));
   }
+  makeNamesUnique(result, paths);
   newestFirst(result);
   return result;
 }
 
 std::vector<Archive::Entry> Archive::reports() const {
   std::vector<Entry> result;
+  std::vector<std::string> paths;
   for (Entry& file : files()) {
-    if (fs::path(file.name).extension() == ".html") result.push_back(std::move(file));
+    if (fs::path(file.name).extension() != ".html") continue;
+    paths.push_back(file.files.front().string());
+    result.push_back(std::move(file));
   }
+  makeNamesUnique(result, paths);
   return result;
 }
 

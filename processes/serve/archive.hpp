@@ -20,10 +20,11 @@ namespace redbee {
 class Archive {
  public:
   struct Entry {
-    std::string name;  ///< path from the folder's parent
+    /// Path from the folder's parent; where others are called the same, the whole path.
+    std::string name;
     int64_t bytes = 0;
-    int64_t modified_s = 0;  ///< since 1970
-    std::vector<std::filesystem::path> files;
+    int64_t modified_s = 0;                    ///< since 1970
+    std::vector<std::filesystem::path> files;  ///< canonical; a log's parts in the order of their numbers
   };
 
   Archive(const Configuration& configuration, std::vector<std::filesystem::path> folders);
@@ -46,7 +47,8 @@ class Archive {
     std::shared_ptr<const Flight> flight;
   };
 
-  /// Files below the folders, newest first; looked up every two seconds at most.
+  /// Files below the folders, newest first, each once; links are left out. Looked up every two seconds at
+  /// most.
   std::vector<Entry> files() const;
   std::vector<Entry> readFolders() const;
 

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 
 #include <algorithm>
 #include <cctype>
@@ -14,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "redbee/files/new_file.hpp"
 #include "redbee/files/user_error.hpp"
 
 namespace redbee {
@@ -82,6 +84,27 @@ void streamEvents(Live& live, httplib::Response& response) {
       });
 }
 
+/// What a server that was killed has left is removed; that of one which lives is not.
+void removeLeftSocket(const std::string& file) {
+  struct stat status {};
+  if (lstat(file.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return;
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  file.copy(address.sun_path, sizeof address.sun_path - 1);
+  const FileDescriptor probe(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const bool is_answered =
+      connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  if (!is_answered && errno == ECONNREFUSED) {
+    std::filesystem::remove(file);
+    return;
+  }
+  // EAGAIN: more are waiting than it takes.
+  const std::string why = is_answered || errno == EAGAIN
+                              ? "another server listens there"
+                              : std::string("cannot be asked who listens: ") + std::strerror(errno);
+  throw UserError("redbee serve: " + file + ": " + why + "; another socket: --listen unix:FILE");
+}
+
 void listenAt(httplib::Server& server, const ListenAddress& address) {
   if (address.unix_socket.empty()) {
     if (!server.bind_to_port(address.host, address.port)) {
@@ -90,9 +113,7 @@ void listenAt(httplib::Server& server, const ListenAddress& address) {
     }
     return;
   }
-  struct stat status {};
-  if (lstat(address.unix_socket.c_str(), &status) == 0 && S_ISSOCK(status.st_mode))
-    std::filesystem::remove(address.unix_socket);
+  removeLeftSocket(address.unix_socket);
   server.set_address_family(AF_UNIX);
   const mode_t before = umask(0117);  // user and group
   const bool is_bound = server.bind_to_port(address.unix_socket, 80);
@@ -119,6 +140,11 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
   // Nothing else ends the wait at a Unix socket when the server is to stop.
   server.set_idle_interval(std::chrono::milliseconds(200));
   server.set_tcp_nodelay(true);
+  // Not httplib's SO_REUSEPORT: a second server would be given half of the connections.
+  server.set_socket_options([](int socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   server.set_default_headers({{"Cache-Control", "no-store"},
                               {"X-Content-Type-Options", "nosniff"},
                               {"Referrer-Policy", "no-referrer"}});

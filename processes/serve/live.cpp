@@ -13,7 +13,10 @@ const std::string& SharedFrame::bundle() {
 }
 
 std::optional<Live::Viewer> Live::join() {
-  if (viewers_ >= kMostViewers) return std::nullopt;
+  int viewers = viewers_;
+  do {
+    if (viewers >= kMostViewers) return std::nullopt;
+  } while (!viewers_.compare_exchange_weak(viewers, viewers + 1));
   return Viewer(*this);
 }
 

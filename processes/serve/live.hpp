@@ -37,7 +37,6 @@ class Live {
   /// Who looks; the images are received only while somebody does.
   class Viewer {
    public:
-    explicit Viewer(Live& live) : live_(&live) { ++live.viewers_; }
     Viewer(Viewer&& other) noexcept : live_(std::exchange(other.live_, nullptr)) {}
     Viewer& operator=(Viewer&&) = delete;
     ~Viewer() {
@@ -45,6 +44,8 @@ class Live {
     }
 
    private:
+    friend class Live;
+    explicit Viewer(Live& live) : live_(&live) {}  ///< counted by join()
     Live* live_;
   };
   /// std::nullopt where there are as many as the server has threads for.

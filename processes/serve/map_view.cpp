@@ -31,7 +31,9 @@ Eigen::Vector2d metresFrom(const Eigen::Vector2d& origin_deg, const Eigen::Vecto
   const double w = 1 - kWgs84Eccentricity2 * std::sin(latitude) * std::sin(latitude);
   const double across = kWgs84Axis_m / std::sqrt(w);
   const double along = across * (1 - kWgs84Eccentricity2) / w;
-  const Eigen::Vector2d moved = (degrees - origin_deg) * M_PI / 180;
+  const Eigen::Vector2d moved =
+      Eigen::Vector2d(degrees.x() - origin_deg.x(), std::remainder(degrees.y() - origin_deg.y(), 360)) *
+      M_PI / 180;
   return {moved.y() * across * std::cos(latitude), moved.x() * along};
 }
 

@@ -3,9 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "processes/common_options.hpp"
@@ -14,6 +16,7 @@
 #include "processes/serve/node.hpp"
 #include "redbee/bus/build_version.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/files/user_error.hpp"
 
 namespace redbee {
 namespace {
@@ -37,8 +40,8 @@ void addOptions(CLI::App& app, ServeOptions& options) {
   app.add_option("--token-file", options.token_file, "what the browser must know (serve.token_file)");
   app.add_flag("--allow-writes", options.allow_writes,
                "the page may record and restart (serve.allow_writes)");
-  app.add_option("--flights", options.folders, "folders with logs, results and reports to show")
-      ->envname("REDBEE_RECORDINGS");
+  app.add_option("--flights", options.folders,
+                 "folders with logs, results and reports to show (else that of REDBEE_RECORDINGS)");
 }
 
 ServeParameters parametersOf(const Configuration& configuration, const ServeOptions& options) {
@@ -50,18 +53,35 @@ ServeParameters parametersOf(const Configuration& configuration, const ServeOpti
   return parameters;
 }
 
+/// A folder that is named must be there; that of recordings may be made later.
+std::vector<std::filesystem::path> foldersOf(const ServeOptions& options) {
+  for (const std::filesystem::path& folder : options.folders) {
+    std::error_code error;
+    const auto status = std::filesystem::status(folder, error);
+    if (std::filesystem::is_directory(status)) continue;
+    const bool is_there = std::filesystem::exists(status);
+    throw UserError("--flights " + folder.string() + ": " +
+                    (is_there ? "is no folder; give the one that it is in" : "there is no such folder"));
+  }
+  if (!options.folders.empty()) return options.folders;
+  const char* recordings = std::getenv("REDBEE_RECORDINGS");
+  if (recordings == nullptr || *recordings == '\0') return {};
+  return {recordings};
+}
+
 std::string placeOf(const ListenAddress& address) {
   if (address.unix_socket.empty()) return "http://" + address.host + ":" + std::to_string(address.port) + "/";
   return "the Unix socket " + std::filesystem::absolute(address.unix_socket).string();
 }
 
 void serve(const ServeOptions& options) {
+  const auto folders = foldersOf(options);
   const Configuration configuration = loadConfiguration(options.configuration);
   const ServeParameters parameters = parametersOf(configuration, options);
   const auto address = listenAddressOf(parameters.listen);
   if (!address) throw UserError("--listen " + parameters.listen + ": must be " + kListenForms);
   Live live;
-  Archive archive(configuration, options.folders);
+  Archive archive(configuration, folders);
   Station station(Access(*address, readToken(parameters.token_file), parameters.allow_writes), archive, live,
                   supervisedStack());
   const auto bus = makeLcmBus(options.url);

@@ -205,7 +205,9 @@ WebResponse Station::write(const WebRequest& request) {
   std::string action;
   std::string process;
   if (request.path == "/api/record") {
-    action = request.parameter("on") == "1" ? "start" : "stop";
+    const std::string on = request.parameter("on");
+    if (on != "0" && on != "1") return plain(400, "on: must be 0 or 1");
+    action = on == "1" ? "start" : "stop";
     process = kRecord.name;
   } else if (request.path == "/api/restart") {
     action = "restart";

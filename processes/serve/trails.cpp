@@ -50,6 +50,8 @@ bool Trails::carryTo(int64_t utime) {
 }
 
 void Trails::addDetections(const detections_t& detections) {
+  // A clock that was set back: the steps of later times would crowd out those that are to come.
+  if (detections.utime < utime_) steps_.clear();
   if (!carryTo(detections.utime)) points_.clear();
   utime_ = detections.utime;
   for (const detection_t& d : detections.detections) {

@@ -28,8 +28,8 @@ class Trails {
   /// The ground's homography between ideal pixels of the frames at these times (us). Steps may come before
   /// the detections of their frame.
   void addStep(int64_t from, int64_t to, const Eigen::Matrix3d& H);
-  /// The detections of a frame later than those before. Trails end where no steps lead here from the frame
-  /// before.
+  /// The detections of a frame. Trails end where no steps lead here from the frame before, and begin again
+  /// where the clock was set back.
   void addDetections(const detections_t& detections);
   /// As the newest frame with detections shows them; points outside of the camera model's domain are left
   /// out.

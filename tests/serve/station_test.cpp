@@ -194,6 +194,15 @@ TEST_F(StationTest, WritesGoToTheSupervisorByNamesOfTheTable) {
   EXPECT_EQ(done_, "start record;restart camera;");
 }
 
+TEST_F(StationTest, ARecordingEndsOnlyWhereTheRequestSaysSo) {
+  EXPECT_EQ(post("/api/record", {}).status, 400);
+  for (const char* on : {"", "2", "true", "01", "1 "})
+    EXPECT_EQ(post("/api/record", {{"on", on}}).status, 400) << on;
+  EXPECT_EQ(done_, "");
+  EXPECT_EQ(post("/api/record", {{"on", "0"}}).status, 200);
+  EXPECT_EQ(done_, "stop record;");
+}
+
 TEST_F(StationTest, LiveGivesTheNewestFrameOnly) {
   EXPECT_EQ(get("/api/frame", {{"after", "0"}}).status, 204);
   for (int k = 0; k < 3; ++k) {

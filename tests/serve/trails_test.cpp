@@ -59,6 +59,24 @@ TEST(Trails, AreFiveSecondsLong) {
   EXPECT_EQ(trails.trails()[0].points.size(), 50U);
 }
 
+TEST(Trails, ReturnAfterTheClockWasSetBack) {
+  Trails trails(camera());
+  const auto addFrames = [&](int64_t from) {
+    trails.addDetections(boxAt(from, 3, 100, 200));
+    for (int64_t utime = from; utime < from + 10'000'000; utime += 100'000) {
+      trails.addStep(utime, utime + 100'000, shift(0, 0));
+      trails.addDetections(boxAt(utime + 100'000, 3, 100, 200));
+    }
+  };
+  addFrames(1'000'000'000);
+  trails.addStep(900'000'000 - 100'000, 900'000'000, shift(0, 0));
+  trails.addDetections(boxAt(900'000'000, 3, 100, 200));
+  EXPECT_TRUE(trails.trails().empty());
+  addFrames(900'000'000);
+  ASSERT_EQ(trails.trails().size(), 1U);
+  EXPECT_EQ(trails.trails()[0].points.size(), 50U);
+}
+
 TEST(Footprint, IsWhereTheCornersMeetTheGround) {
   // Straight down from 10 m, the image's top to the north: x east, y south, z down.
   Eigen::Matrix3d R_GC;
@@ -125,6 +143,23 @@ TEST(Map, MeasuresMetresFromTheFirstFixWhereThereIsNoLocalPosition) {
   ASSERT_TRUE(view.own);
   // WGS-84: a degree of latitude is 111.41 km at 60 degrees, one of longitude 55.80 km.
   EXPECT_NEAR(view.own->position.y(), 111.41, 0.01);
+  EXPECT_NEAR(view.own->position.x(), 55.80, 0.01);
+}
+
+TEST(Map, MeasuresAcrossTheDateLine) {
+  Configuration configuration;
+  configuration.camera = intrinsics();
+  MapBuilder map(configuration);
+  pose_t pose = poseAt(0, 0, 0);
+  pose.has_local = 0;
+  pose.has_global = 1;
+  pose.latitude = 60;
+  pose.longitude = 179.9995;
+  map.onPose(pose);
+  pose.longitude = -179.9995;
+  map.onPose(pose);
+  const auto view = map.view(0);
+  ASSERT_TRUE(view.own);
   EXPECT_NEAR(view.own->position.x(), 55.80, 0.01);
 }
 
