@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "redbee/configuration/configuration_files.hpp"
 #include "redbee/configuration/configuration_loader.hpp"
 #include "redbee/configuration/configuration_preset.hpp"
 #include "redbee/configuration/configuration_table.hpp"
@@ -23,17 +24,25 @@ std::vector<std::string> splitKey(const std::string& key) {
   return parts;
 }
 
-}  // namespace
-
-Configuration loadConfiguration(const std::filesystem::path& file) { return loadConfiguration(file, {}); }
-
-Configuration loadConfiguration(const std::filesystem::path& file, const ConfigurationOverrides& overrides) {
+configuration::Loader loaded(const std::filesystem::path& file, const ConfigurationOverrides& overrides) {
   configuration::Loader loader;
   loader.loadFile(file);
   loader.applyOverrides(overrides);
   loader.checkWhole(file);
   loader.loadMask();
-  return loader.configuration();
+  return loader;
+}
+
+}  // namespace
+
+Configuration loadConfiguration(const std::filesystem::path& file) { return loadConfiguration(file, {}); }
+
+Configuration loadConfiguration(const std::filesystem::path& file, const ConfigurationOverrides& overrides) {
+  return loaded(file, overrides).configuration();
+}
+
+std::vector<std::filesystem::path> configurationFiles(const std::filesystem::path& file) {
+  return loaded(file, {}).files();
 }
 
 std::vector<std::string> presetNames() { return configuration::presetNames(); }

@@ -49,6 +49,7 @@ void Loader::loadFile(const std::filesystem::path& file) {
     fail({file.string(), std::max(error.mark.line, 0) + 1}, "syntax", error.msg);
   }
   open_files_.push_back(file);
+  files_.push_back(file);
   if (!root.IsMap()) fail(placeOf(root), "file", "holds no keys");
   applyIncludes(root);
   applyPreset(root);
@@ -141,6 +142,7 @@ void Loader::loadMask() {
   const std::string key = "camera.mask";
   const std::string& name = configuration_.mask;
   if (name.empty()) return;
+  files_.emplace_back(name);
   const Place& place = places_.at(key);
   if (const std::string fault = faultOfFile(name); !fault.empty()) fail(place, key, name + " " + fault);
   cv::Mat1b image;

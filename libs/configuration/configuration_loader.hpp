@@ -24,6 +24,8 @@ class Loader {
   /// Reads camera.mask. To be called after checkWhole().
   void loadMask();
   const Configuration& configuration() const { return configuration_; }
+  /// What was read so far.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
   struct Place {
@@ -48,6 +50,7 @@ class Loader {
   Configuration configuration_;
   std::map<std::string, Place> places_;
   std::vector<std::filesystem::path> open_files_;  ///< the file being read is the last
+  std::vector<std::filesystem::path> files_;
 };
 
 }  // namespace redbee::configuration

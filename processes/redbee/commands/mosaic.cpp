@@ -21,7 +21,7 @@ const Command kMosaicCommand(CommandGroup::kFlights, "mosaic",
                                    ->check(CLI::Range(16, 16384))
                                    ->capture_default_str();
                                command.add_option("--every", options->every, "draw every n-th frame")
-                                   ->check(CLI::PositiveNumber)
+                                   ->check(CLI::Range(1, 1000000))
                                    ->capture_default_str();
                                command.callback([options] {
                                  const MosaicSummary summary = makeMosaic(*options);

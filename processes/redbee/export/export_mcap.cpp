@@ -2,23 +2,28 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include "processes/redbee/export/ros_export.hpp"
 #include "processes/redbee/export/ros_schemas.hpp"
 #include "redbee/bus/build_version.hpp"
-#include "redbee/bus/codec.hpp"
 #include "redbee/bus/message_name.hpp"
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/configuration/configuration_files.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/files/mcap_writer.hpp"
 #include "redbee/files/progress.hpp"
 #include "redbee/foreground_t.hpp"
+#include "redbee/node/message_check.hpp"
 #include "redbee/results/run_folder.hpp"
 
 namespace redbee {
 namespace {
+
+/// MCAP counts in nanoseconds.
+constexpr int64_t kLatest_us = std::numeric_limits<int64_t>::max() / 1000;
 
 std::string topicOf(const std::string& channel) {
   std::string topic = "/";
@@ -76,8 +81,7 @@ class Exporter {
   bool take(const std::string& name, const LogEvent& event, const Use& use) {
     if (name != Message::getTypeName()) return false;
     Message message;
-    if (decodeMessage(event.data.data(), static_cast<int>(event.data.size()), message) &&
-        message.utime >= 0) {
+    if (decodePlausible(event.data, message) && message.utime >= 0 && message.utime <= kLatest_us) {
       use(message);
     } else {
       ++exported_.damaged;
@@ -165,7 +169,11 @@ class Exporter {
 
 McapExported exportMcap(const McapExport& options) {
   std::vector<std::filesystem::path> inputs{options.log};
-  if (options.configuration) inputs.push_back(*options.configuration);
+  if (options.configuration) {
+    const auto files = configurationFiles(*options.configuration);
+    inputs.insert(inputs.end(), files.begin(), files.end());
+  }
+  if (options.results) inputs.push_back(*options.results / "detections.csv");
   requireNoInput(options.out, inputs);
   LogReader log(options.log);
   Exporter exporter(options);

@@ -146,7 +146,9 @@ RecordedFlight readTargets(const std::filesystem::path& log,
     if (replay) replay->play(*event);
   }
   if (replay) replay->finish();
-  return recorder.finish(log, configuration_file.has_value());
+  RecordedFlight flight = recorder.finish(log, configuration_file.has_value());
+  flight.damage_report = reader.damageReport();
+  return flight;
 }
 
 }  // namespace redbee

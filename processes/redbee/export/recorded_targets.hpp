@@ -31,7 +31,8 @@ struct RecordedFlight {
   std::vector<RecordedPlace> vehicle;
   std::map<int, RecordedTarget> targets;
   int64_t frames = 0;
-  int64_t damaged = 0;  ///< messages that cannot be decoded, or cannot be true
+  int64_t damaged = 0;        ///< messages that cannot be decoded, or cannot be true
+  std::string damage_report;  ///< LogReader's, of the log; empty if it is whole
 };
 
 /// From TARGETS of the log, which are computed anew from DETECTIONS, POSE and what else there is where a

@@ -69,6 +69,7 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, c
     ++drawn;
   }
   progress.finish();
+  if (!log.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", log.damageReport().c_str());
   return drawn;
 }
 

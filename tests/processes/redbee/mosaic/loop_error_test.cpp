@@ -81,7 +81,7 @@ TEST(Mosaic, ComesBackToItselfAfterALoop) {
   EXPECT_LT(worst_m, 0.5);
 }
 
-TEST(Mosaic, LeavesImageTracksAndSummary) {
+TEST(Mosaic, LeavesImageTracksAndSummaryAndReportsDamage) {
   const ScratchFolder folder;
   const EndlessFlight flight;
   writeFlight(flight, folder / "loop.lcm");
@@ -91,7 +91,11 @@ TEST(Mosaic, LeavesImageTracksAndSummary) {
   options.configuration = folder / "vehicle.yaml";
   options.out = folder / "out";
   options.every = 8;
+  fs::resize_file(options.log, fs::file_size(options.log) - 1);
+  testing::internal::CaptureStderr();
   const MosaicSummary summary = makeMosaic(options);
+  const std::string errors = testing::internal::GetCapturedStderr();
+  EXPECT_NE(errors.find("warning: " + options.log.string() + ": byte "), std::string::npos) << errors;
   EXPECT_TRUE(summary.is_metric);
   EXPECT_GT(summary.tracks, 3U);
   for (const char* file : {"mosaic.png", "tracks.png", "tracks.csv", "summary.json"})
