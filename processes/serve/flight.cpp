@@ -43,6 +43,8 @@ Flight::Flight(const Configuration& configuration, std::vector<std::filesystem::
                const std::vector<std::filesystem::path>& runs)
     : configuration_(configuration), camera_(configuration.camera), parts_(std::move(parts)) {
   for (size_t part = 0; part < parts_.size(); ++part) readPart(part);
+  std::stable_sort(targets_.begin(), targets_.end(),
+                   [](const targets_t& a, const targets_t& b) { return a.utime < b.utime; });
   if (frames_.empty()) {
     throw InputError(
         parts_.empty() ? std::filesystem::path("flight") : parts_.front(),
@@ -111,6 +113,8 @@ void Flight::read(const std::string& channel, const std::vector<uint8_t>& data, 
     contents.steps.push_back(std::move(m));
   } else if (channel == channels.pose) {
     if (pose_t m; decodePlausible(data, m)) poses_.push_back(m);
+  } else if (channel == channels.targets) {
+    if (targets_t m; decodePlausible(data, m)) targets_.push_back(std::move(m));
   }
 }
 
@@ -204,6 +208,9 @@ MapView Flight::mapAt(int64_t utime) const {
   const auto motion = std::find_if(motions_.begin(), motions_.end(),
                                    [&](const fused_homography_t& m) { return m.utime == utime; });
   if (motion != motions_.end()) map.onFused(*motion);
+  const auto later = std::upper_bound(targets_.begin(), targets_.end(), utime,
+                                      [](int64_t time, const targets_t& m) { return time < m.utime; });
+  if (later != targets_.begin()) map.onTargets(*std::prev(later));
   MapView view = map.view(utime);
   if (poses_.empty())
     view.note =

@@ -70,6 +70,7 @@ class Flight {
   std::vector<std::filesystem::path> parts_;
   std::vector<Frame> frames_;  ///< by time
   std::vector<pose_t> poses_;
+  std::vector<targets_t> targets_;           ///< by time
   std::vector<fused_homography_t> motions_;  ///< without tracks
   std::filesystem::path run_;
   std::string note_;

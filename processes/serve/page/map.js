@@ -1,4 +1,5 @@
 // The map: a plain metric grid, north up, that follows the drone.
+import {drawTargets, listTargets} from './targets.js';
 
 const canvas = document.getElementById('map');
 const note = document.getElementById('map-note');
@@ -7,7 +8,7 @@ let last = null;
 
 /** Metres that fit into half of the canvas: all of the footprint and the newest part of the path. */
 function reachOf(map, centre) {
-  const points = [...map.footprint, ...(map.targets ?? []).map((target) => target.position), ...map.path.slice(-200)];
+  const points = [...map.footprint, ...map.targets.map((target) => target.position), ...map.path.slice(-200)];
   const far = points.map(([e, n]) => Math.max(Math.abs(e - centre[0]), Math.abs(n - centre[1])));
   return Math.min(3000, Math.max(10, 1.15 * Math.max(...far, 0)));
 }
@@ -48,7 +49,19 @@ function drawOwn(context, [x, y], heading) {
   context.restore();
 }
 
-/** `map`: as frame_view.cpp writes it; `targets` is drawn where there is one: {id, position: [east, north]}. */
+/** From the drone to where the camera looks. */
+function drawAxis(context, from, to) {
+  context.beginPath();
+  context.moveTo(...from);
+  context.lineTo(...to);
+  context.setLineDash([5, 4]);
+  context.lineWidth = 1;
+  context.strokeStyle = '#e69f00';
+  context.stroke();
+  context.setLineDash([]);
+}
+
+/** `map`: as map_json.hpp says. */
 export function drawMap(map, colourOf = () => '#e69f00') {
   last = [map, colourOf];
   note.textContent = map.note;
@@ -77,15 +90,15 @@ export function drawMap(map, colourOf = () => '#e69f00') {
   polygon(map.path);
   context.strokeStyle = '#eef1f4';
   context.stroke();
-  for (const target of map.targets ?? []) {
-    const [x, y] = place(target.position);
-    context.fillStyle = colourOf(target.id);
-    context.fillRect(x - 4, y - 4, 8, 8);
-    context.fillText(String(target.id), x + 7, y + 4);
-  }
+  if (map.own?.axis) drawAxis(context, place(map.own.position), place(map.own.axis));
+  drawTargets(context, map.targets, place, px_per_m, colourOf, size.width);
+  listTargets(map.targets, colourOf);
+  // What was drawn, and where: the centre, its east and north, the scale.
+  Object.assign(canvas.dataset, {utime: map.targets_utime ?? '', east: centre[0], north: centre[1], scale: px_per_m});
   if (!map.own) return;
   drawOwn(context, place(map.own.position), map.own.heading);
   if (map.own.height !== undefined) {
+    context.font = '12px system-ui, sans-serif';
     context.fillStyle = '#eef1f4';
     context.fillText(`${map.own.height.toFixed(1)} m above ground`, 6, 16);
   }
