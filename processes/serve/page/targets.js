@@ -80,13 +80,13 @@ function placeText({position: [east, north], latitude, longitude}) {
   return `${east.toFixed(1)} m E, ${north.toFixed(1)} m N`;
 }
 
-/** A row a target, by identity. */
+/** A row a target: those that are seen first, then by identity. */
 export function listTargets(targets, colourOf) {
   const table = document.getElementById('targets');
   const body = table.tBodies[0];
   table.hidden = document.getElementById('map-legend').hidden = targets.length === 0;
   body.replaceChildren();
-  for (const target of [...targets].sort((a, b) => a.id - b.id)) {
+  for (const target of [...targets].sort((a, b) => (a.unseen > 0) - (b.unseen > 0) || a.id - b.id)) {
     const row = body.insertRow();
     Object.assign(row.dataset, {id: target.id, state: target.state, east: target.position[0], north: target.position[1]});
     const swatch = document.createElement('span');
