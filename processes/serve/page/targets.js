@@ -49,7 +49,9 @@ function drawName(context, target, [x, y], colour, width) {
   const text = String(target.id);
   context.font = '600 13px system-ui, sans-serif';
   const length = context.measureText(text).width + 6;
-  const left = x + 11 + length > width ? x - 11 - length : x + 11;
+  // Not on the line of its velocity, and within the canvas.
+  const is_left = (target.state === 'moving' && target.velocity[0] > 0 && x > 11 + length) || x + 11 + length > width;
+  const left = is_left ? x - 11 - length : x + 11;
   context.fillStyle = colour;
   context.fillRect(left, y - 9, length, 17);
   context.fillStyle = '#000';
