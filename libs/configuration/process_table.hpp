@@ -133,8 +133,8 @@ inline constexpr ProcessDescription kRecord = [] {
 /// The processing stages, in order; each is a node and a program.
 inline constexpr std::array kStages{&kImuIntegration, &kVisualHomography, &kHomographyFusion,
                                     &kMotionSegmentation};
-/// The programs that fly only where they are configured (drivers.hpp): drivers of sensors, what places targets
-/// on the ground and tells others of them, and the ground station's server.
+/// The programs that fly only where they are configured (drivers.hpp): drivers of sensors, what places
+/// targets on the ground and tells others of them, and the ground station's server.
 inline constexpr std::array kDrivers{&kCamera, &kAutopilot, &kGeolocation, &kGroundLink, &kServe};
 /// The other processes: subcommands of `redbee`.
 inline constexpr std::array kSupportProcesses{&kWatch, &kRecord};

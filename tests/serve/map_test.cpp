@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "processes/geolocation/target_messages.hpp"
+#include "processes/serve/flight_map.hpp"
 #include "processes/serve/live_map.hpp"
 #include "processes/serve/map_json.hpp"
 #include "tests/support/target_flight.hpp"
@@ -172,6 +173,25 @@ TEST(Map, SaysWhatIsWrongWithTargets) {
   map.onPose(poseAt(3));
   EXPECT_THAT(map.view(utimeAt(3)).note, HasSubstr("no TARGETS for 3.0 s"));
   EXPECT_THAT(map.view(utimeAt(3)).targets, IsEmpty());
+}
+
+TEST(FlightMap, IsTheSameFromASnapshotAsFromTheTakeOff) {
+  FlightMap flight(TargetFlight::configuration());
+  MapBuilder straight(TargetFlight::configuration());
+  for (int k = 0; k < 2500; ++k) flight.add(poseAt(k * 0.02));
+  flight.add(targetsAt(45, frameFrom(0)));
+  flight.finish();
+  int poses = 0;
+  for (const double t : {0.0, 19.97, 19.99, 20.01, 45.0}) {
+    for (; poses * 0.02 <= t; ++poses) straight.onPose(poseAt(poses * 0.02));
+    const MapView shown = flight.at(utimeAt(t));
+    ASSERT_TRUE(shown.own) << t;
+    EXPECT_NEAR(shown.own->position.x(), 3 * t, 3 * 0.021) << t;
+    EXPECT_EQ(shown.path, straight.view(utimeAt(t)).path) << t;
+    EXPECT_EQ(shown.targets.size(), t < 45 ? 0U : 3U) << t;
+  }
+  EXPECT_EQ(flight.at(utimeAt(45.5)).targets.size(), 3U) << "those of the last frame that has some";
+  EXPECT_EQ(flight.at(utimeAt(47)).targets.size(), 0U);
 }
 
 TEST(LiveMap, IsRenewedByPoseAndTargetsToo) {
