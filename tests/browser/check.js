@@ -19,6 +19,12 @@ const heard = (file) => new Map(fs.readFileSync(file, 'utf8').split('\n').slice(
   return [utime, content];
 }));
 
+/** What was heard, when it is no longer behind the page, which has shown these times. */
+async function heardAll(file, utimes) {
+  for (let i = 0; i < 200 && !utimes.every((utime) => heard(file).has(utime)); ++i) await new Promise((done) => setTimeout(done, 50));
+  return heard(file);
+}
+
 /** In the page: after each frame that is drawn, keeps its time and where the layer of the boxes is painted. */
 const kWatch = `(() => {
   window.seen = new Map();
@@ -58,7 +64,7 @@ async function compareWithDetections(page) {
     const line = Math.max(1, Math.round(2 * canvas.width / canvas.clientWidth));
     return {seen: [...window.seen], width: canvas.width, height: canvas.height, line};
   })()`);
-  const said = heard(detections_file);
+  const said = await heardAll(detections_file, seen.map(([utime]) => utime));
   let boxes_seen = 0;
   for (const [utime, painted] of seen) {
     assert(said.has(utime), `the page shows a frame (${utime}) of which DETECTIONS says nothing`);
@@ -97,7 +103,7 @@ async function compareWithTargets(page) {
   await page.value(kWatchMap);
   await page.until('maps with targets', '[...window.maps.values()].filter((rows) => rows.length > 0).length >= 20');
   const maps = await page.value('[...window.maps]');
-  const said = heard(targets_file);
+  const said = await heardAll(targets_file, maps.map(([utime]) => utime));
   let targets_seen = 0;
   for (const [utime, rows] of maps) {
     assert(said.has(utime), `the map shows targets (${utime}) of which TARGETS says nothing`);

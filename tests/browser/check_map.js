@@ -9,6 +9,7 @@ const {Browser} = require('./browser.js');
 const [chromium, url, targets_file, screenshots, ...geolocation] = process.argv.slice(2);
 
 const kWalker = 5;  // its identity
+const sleep = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 const assert = (is_true, what) => { if (!is_true) throw new Error(what); };
 const heard = () => fs.readFileSync(targets_file, 'utf8').split('\n').slice(0, -1).map((line) => line.split(','))
   .filter(([what]) => what === 'TARGET').map(([, , , id, state, latitude, longitude, miss]) => (
@@ -43,6 +44,8 @@ async function check(browser) {
     await page.send('Page.bringToFront');
     await inState(page, 'stopped');
     const rows = await page.value('[...window.rows]');
+    // The listener may be behind the page.
+    for (let i = 0; i < 200 && !rows.every((row) => heard().some(({place}) => place === row.split('|')[2])); ++i) await sleep(50);
     const said = heard();
     for (const row of rows) {
       const [id, , place] = row.split('|');
