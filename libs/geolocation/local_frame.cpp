@@ -67,6 +67,12 @@ Geodetic LocalFrame::geodeticOf(const Eigen::Vector2d& position) const {
   return place;
 }
 
+Eigen::Vector2d LocalFrame::positionOf(const Geodetic& place) const {
+  double x = 0, y = 0, z = 0;
+  origin_->Forward(place.latitude_deg, place.longitude_deg, 0, x, y, z);
+  return {x, y};
+}
+
 bool LocalFrame::takeRestart() { return std::exchange(has_restarted_, false); }
 
 }  // namespace redbee

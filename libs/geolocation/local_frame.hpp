@@ -25,6 +25,8 @@ class LocalFrame {
   bool isGlobal() const { return origin_.has_value(); }
   /// Of a point on the ground [m]. Precondition: isGlobal().
   Geodetic geodeticOf(const Eigen::Vector2d& position) const;
+  /// The other way round [m]. Precondition: isGlobal().
+  Eigen::Vector2d positionOf(const Geodetic& place) const;
   /// Whether the last placeOf() began another frame: earlier positions mean nothing in it. Once.
   bool takeRestart();
 

@@ -41,8 +41,12 @@ detection_t messageOf(const Detection& detection) {
 
 Flight::Flight(const Configuration& configuration, std::vector<std::filesystem::path> parts,
                const std::vector<std::filesystem::path>& runs)
-    : configuration_(configuration), camera_(configuration.camera), parts_(std::move(parts)) {
+    : configuration_(configuration),
+      camera_(configuration.camera),
+      parts_(std::move(parts)),
+      map_(configuration) {
   for (size_t part = 0; part < parts_.size(); ++part) readPart(part);
+  map_.finish();
   if (frames_.empty()) {
     throw InputError(
         parts_.empty() ? std::filesystem::path("flight") : parts_.front(),
@@ -110,7 +114,9 @@ void Flight::read(const std::string& channel, const std::vector<uint8_t>& data, 
     m.tracks = {};
     contents.steps.push_back(std::move(m));
   } else if (channel == channels.pose) {
-    if (pose_t m; decodePlausible(data, m)) poses_.push_back(m);
+    if (pose_t m; decodePlausible(data, m)) map_.add(m);
+  } else if (channel == channels.targets) {
+    if (targets_t m; decodePlausible(data, m)) map_.add(std::move(m));
   }
 }
 
@@ -121,7 +127,7 @@ void Flight::takeStep(fused_homography_t message) {
   if (message.source == fused_homography_t::NONE) return;
   frame->from = message.utime_previous;
   frame->H = matrix3(message.step.H);
-  motions_.push_back(std::move(message));
+  map_.add(std::move(message));
 }
 
 /// A run belongs to a flight if all frames that it has homographies of are the flight's.
@@ -193,24 +199,6 @@ std::vector<Trail> Flight::trailsAt(size_t index) const {
   return trails.trails();
 }
 
-MapView Flight::mapAt(int64_t utime) const {
-  MapBuilder map(configuration_);
-  const Duration timeshift = fromSeconds(configuration_.inertial.extrinsics.timeshift_s);
-  const int64_t until = toUtime(toImu(CameraTime(fromUtime(utime)), timeshift));
-  for (const pose_t& pose : poses_) {
-    if (pose.utime > until) break;
-    map.onPose(pose);
-  }
-  const auto motion = std::find_if(motions_.begin(), motions_.end(),
-                                   [&](const fused_homography_t& m) { return m.utime == utime; });
-  if (motion != motions_.end()) map.onFused(*motion);
-  MapView view = map.view(utime);
-  if (poses_.empty())
-    view.note =
-        "the flight has no " + configuration_.channels.pose + ": it was recorded without an autopilot";
-  return view;
-}
-
 FrameView Flight::view(size_t index) const {
   const Frame& frame = frames_[index];
   FrameView view;
@@ -227,7 +215,7 @@ FrameView Flight::view(size_t index) const {
   if (!view.detections && view.note.empty())
     view.note = note_.empty() ? "no DETECTIONS of this frame" : note_;
   view.trails = trailsAt(index);
-  view.map = mapAt(frame.utime);
+  view.map = map_.at(frame.utime);
   return view;
 }
 

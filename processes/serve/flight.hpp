@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "processes/serve/flight_map.hpp"
 #include "processes/serve/frame_view.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/fused_homography_t.hpp"
@@ -57,7 +58,6 @@ class Flight {
             Contents& contents);
   void takeStep(fused_homography_t message);
   std::vector<Trail> trailsAt(size_t index) const;
-  MapView mapAt(int64_t utime) const;
   void takeRun(const std::filesystem::path& folder);
   bool belongs(const std::filesystem::path& folder) const;
   const Frame* at(int64_t utime) const;
@@ -69,8 +69,7 @@ class Flight {
   Camera camera_;
   std::vector<std::filesystem::path> parts_;
   std::vector<Frame> frames_;  ///< by time
-  std::vector<pose_t> poses_;
-  std::vector<fused_homography_t> motions_;  ///< without tracks
+  FlightMap map_;
   std::filesystem::path run_;
   std::string note_;
 };

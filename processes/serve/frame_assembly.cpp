@@ -27,11 +27,9 @@ size_t bytesOf(const std::deque<std::shared_ptr<const image_t>>& images) {
 FrameAssembly::FrameAssembly(const Configuration& configuration)
     : width_(configuration.camera.width),
       height_(configuration.camera.height),
-      trails_(Camera(configuration.camera)),
-      map_(configuration) {}
+      trails_(Camera(configuration.camera)) {}
 
 void FrameAssembly::onFused(const fused_homography_t& fused) {
-  map_.onFused(fused);
   source_ = toString(static_cast<FusionSource>(fused.source));
   if (fused.source != fused_homography_t::NONE)
     trails_.addStep(fused.utime_previous, fused.utime, matrix3(fused.step.H));
@@ -55,13 +53,16 @@ void FrameAssembly::showWithoutDetections(const std::shared_ptr<const image_t>& 
   view.note = detections_utime_ == 0 || behind < 0
                   ? "no DETECTIONS: redbee-motion-segmentation does not answer"
                   : fmt::format("no DETECTIONS for {:.1f} s", behind);
-  const cv::Size size = declaredSize(*image);
-  if (size != cv::Size(width_, height_)) {
-    view.note = fmt::format("another camera: its images are {}x{}, those of the vehicle file {}x{}",
-                            size.width, size.height, width_, height_);
-  }
-  view.map = map_.view(view.utime);
+  if (const std::string fault = cameraFault(*image); !fault.empty()) view.note = fault;
   ready_ = std::move(view);
+}
+
+/// Empty: nothing shows that the image is of another camera than the vehicle file's.
+std::string FrameAssembly::cameraFault(const image_t& image) const {
+  const cv::Size size = declaredSize(image);
+  if (size == cv::Size(width_, height_)) return "";
+  return fmt::format("another camera: its images are {}x{}, those of the vehicle file {}x{}", size.width,
+                     size.height, width_, height_);
 }
 
 void FrameAssembly::onForeground(foreground_t foreground) {
@@ -78,9 +79,9 @@ void FrameAssembly::onDetections(detections_t detections) {
   FrameView view;
   view.utime = detections.utime;
   view.image = *image;
+  view.note = cameraFault(**image);
   view.trails = trails_.trails();
   view.source = source_;
-  view.map = map_.view(view.utime);
   const auto mask = std::find_if(masks_.begin(), masks_.end(),
                                  [&](const foreground_t& m) { return m.utime == detections.utime; });
   if (mask != masks_.end() && mask->status == foreground_t::GOOD) view.mask = std::move(mask->mask);

@@ -20,7 +20,6 @@ class FrameAssembly {
  public:
   explicit FrameAssembly(const Configuration& configuration);
 
-  void onPose(const pose_t& pose) { map_.onPose(pose); }
   void onFused(const fused_homography_t& fused);
   void onImage(image_t image);
   void onForeground(foreground_t foreground);
@@ -34,11 +33,11 @@ class FrameAssembly {
 
  private:
   void showWithoutDetections(const std::shared_ptr<const image_t>& image);
+  std::string cameraFault(const image_t& image) const;
 
   int width_;
   int height_;
   Trails trails_;
-  MapBuilder map_;
   std::deque<std::shared_ptr<const image_t>> images_;  ///< newest last
   std::deque<foreground_t> masks_;
   int64_t detections_utime_ = 0;

@@ -1,9 +1,9 @@
 #include "processes/serve/frame_view.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "processes/serve/map_json.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/foreground_t.hpp"
 
@@ -24,26 +24,6 @@ const char* statusText(int8_t status) {
     default:
       return "the image is bad";
   }
-}
-
-json rounded(const Eigen::Vector2d& point) {
-  constexpr double kSteps = 100;  // a hundredth of a pixel or of a metre
-  return {std::round(point.x() * kSteps) / kSteps, std::round(point.y() * kSteps) / kSteps};
-}
-
-json pointsJson(const std::vector<Eigen::Vector2d>& points) {
-  json result = json::array();
-  for (const Eigen::Vector2d& point : points) result.push_back(rounded(point));
-  return result;
-}
-
-json mapJson(const MapView& map) {
-  json result{{"note", map.note}, {"path", pointsJson(map.path)}, {"footprint", pointsJson(map.footprint)}};
-  if (map.own) {
-    result["own"] = {{"position", rounded(map.own->position)}, {"heading", map.own->heading_rad}};
-    if (map.own->height_m) result["own"]["height"] = *map.own->height_m;
-  }
-  return result;
 }
 
 json detectionsJson(const detections_t& detections) {
@@ -95,7 +75,8 @@ std::string bundleOf(const FrameView& view, int64_t sequence) {
   }
   json head{{"sequence", sequence},  {"utime", view.utime},        {"width", size.width},
             {"height", size.height}, {"image_bytes", jpeg.size()}, {"mask_bytes", view.mask.size()},
-            {"note", note},          {"source", view.source},      {"map", mapJson(view.map)}};
+            {"note", note},          {"source", view.source}};
+  if (view.map) head["map"] = mapJson(*view.map);
   if (view.detections) {
     head["status"] = statusText(view.detections->status);
     head["detections"] = detectionsJson(*view.detections);

@@ -21,9 +21,9 @@ struct FrameView {
   std::optional<detections_t> detections;  ///< of this very frame
   std::vector<uint8_t> mask;               ///< PNG, 255 moving, on the raw image's grid; may be empty
   std::vector<Trail> trails;               ///< where there are detections
-  std::string source;  ///< of the ground's homography: "fused", "visual", ...; may be empty
-  std::string note;    ///< what is missing, in words; empty: nothing
-  MapView map;
+  std::string source;          ///< of the ground's homography: "fused", "visual", ...; may be empty
+  std::string note;            ///< what is missing, in words; empty: nothing
+  std::optional<MapView> map;  ///< of a flight on disk; the live one comes by itself (live_map.hpp)
 };
 
 /// Four bytes, big-endian: the length of the JSON that follows; then the image (JPEG), then the mask (PNG),

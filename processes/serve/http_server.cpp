@@ -40,14 +40,8 @@ WebRequest requestOf(const httplib::Request& from) {
   return request;
 }
 
-/// What a viewer has been sent.
-struct Sent {
-  int64_t frame = 0;
-  int64_t health = 0;
-};
-
-std::string eventsSince(Sent& sent, Live& live, bool& is_closed) {
-  const Live::Update update = live.wait(sent.frame, sent.health, kKeepAlive);
+std::string eventsSince(Live::Sent& sent, Live& live, bool& is_closed) {
+  const Live::Update update = live.wait(sent, kKeepAlive);
   is_closed = update.is_closed;
   std::string text;
   if (update.frame) {
@@ -57,6 +51,10 @@ std::string eventsSince(Sent& sent, Live& live, bool& is_closed) {
   if (!update.health.empty()) {
     sent.health = update.health_sequence;
     text += "event: health\ndata: " + update.health + "\n\n";
+  }
+  if (!update.map.empty()) {
+    sent.map = update.map_sequence;
+    text += "event: map\ndata: " + update.map + "\n\n";
   }
   return text.empty() ? ": nothing new\n\n" : text;
 }
@@ -70,7 +68,7 @@ void streamEvents(Live& live, httplib::Response& response) {
     return;
   }
   auto joined = std::make_shared<Live::Viewer>(std::move(*viewer));
-  auto sent = std::make_shared<Sent>();
+  auto sent = std::make_shared<Live::Sent>();
   response.set_chunked_content_provider(
       "text/event-stream", [&live, joined, sent, is_first = true](size_t, httplib::DataSink& sink) mutable {
         if (std::exchange(is_first, false)) {

@@ -37,6 +37,15 @@ void Live::setHealth(std::string text) {
   changed_.notify_all();
 }
 
+void Live::setMap(std::string text) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    map_ = std::move(text);
+    ++map_sequence_;
+  }
+  changed_.notify_all();
+}
+
 void Live::close() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -50,14 +59,17 @@ std::shared_ptr<SharedFrame> Live::frame() const {
   return frame_;
 }
 
-Live::Update Live::wait(int64_t after_frame, int64_t after_health, std::chrono::milliseconds timeout) const {
+Live::Update Live::wait(const Sent& sent, std::chrono::milliseconds timeout) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait_for(lock, timeout,
-                    [&] { return is_closed_ || frames_ > after_frame || health_sequence_ > after_health; });
+  changed_.wait_for(lock, timeout, [&] {
+    return is_closed_ || frames_ > sent.frame || health_sequence_ > sent.health || map_sequence_ > sent.map;
+  });
   Update update;
-  if (frames_ > after_frame) update.frame = frame_;
-  if (health_sequence_ > after_health) update.health = health_;
+  if (frames_ > sent.frame) update.frame = frame_;
+  if (health_sequence_ > sent.health) update.health = health_;
   update.health_sequence = health_sequence_;
+  if (map_sequence_ > sent.map) update.map = map_;
+  update.map_sequence = map_sequence_;
   update.is_closed = is_closed_;
   return update;
 }

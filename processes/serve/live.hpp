@@ -1,4 +1,5 @@
-// The newest frame and the processes' health, handed from the thread of the bus to those of the viewers.
+// The newest frame, the map and the processes' health, handed from the thread of the bus to those of the
+// viewers.
 #pragma once
 
 #include <atomic>
@@ -56,6 +57,8 @@ class Live {
   void setFrame(FrameView view);
   /// `text`: JSON, see HealthReport.
   void setHealth(std::string text);
+  /// `text`: JSON, see mapJson().
+  void setMap(std::string text);
   /// From now on nobody waits.
   void close();
 
@@ -66,10 +69,18 @@ class Live {
     std::shared_ptr<SharedFrame> frame;  ///< null: no newer one
     std::string health;                  ///< empty: nothing newer
     int64_t health_sequence = 0;
+    std::string map;  ///< empty: nothing newer
+    int64_t map_sequence = 0;
     bool is_closed = false;
   };
-  /// Waits until there is a frame or a health newer than these, at most so long.
-  Update wait(int64_t after_frame, int64_t after_health, std::chrono::milliseconds timeout) const;
+  /// What a viewer has been sent: the numbers of an Update.
+  struct Sent {
+    int64_t frame = 0;
+    int64_t health = 0;
+    int64_t map = 0;
+  };
+  /// Waits until something is newer than what was sent, at most so long.
+  Update wait(const Sent& sent, std::chrono::milliseconds timeout) const;
 
  private:
   mutable std::mutex mutex_;
@@ -78,6 +89,8 @@ class Live {
   int64_t frames_ = 0;
   std::string health_;
   int64_t health_sequence_ = 0;
+  std::string map_;
+  int64_t map_sequence_ = 0;
   bool is_closed_ = false;
   std::atomic<int> viewers_{0};
 };

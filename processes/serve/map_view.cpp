@@ -6,35 +6,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "processes/geolocation/target_messages.hpp"
 #include "redbee/geometry/time.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr double kWgs84Axis_m = 6378137;
-constexpr double kWgs84Eccentricity2 = 6.69437999014e-3;
 constexpr int64_t kStale_us = 1'000'000;
 constexpr size_t kLongestPath = 2000;
 constexpr double kPathStep_m = 0.5;
 constexpr double kShallowest_rad = 5 * M_PI / 180;
 
-Eigen::Matrix3d attitudeOf(const pose_t& pose) {
-  return Eigen::Quaterniond(pose.quat[0], pose.quat[1], pose.quat[2], pose.quat[3])
-      .normalized()
-      .toRotationMatrix();
+/// Of a camera that looks along `axis` and whose image is level: what a gimbal holds.
+Eigen::Matrix3d levelAttitude(const Eigen::Vector3d& axis) {
+  Eigen::Matrix3d R_GC;
+  R_GC.col(2) = axis;
+  R_GC.col(0) = axis.cross(Eigen::Vector3d::UnitZ()).normalized();
+  R_GC.col(1) = axis.cross(R_GC.col(0));
+  return R_GC;
 }
 
-/// East and north [m] of a latitude and longitude from another, by the ellipsoid's radii of curvature there:
-/// to the centimetre over a kilometre.
-Eigen::Vector2d metresFrom(const Eigen::Vector2d& origin_deg, const Eigen::Vector2d& degrees) {
-  const double latitude = origin_deg.x() * M_PI / 180;
-  const double w = 1 - kWgs84Eccentricity2 * std::sin(latitude) * std::sin(latitude);
-  const double across = kWgs84Axis_m / std::sqrt(w);
-  const double along = across * (1 - kWgs84Eccentricity2) / w;
-  const Eigen::Vector2d moved =
-      Eigen::Vector2d(degrees.x() - origin_deg.x(), std::remainder(degrees.y() - origin_deg.y(), 360)) *
-      M_PI / 180;
-  return {moved.y() * across * std::cos(latitude), moved.x() * along};
+void addNote(MapView& view, const std::string& words) {
+  if (!words.empty()) view.note += (view.note.empty() ? "" : "; ") + words;
 }
 
 }  // namespace
@@ -61,26 +54,32 @@ std::vector<Eigen::Vector2d> footprintOf(const Camera& camera, const Eigen::Matr
 MapBuilder::MapBuilder(const Configuration& configuration)
     : camera_(configuration.camera),
       R_IC_(configuration.inertial.extrinsics.R_CI.transpose()),
-      timeshift_us_(std::llround(configuration.inertial.extrinsics.timeshift_s * 1e6)) {}
-
-std::optional<Eigen::Vector2d> MapBuilder::positionOf(const pose_t& pose) {
-  if (pose.has_local != 0) {
-    if (!is_local_) path_.clear();  // from another origin
-    is_local_ = true;
-    return Eigen::Vector2d(pose.local[0], pose.local[1]);
-  }
-  if (pose.has_global == 0 || is_local_) return std::nullopt;
-  const Eigen::Vector2d degrees(pose.latitude, pose.longitude);
-  if (!origin_deg_) origin_deg_ = degrees;
-  return metresFrom(*origin_deg_, degrees);
-}
+      timeshift_us_(std::llround(configuration.inertial.extrinsics.timeshift_s * 1e6)),
+      has_gimbal_(configuration.geolocation.mount == "gimbal") {}
 
 void MapBuilder::onPose(const pose_t& pose) {
   pose_ = pose;
-  position_ = positionOf(pose);
+  const auto place = frame_.placeOf(vehiclePoseOf(pose));
+  if (frame_.takeRestart()) {
+    path_.clear();
+    targets_.restart();
+  }
+  position_ = place ? std::optional<Eigen::Vector2d>(place->position) : std::nullopt;
   if (!position_ || (!path_.empty() && (path_.back() - *position_).norm() < kPathStep_m)) return;
   path_.push_back(*position_);
   if (path_.size() > kLongestPath) path_.pop_front();
+}
+
+void MapBuilder::onTargets(const targets_t& targets) { targets_.take(targets, frame_, ownAt(targets.utime)); }
+
+/// The last position, carried to a time within a second of it (us, camera clock).
+std::optional<Eigen::Vector2d> MapBuilder::ownAt(int64_t utime) const {
+  if (!position_) return std::nullopt;
+  const int64_t since_us = utime + timeshift_us_ - pose_->utime;
+  if (std::abs(since_us) > kStale_us) return std::nullopt;
+  if (pose_->has_velocity == 0) return position_;
+  return *position_ +
+         static_cast<double>(since_us) / 1e6 * Eigen::Vector2d(pose_->velocity[0], pose_->velocity[1]);
 }
 
 void MapBuilder::onFused(const fused_homography_t& fused) {
@@ -95,12 +94,22 @@ std::optional<double> MapBuilder::heightAt(int64_t utime) const {
   return std::nullopt;
 }
 
+bool MapBuilder::isFresh(int64_t utime) const {
+  return targets_.hasBegun() && std::abs(utime - targets_.utime()) <= kStale_us;
+}
+
 MapView MapBuilder::view(int64_t utime) const {
   MapView view;
   view.path.assign(path_.begin(), path_.end());
+  addOwn(utime, view);
+  addTargets(utime, view);
+  return view;
+}
+
+void MapBuilder::addOwn(int64_t utime, MapView& view) const {
   if (!pose_) {
     view.note = "no POSE: the position comes from redbee-autopilot, which needs autopilot.link";
-    return view;
+    return;
   }
   if (const int64_t age = utime + timeshift_us_ - pose_->utime; age > kStale_us) {
     view.note = fmt::format("POSE is {:.1f} s old: what is drawn is where the drone was",
@@ -111,19 +120,54 @@ MapView MapBuilder::view(int64_t utime) const {
   }
   if (!position_) {
     view.note = "POSE has no position: the autopilot has neither a fix nor a local position";
-    return view;
+    return;
   }
-  const Eigen::Matrix3d R_GI = attitudeOf(*pose_);
-  view.own = MapView::Own{*position_, std::atan2(R_GI(0, 0), R_GI(1, 0)), heightAt(utime)};
-  if (view.own->height_m) {
-    for (const Eigen::Vector2d& corner : footprintOf(camera_, R_GI * R_IC_, *view.own->height_m))
-      view.footprint.push_back(corner + *position_);
-    if (view.footprint.empty() && view.note.empty())
-      view.note = "the camera looks above the horizon: no footprint";
-  } else if (view.note.empty()) {
-    view.note = "no height above the ground: no footprint";
+  const Eigen::Matrix3d R_GI = quaternionOf(pose_->quat).toRotationMatrix();
+  view.own = MapView::Own{*position_, std::atan2(R_GI(0, 0), R_GI(1, 0)), heightAt(utime), {}};
+  addFootprint(isFresh(utime) ? targets_.camera() : std::nullopt, view);
+}
+
+/// By what TARGETS says of the camera, which heeds the gimbal and the altimeter; else by pose and mounting.
+void MapBuilder::addFootprint(const std::optional<MapCamera>& camera, MapView& view) const {
+  if (camera) view.own->height_m = camera->height_m;
+  if (!view.own->height_m) {
+    if (view.note.empty()) view.note = "no height above the ground: no footprint";
+    return;
   }
-  return view;
+  if (!camera && has_gimbal_) {
+    if (view.note.empty()) view.note = "where the gimbal's camera looks is not known: no footprint";
+    return;
+  }
+  const Eigen::Matrix3d R_GC = camera && has_gimbal_
+                                   ? levelAttitude(camera->axis)
+                                   : Eigen::Matrix3d(quaternionOf(pose_->quat).toRotationMatrix() * R_IC_);
+  const Eigen::Vector3d axis = camera ? camera->axis : Eigen::Vector3d(R_GC.col(2));
+  const Eigen::Vector2d at = camera ? camera->position : view.own->position;
+  if (-axis.z() > std::sin(kShallowest_rad))
+    view.own->axis_on_ground = at - axis.head<2>() / axis.z() * *view.own->height_m;
+  if (camera && !camera->footprint.empty()) {
+    view.footprint = camera->footprint;
+    return;
+  }
+  for (const Eigen::Vector2d& corner : footprintOf(camera_, R_GC, *view.own->height_m))
+    view.footprint.push_back(corner + at);
+  if (view.footprint.empty() && view.note.empty())
+    view.note = "the camera looks above the horizon: no footprint";
+}
+
+void MapBuilder::addTargets(int64_t utime, MapView& view) const {
+  if (!targets_.hasBegun()) return;
+  if (!isFresh(utime)) {
+    const double age_s = targets_.ageAt(utime);
+    addNote(view, age_s > 0 ? fmt::format("no TARGETS for {:.1f} s", age_s)
+                            : fmt::format("TARGETS are {:.1f} s ahead of the camera", -age_s));
+    return;
+  }
+  view.targets = targets_.targets();
+  view.targets_utime = targets_.utime();
+  const std::string words = wordsOfTargetStatus(targets_.status());
+  if (words.empty()) return;
+  addNote(view, view.targets.empty() ? words + ": no targets" : words + ": targets are predicted");
 }
 
 }  // namespace redbee

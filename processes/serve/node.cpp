@@ -72,15 +72,20 @@ ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live)
       channels_(configuration.channels),
       health_(programName(kServe), configurationHash(configuration)),
       live_(live),
-      assembly_(configuration) {
+      assembly_(configuration),
+      map_(configuration) {
   always_.push_back(on<detections_t>(channels_.detections, [this](const detections_t& m) {
     health_.noteInput(fromUtime(m.utime));
     health_.noteSequence(channels_.detections, m.sequence);
+    map_.onFrame(m.utime, Clock::now());
     assembly_.onDetections(m);
   }));
-  always_.push_back(on<fused_homography_t>(channels_.fused_homography,
-                                           [this](const fused_homography_t& m) { assembly_.onFused(m); }));
-  always_.push_back(on<pose_t>(channels_.pose, [this](const pose_t& m) { assembly_.onPose(m); }));
+  always_.push_back(on<fused_homography_t>(channels_.fused_homography, [this](const fused_homography_t& m) {
+    map_.onFused(m);
+    assembly_.onFused(m);
+  }));
+  always_.push_back(on<pose_t>(channels_.pose, [this](const pose_t& m) { map_.onPose(m); }));
+  always_.push_back(on<targets_t>(channels_.targets, [this](const targets_t& m) { map_.onTargets(m); }));
   // The board asks by itself whether it is plausible, and counts.
   always_.push_back(bus_.subscribe<process_health_t>(
       channels_.health, kListenerQueue,
@@ -91,8 +96,10 @@ void ServeNode::followViewers() {
   const bool is_watched = live_.viewers() > 0;
   if (is_watched == !while_watched_.empty()) return;
   if (is_watched) {
-    while_watched_.push_back(
-        on<image_t>(channels_.camera, [this](const image_t& m) { assembly_.onImage(m); }));
+    while_watched_.push_back(on<image_t>(channels_.camera, [this](const image_t& m) {
+      map_.onFrame(m.utime, Clock::now());
+      assembly_.onImage(m);
+    }));
     while_watched_.push_back(
         on<foreground_t>(channels_.foreground, [this](const foreground_t& m) { assembly_.onForeground(m); }));
   } else {
@@ -108,6 +115,11 @@ void ServeNode::publishHealth() {
   live_.setHealth(healthText(board_, now));
 }
 
+void ServeNode::publishMap() {
+  if (live_.viewers() == 0) return;
+  if (auto text = map_.takeText(Clock::now())) live_.setMap(std::move(*text));
+}
+
 bool ServeNode::processNext() {
   followViewers();
   if (auto view = assembly_.takeFrame()) {
@@ -115,6 +127,7 @@ bool ServeNode::processNext() {
     live_.setFrame(std::move(*view));
   }
   publishHealth();
+  publishMap();
   if (health_.state() == HealthState::kStarting) health_.setState(HealthState::kGood);
   return false;
 }

@@ -8,6 +8,7 @@
 #include "processes/redbee/vehicle/health_board.hpp"
 #include "processes/serve/frame_assembly.hpp"
 #include "processes/serve/live.hpp"
+#include "processes/serve/live_map.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/node/message_check.hpp"
 #include "redbee/node/node.hpp"
@@ -31,12 +32,14 @@ class ServeNode : public Node {
   Subscription on(const std::string& channel, Handler handler);
   void followViewers();
   void publishHealth();
+  void publishMap();
 
   Bus& bus_;
   Channels channels_;
   HealthMonitor health_;
   Live& live_;
   FrameAssembly assembly_;
+  LiveMap map_;
   HealthBoard board_;
   Clock::time_point next_board_;
   std::vector<Subscription> always_;

@@ -1,5 +1,6 @@
-// check.js CHROMIUM URL DETECTIONS RUN FLIGHT SCREENSHOTS: the page in a real browser, over a stack that flies.
+// check.js CHROMIUM URL DETECTIONS TARGETS RUN FLIGHT SCREENSHOTS: the page in a real browser, over a stack that flies.
 //   DETECTIONS   what another listener heard on DETECTIONS (live_flight.cpp)
+//   TARGETS      what it heard on TARGETS
 //   RUN          the run folder of supervisor, whose processes are killed
 //   FLIGHT       name of a flight on the disk
 //   SCREENSHOTS  folder for them
@@ -8,15 +9,21 @@ const {spawnSync} = require('child_process');
 const fs = require('fs');
 const path = require('path');
 const {Browser} = require('./browser.js');
-const [chromium, url, detections_file, run, flight, screenshots] = process.argv.slice(2);
+const [chromium, url, detections_file, targets_file, run, flight, screenshots] = process.argv.slice(2);
 
 const assert = (is_true, what) => { if (!is_true) throw new Error(what); };
 // Its exit status says whether all run, which the recorder does not.
 const supervisor = (...words) => spawnSync('supervisorctl', ['-c', 'supervisord.conf', ...words], {cwd: run}).stdout.toString().trim();
-const heard = () => new Map(fs.readFileSync(detections_file, 'utf8').split('\n').slice(0, -1).map((line) => {
-  const {utime, boxes} = JSON.parse(line);
-  return [utime, boxes];
+const heard = (file) => new Map(fs.readFileSync(file, 'utf8').split('\n').slice(0, -1).map((line) => {
+  const {utime, ...content} = JSON.parse(line);
+  return [utime, content];
 }));
+
+/** What was heard, when it is no longer behind the page, which has shown these times. */
+async function heardAll(file, utimes) {
+  for (let i = 0; i < 200 && !utimes.every((utime) => heard(file).has(utime)); ++i) await new Promise((done) => setTimeout(done, 50));
+  return heard(file);
+}
 
 /** In the page: after each frame that is drawn, keeps its time and where the layer of the boxes is painted. */
 const kWatch = `(() => {
@@ -57,15 +64,15 @@ async function compareWithDetections(page) {
     const line = Math.max(1, Math.round(2 * canvas.width / canvas.clientWidth));
     return {seen: [...window.seen], width: canvas.width, height: canvas.height, line};
   })()`);
-  const said = heard();
+  const said = await heardAll(detections_file, seen.map(([utime]) => utime));
   let boxes_seen = 0;
   for (const [utime, painted] of seen) {
     assert(said.has(utime), `the page shows a frame (${utime}) of which DETECTIONS says nothing`);
-    const {must, may} = outlines(said.get(utime), line, width, height);
+    const {must, may} = outlines(said.get(utime).boxes, line, width, height);
     const drawn = new Set(painted);
     for (const pixel of must) assert(drawn.has(pixel), `${utime}: pixel ${pixel % width}, ${Math.floor(pixel / width)} of a box is not drawn`);
     for (const pixel of drawn) assert(may.has(pixel), `${utime}: pixel ${pixel % width}, ${Math.floor(pixel / width)} is drawn, but no box is there`);
-    boxes_seen += said.get(utime).length;
+    boxes_seen += said.get(utime).boxes.length;
   }
   const places = await page.value(`['image', 'mask', 'trails', 'boxes', 'names'].map((id) => {
     const box = document.getElementById(id).getBoundingClientRect();
@@ -73,6 +80,47 @@ async function compareWithDetections(page) {
   })`);
   assert(new Set(places).size === 1, `the layers do not lie over each other: ${places}`);
   console.log(`boxes: ${boxes_seen} in ${seen.length} frames are those of DETECTIONS, to the pixel`);
+}
+
+/** In the page: each map that is drawn, its rows, and how opaque the canvas is where each target is. */
+const kWatchMap = `(() => {
+  window.maps = new Map();
+  const canvas = document.getElementById('map');
+  const ratio = window.devicePixelRatio;
+  new MutationObserver(() => {
+    const {utime, east, north, scale} = canvas.dataset;
+    const context = canvas.getContext('2d');
+    window.maps.set(Number(utime), [...document.querySelectorAll('#targets tbody tr')].map(({dataset}) => {
+      const x = canvas.clientWidth / 2 + (dataset.east - east) * scale;
+      const y = canvas.clientHeight / 2 - (dataset.north - north) * scale;
+      const alpha = context.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data[3];
+      return {...dataset, alpha, is_on: x > 2 && y > 2 && x < canvas.clientWidth - 2 && y < canvas.clientHeight - 2};
+    }));
+  }).observe(canvas, {attributes: true, attributeFilter: ['data-utime']});
+})()`;
+
+async function compareWithTargets(page) {
+  await page.value(kWatchMap);
+  await page.until('maps with targets', '[...window.maps.values()].filter((rows) => rows.length > 0).length >= 20');
+  const maps = await page.value('[...window.maps]');
+  const said = await heardAll(targets_file, maps.map(([utime]) => utime));
+  let targets_seen = 0;
+  for (const [utime, rows] of maps) {
+    assert(said.has(utime), `the map shows targets (${utime}) of which TARGETS says nothing`);
+    const {targets} = said.get(utime);
+    assert(rows.length === targets.length, `${utime}: ${rows.length} targets are listed, ${targets.length} are said`);
+    for (const [id, state, east, north] of targets) {
+      const row = rows.find((each) => Number(each.id) === id);
+      assert(row, `${utime}: target ${id} is not listed`);
+      assert(row.state === ['moving', 'stopped', 'coasting'][state], `${utime}: target ${id} is ${row.state}, said is ${state}`);
+      const off = Math.hypot(row.east - east, row.north - north);
+      assert(off < 0.02, `${utime}: target ${id} is drawn ${off} m from where TARGETS says it`);
+      // Footprint and ellipses are translucent, and so is the middle of a ring.
+      if (row.is_on && state !== 2) assert(row.alpha === 255, `${utime}: nothing is drawn where target ${id} is`);
+      ++targets_seen;
+    }
+  }
+  console.log(`map: ${targets_seen} targets in ${maps.length} maps are those of TARGETS, to 2 cm`);
 }
 
 const frames = (page) => page.value('Number(document.getElementById("view").dataset.frames ?? 0)');
@@ -140,6 +188,7 @@ async function main() {
     await page.until('all processes', 'document.querySelectorAll("#processes tbody tr").length >= 5');
     await page.until('the map', 'document.getElementById("map-note").textContent === ""');
     await compareWithDetections(page);
+    await compareWithTargets(page);
     await replay(page);
     await record(page);
     await page.screenshot(path.join(screenshots, 'desktop.png'), 1400);

@@ -1,6 +1,7 @@
 // live_flight: flies the endless flight (tests/support/endless_flight.hpp) into a running stack, with the
 // true POSE, until it is stopped. It writes what DETECTIONS says, a line of JSON a frame: {"utime": us,
-// "boxes": [[id, x, y, width, height, seen], ...]}.
+// "boxes": [[id, x, y, width, height, seen], ...]}, and what TARGETS says: {"utime": us, "targets": [[id,
+// state, east, north], ...]}.
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "redbee/detections_t.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/pose_t.hpp"
+#include "redbee/targets_t.hpp"
 #include "tests/support/live_player.hpp"
 
 namespace redbee::test {
@@ -45,9 +47,22 @@ void write(std::ofstream& out, const detections_t& m) {
   out << "]}" << std::endl;  // NOLINT: who reads it does so while it is written
 }
 
-void fly(const std::string& url, const std::string& file, double speed) {
+void write(std::ofstream& out, const targets_t& m) {
+  out << "{\"utime\": " << m.utime << ", \"targets\": [";
+  for (size_t i = 0; i < m.targets.size(); ++i) {
+    const target_t& t = m.targets[i];
+    out << (i == 0 ? "" : ", ") << "[" << t.id << ", " << static_cast<int>(t.state) << ", " << t.position[0]
+        << ", " << t.position[1] << "]";
+  }
+  out << "]}" << std::endl;  // NOLINT: as above
+}
+
+void fly(const std::string& url, const std::string& file, const std::string& targets_file, double speed) {
   const auto bus = makeLcmBus(url);
   std::ofstream out(file);
+  std::ofstream targets_out(targets_file);
+  const auto targets =
+      bus->subscribe<targets_t>("TARGETS", 64, [&](const targets_t& m) { write(targets_out, m); });
   const auto subscription =
       bus->subscribe<detections_t>("DETECTIONS", 64, [&](const detections_t& m) { write(out, m); });
   const EndlessFlight flight;
@@ -65,15 +80,18 @@ void fly(const std::string& url, const std::string& file, double speed) {
 }  // namespace
 }  // namespace redbee::test
 
+// A tool for us: an exception ends it with its message. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   CLI::App app("Flies the endless flight into a running stack", "live_flight");
   std::string url;
   std::string file;
+  std::string targets_file;
   double speed = 1;
   redbee::addLcmUrlOption(app, url);
   app.add_option("--detections", file, "where what DETECTIONS says is written")->required();
+  app.add_option("--targets", targets_file, "where what TARGETS says is written");
   app.add_option("--speed", speed, "times the flight's own speed");
   CLI11_PARSE(app, argc, argv);
-  redbee::test::fly(url, file, speed);
+  redbee::test::fly(url, file, targets_file, speed);
   return 0;
 }

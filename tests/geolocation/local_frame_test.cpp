@@ -45,6 +45,7 @@ TEST(LocalFrame, PlacesATargetWhereTheGeodesicEnds) {
     const Eigen::Vector2d compass = 300 * Eigen::Vector2d(std::sin(0.7), std::cos(0.7));
     const Eigen::Vector2d offset = Eigen::Rotation2Dd(place.convergence) * compass;
     const Geodetic target = frame.geodeticOf(place.position + offset);
+    EXPECT_LT((frame.positionOf(target) - place.position - offset).norm(), 0.01);
     EXPECT_NEAR(distanceOf(target, moved(camera, 0.7 / kDegree, 300)), 0, 0.02);
   }
 }

@@ -11,6 +11,7 @@
 #include "redbee/files/log.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/results/run_folder.hpp"
+#include "redbee/targets_t.hpp"
 #include "tests/support/camera.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -34,6 +35,7 @@ detections_t detectionsOf(int k) {
   return m;
 }
 
+// What json may throw where it is moved ends the test. NOLINTNEXTLINE(bugprone-exception-escape)
 struct Bundle {
   json head;
   cv::Mat image;
@@ -85,6 +87,13 @@ class StationTest : public testing::Test {
       mask.unknown_size = static_cast<int32_t>(mask.unknown.size());
       log.write("FOREGROUND", mask);
       log.write("DETECTIONS", detectionsOf(k));
+      targets_t targets{};
+      targets.utime = utimeOf(k);
+      targets.n = 1;
+      targets.targets.resize(1);
+      targets.targets[0].id = 9;
+      targets.targets[0].position[0] = k;
+      log.write("TARGETS", targets);
     }
     log.close();
   }
@@ -131,6 +140,9 @@ TEST_F(StationTest, ShowsAFlightWithItsOwnDetections) {
   EXPECT_EQ(bundle.head["detections"][0]["x"], 13);
   EXPECT_EQ(bundle.head["status"], "good");
   EXPECT_NEAR(bundle.image.at<uint8_t>(100, 100), 120, 2);
+  EXPECT_EQ(bundle.head["map"]["targets_utime"], utimeOf(3));
+  EXPECT_EQ(bundle.head["map"]["targets"][0]["id"], 9);
+  EXPECT_EQ(bundle.head["map"]["targets"][0]["position"], json({3, 0}));
   EXPECT_EQ(bundle.mask.at<uint8_t>(20, 13), 255);
   EXPECT_EQ(cv::countNonZero(bundle.mask), 1);
 }
@@ -214,15 +226,25 @@ TEST_F(StationTest, LiveGivesTheNewestFrameOnly) {
   EXPECT_EQ(parse(get("/api/frame", {{"after", "0"}}).body).head["utime"], utimeOf(2));
   EXPECT_EQ(get("/api/frame", {{"after", "3"}}).status, 204);
   EXPECT_EQ(get("/api/frame", {{"after", "400"}}).status, 200) << "a number of the server before a restart";
-  const auto update = live_.wait(0, 0, std::chrono::milliseconds(0));
+  const auto update = live_.wait({}, std::chrono::milliseconds(0));
   ASSERT_TRUE(update.frame);
   EXPECT_EQ(update.frame->sequence(), 3);
+}
+
+TEST_F(StationTest, TheMapComesWithoutFrames) {
+  live_.setMap("first");
+  live_.setMap("second");
+  const auto update = live_.wait({}, std::chrono::milliseconds(0));
+  EXPECT_FALSE(update.frame);
+  EXPECT_EQ(update.map, "second");
+  EXPECT_EQ(live_.wait({0, 0, update.map_sequence}, std::chrono::milliseconds(0)).map, "");
 }
 
 TEST_F(StationTest, ThePageNeedsNoOtherAddress) {
   const auto page = get("/");
   EXPECT_THAT(page.body, HasSubstr("main.js"));
-  for (const char* file : {"/", "/main.js", "/style.css", "/picture.js", "/map.js", "/wire.js"}) {
+  for (const char* file :
+       {"/", "/main.js", "/style.css", "/picture.js", "/map.js", "/targets.js", "/wire.js"}) {
     const auto response = get(file);
     EXPECT_EQ(response.status, 200) << file;
     EXPECT_EQ(response.body.find("https://"), std::string::npos) << file;

@@ -3,6 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 namespace redbee {
@@ -60,24 +62,39 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string coordinatesOf(const std::vector<RecordedPlace>& places) {
-  std::string text;
-  for (const RecordedPlace& place : places)
-    text += fmt::format("{}{:.7f},{:.7f}", text.empty() ? "" : " ", place.longitude_deg, place.latitude_deg);
-  return text;
+/// xsd:dateTime, to the millisecond.
+std::string timeText(int64_t utime) {
+  const int64_t milliseconds = utime / 1000;
+  const std::time_t seconds = milliseconds / 1000;
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", parts.tm_year + 1900, parts.tm_mon + 1,
+                     parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec, milliseconds % 1000);
 }
 
 std::string placemark(const std::string& name, const std::string& style, const std::string& description,
-                      const std::string& geometry) {
+                      const std::string& geometry, const std::string& time = "") {
   return fmt::format(
-      "  <Placemark>\n    <name>{}</name>\n    <description>{}</description>\n"
+      "  <Placemark>\n    <name>{}</name>\n    <description>{}</description>\n{}"
       "    <styleUrl>#{}</styleUrl>\n    {}\n  </Placemark>\n",
-      escaped(name), escaped(description), style, geometry);
+      escaped(name), escaped(description), time, style, geometry);
 }
 
-std::string lineOf(const std::vector<RecordedPlace>& places) {
-  return "<LineString><tessellate>1</tessellate><coordinates>" + coordinatesOf(places) +
-         "</coordinates></LineString>";
+/// A path with the time of each place, on the ground.
+std::string trackOf(const std::vector<RecordedPlace>& places) {
+  std::string times;
+  std::string coordinates;
+  for (const RecordedPlace& place : places) {
+    times += "<when>" + timeText(place.utime) + "</when>\n";
+    coordinates +=
+        fmt::format("<gx:coord>{:.7f} {:.7f} 0</gx:coord>\n", place.longitude_deg, place.latitude_deg);
+  }
+  return "<gx:Track><altitudeMode>clampToGround</altitudeMode>\n" + times + coordinates + "</gx:Track>";
+}
+
+std::string pointOf(const RecordedPlace& place) {
+  return fmt::format("<Point><coordinates>{:.7f},{:.7f}</coordinates></Point>", place.longitude_deg,
+                     place.latitude_deg);
 }
 
 std::string styleOf(const char* id, const char* colour, int width) {
@@ -107,19 +124,20 @@ std::string asKml(const RecordedFlight& flight, const std::string& name) {
   // Colours are alpha, blue, green, red: blue and orange, which the colour-blind can tell.
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml "
-      "xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n"
+      "xmlns=\"http://www.opengis.net/kml/2.2\" xmlns:gx=\"http://www.google.com/kml/ext/2.2\">\n<Document>\n"
       "  <name>" +
       escaped(name) + "</name>\n" + styleOf("vehicle", "ffb27200", 2) + styleOf("target", "ff009fe6", 3);
-  if (flight.vehicle.size() > 1) text += placemark("vehicle", "vehicle", "path", lineOf(flight.vehicle));
+  if (flight.vehicle.size() > 1) text += placemark("vehicle", "vehicle", "path", trackOf(flight.vehicle));
   for (const auto& [id, target] : flight.targets) {
     const std::string title = "target " + std::to_string(id);
-    if (target.places.size() > 1) text += placemark(title, "target", "path", lineOf(target.places));
+    if (target.places.size() > 1) text += placemark(title, "target", "path", trackOf(target.places));
     const std::string description = fmt::format(
         "{}, {:.1f} m/s towards {:.0f} deg, within {:.1f} m (one sigma), {:.1f} m x {:.1f} m", target.state,
         target.speed_m_s, target.course_deg, target.sigmas_m.back(), target.width_m, target.height_m);
-    text +=
-        placemark(title, "target", description,
-                  "<Point><coordinates>" + coordinatesOf({target.places.back()}) + "</coordinates></Point>");
+    // From then on: nobody takes it away from where it was last.
+    const std::string since =
+        "    <TimeSpan><begin>" + timeText(target.places.back().utime) + "</begin></TimeSpan>\n";
+    text += placemark(title, "target", description, pointOf(target.places.back()), since);
   }
   return text + "</Document>\n</kml>\n";
 }

@@ -11,6 +11,7 @@ const kSilence_s = 2;
 let replay = null;
 let state = {writes: false, supervised: false, recording: false};
 let drawn = [];
+let live_map = {note: '', path: [], footprint: [], targets: []};
 
 function drawObjects(detections) {
   const body = document.querySelector('#objects tbody');
@@ -35,7 +36,7 @@ function frameRate() {
 
 function show(frame) {
   drawFrame(frame);
-  drawMap(frame.map, colourOf);
+  if (frame.map) drawMap(frame.map, colourOf);
   drawObjects(frame.detections ?? []);
   element('note').textContent = frame.note;
   const words = [replay ? `frame ${replay.wanted + 1} of ${replay.times.length}` : 'live', `${frameRate().toFixed(1)} fps`,
@@ -44,6 +45,11 @@ function show(frame) {
   const view = element('view');
   view.dataset.utime = frame.utime;
   view.dataset.frames = Number(view.dataset.frames ?? 0) + 1;
+}
+
+/** Live, it comes by itself: POSE and TARGETS are later than the frame, or there are no frames. */
+function showLiveMap() {
+  if (!replay && live.is_on) drawMap(live_map, colourOf);
 }
 
 const fail = (words) => { element('note').textContent = words; };
@@ -78,6 +84,7 @@ async function choose(name) {
   }
   element('replay').hidden = element('seek').hidden = !replay;
   element('play').textContent = replay ? 'Play' : 'Pause';
+  showLiveMap();
   live.pump();
 }
 
@@ -176,6 +183,10 @@ async function refreshFlights() {
 
 listen({
   frame: (sequence) => live.onFrame(sequence),
+  map: (map) => {
+    live_map = map;
+    showLiveMap();
+  },
   health: (health) => drawHealth(health, state.writes && state.supervised),
   connected: (is_connected) => {
     const words = element('connection');
@@ -194,4 +205,4 @@ setInterval(() => {
 }, 500);
 setInterval(refreshState, 2000);
 setInterval(() => refreshFlights().catch(() => {}), 10000);
-drawMap({note: '', path: [], footprint: []});
+showLiveMap();

@@ -1,15 +1,31 @@
-// The map: a plain metric grid, north up, that follows the drone.
+// The map: a plain metric grid, north up, that follows the drone and its targets.
+import {drawTargets, listTargets} from './targets.js';
 
 const canvas = document.getElementById('map');
 const note = document.getElementById('map-note');
 const kSteps = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
+const kLeast_m = 10;
+const kMost_m = 3000;
 let last = null;
+let view = null;
 
-/** Metres that fit into half of the canvas: all of the footprint and the newest part of the path. */
-function reachOf(map, centre) {
-  const points = [...map.footprint, ...(map.targets ?? []).map((target) => target.position), ...map.path.slice(-200)];
-  const far = points.map(([e, n]) => Math.max(Math.abs(e - centre[0]), Math.abs(n - centre[1])));
-  return Math.min(3000, Math.max(10, 1.15 * Math.max(...far, 0)));
+/** The part of the ground that is shown: {centre, reach}, metres to each side of the canvas's shorter half. With targets it
+    is about them and the drone, however far the footprint reaches. It stays while they are in it and it is not far too wide. */
+function viewOf(map, before) {
+  const anchors = map.own ? [map.own.position, ...(map.own.axis ? [map.own.axis] : [])] : [];
+  const points = [...anchors, ...map.targets.map((target) => target.position)];
+  if (map.targets.length === 0) points.push(...map.footprint, ...map.path.slice(-200));
+  if (points.length === 0) return before ?? {centre: [0, 0], reach: kLeast_m};
+  const ends = [0, 1].map((axis) => {
+    const values = points.map((point) => point[axis]);
+    return [Math.min(...values), Math.max(...values)];
+  });
+  const half = Math.max(...ends.map(([low, high]) => (high - low) / 2));
+  const reach = Math.min(kMost_m, Math.max(kLeast_m, 1.3 * half));
+  const is_in = before && ends.every(([low, high], axis) =>
+    low > before.centre[axis] - 0.95 * before.reach && high < before.centre[axis] + 0.95 * before.reach);
+  if (is_in && before.reach < 1.8 * reach) return before;
+  return {centre: ends.map(([low, high]) => (low + high) / 2), reach};
 }
 
 function drawGrid(context, size, centre, px_per_m) {
@@ -48,7 +64,19 @@ function drawOwn(context, [x, y], heading) {
   context.restore();
 }
 
-/** `map`: as frame_view.cpp writes it; `targets` is drawn where there is one: {id, position: [east, north]}. */
+/** From the drone to where the camera looks. */
+function drawAxis(context, from, to) {
+  context.beginPath();
+  context.moveTo(...from);
+  context.lineTo(...to);
+  context.setLineDash([5, 4]);
+  context.lineWidth = 1;
+  context.strokeStyle = '#e69f00';
+  context.stroke();
+  context.setLineDash([]);
+}
+
+/** `map`: as map_json.hpp says. */
 export function drawMap(map, colourOf = () => '#e69f00') {
   last = [map, colourOf];
   note.textContent = map.note;
@@ -58,8 +86,9 @@ export function drawMap(map, colourOf = () => '#e69f00') {
   canvas.height = size.height * ratio;
   const context = canvas.getContext('2d');
   context.scale(ratio, ratio);
-  const centre = map.own?.position ?? map.path.at(-1) ?? [0, 0];
-  const px_per_m = Math.min(size.width, size.height) / 2 / reachOf(map, centre);
+  view = viewOf(map, view);
+  const {centre} = view;
+  const px_per_m = Math.min(size.width, size.height) / 2 / view.reach;
   const place = ([e, n]) => [size.width / 2 + (e - centre[0]) * px_per_m, size.height / 2 - (n - centre[1]) * px_per_m];
   drawGrid(context, size, centre, px_per_m);
   const polygon = (points) => {
@@ -77,15 +106,15 @@ export function drawMap(map, colourOf = () => '#e69f00') {
   polygon(map.path);
   context.strokeStyle = '#eef1f4';
   context.stroke();
-  for (const target of map.targets ?? []) {
-    const [x, y] = place(target.position);
-    context.fillStyle = colourOf(target.id);
-    context.fillRect(x - 4, y - 4, 8, 8);
-    context.fillText(String(target.id), x + 7, y + 4);
-  }
+  if (map.own?.axis) drawAxis(context, place(map.own.position), place(map.own.axis));
+  drawTargets(context, map.targets, place, px_per_m, colourOf, size.width);
+  listTargets(map.targets, colourOf);
+  // What was drawn, and where: the centre, its east and north, the scale.
+  Object.assign(canvas.dataset, {utime: map.targets_utime ?? '', east: centre[0], north: centre[1], scale: px_per_m});
   if (!map.own) return;
   drawOwn(context, place(map.own.position), map.own.heading);
   if (map.own.height !== undefined) {
+    context.font = '12px system-ui, sans-serif';
     context.fillStyle = '#eef1f4';
     context.fillText(`${map.own.height.toFixed(1)} m above ground`, 6, 16);
   }

@@ -52,7 +52,7 @@ export function listen(handlers) {
     if (source.readyState !== EventSource.CLOSED) return;
     setTimeout(() => listen(handlers), 1000);
   };
-  for (const name of ['frame', 'health']) {
+  for (const name of ['frame', 'health', 'map']) {
     source.addEventListener(name, (event) => handlers[name](JSON.parse(event.data)));
   }
 }
