@@ -17,7 +17,6 @@
 
 namespace redbee::test {
 namespace {
-
 using nlohmann::json;
 using testing::HasSubstr;
 constexpr int kFrames = 5;
