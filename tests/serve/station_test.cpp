@@ -33,14 +33,12 @@ detections_t detectionsOf(int k) {
   m.detections[0] = {9, 10 + k, 20, 30, 40, 500, 0.5, 1};
   return m;
 }
-
 // What json may throw where it is moved ends the test. NOLINTNEXTLINE(bugprone-exception-escape)
 struct Bundle {
   json head;
   cv::Mat image;
   cv::Mat mask;
 };
-
 Bundle parse(const std::string& bytes) {
   const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
   const size_t length = size_t{data[0]} << 24 | data[1] << 16 | data[2] << 8 | data[3];
@@ -57,7 +55,6 @@ Bundle parse(const std::string& bytes) {
   bundle.mask = decode(at + image_bytes, mask_bytes);
   return bundle;
 }
-
 class StationTest : public testing::Test {
  protected:
   StationTest() {
@@ -65,7 +62,6 @@ class StationTest : public testing::Test {
     fs::create_directories(folder_ / "flights");
     writeText(folder_ / "secret.lcm", "no flight");
   }
-
   void writeFlight(const std::string& name, bool with_detections) const {
     LogWriter log(folder_ / "flights" / name);
     for (int k = 0; k < kFrames; ++k) {
@@ -96,7 +92,6 @@ class StationTest : public testing::Test {
     }
     log.close();
   }
-
   WebResponse get(const std::string& path, const std::map<std::string, std::string>& query = {}) {
     return station().answer({"GET", path, query, {{"host", "localhost"}}});
   }
