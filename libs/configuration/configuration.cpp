@@ -9,6 +9,7 @@
 #include "redbee/configuration/configuration_loader.hpp"
 #include "redbee/configuration/configuration_preset.hpp"
 #include "redbee/configuration/configuration_table.hpp"
+#include "redbee/files/input_file.hpp"
 
 namespace redbee {
 namespace {
@@ -43,6 +44,13 @@ Configuration loadConfiguration(const std::filesystem::path& file, const Configu
 
 std::vector<std::filesystem::path> configurationFiles(const std::filesystem::path& file) {
   return loaded(file, {}).files();
+}
+
+void requireNoInput(const std::filesystem::path& output, const std::filesystem::path& configuration,
+                    std::vector<std::filesystem::path> others) {
+  const auto files = configurationFiles(configuration);
+  others.insert(others.end(), files.begin(), files.end());
+  requireNoInput(output, others);
 }
 
 std::vector<std::string> presetNames() { return configuration::presetNames(); }

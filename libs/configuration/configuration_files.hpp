@@ -10,4 +10,8 @@ namespace redbee {
 /// ConfigurationError as that does.
 std::vector<std::filesystem::path> configurationFiles(const std::filesystem::path& file);
 
+/// Throws InputError if `output` is one of `others` or one of those files: writing would destroy it.
+void requireNoInput(const std::filesystem::path& output, const std::filesystem::path& configuration,
+                    std::vector<std::filesystem::path> others);
+
 }  // namespace redbee

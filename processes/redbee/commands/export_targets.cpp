@@ -6,6 +6,7 @@
 
 #include "processes/common_options.hpp"
 #include "processes/redbee/export/target_map.hpp"
+#include "processes/warnings.hpp"
 #include "redbee/configuration/configuration_files.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_file.hpp"
@@ -28,18 +29,14 @@ void addTargetExport(CLI::App& command, const std::string& name, const std::stri
                          "configuration of the vehicle: TARGETS are computed anew from DETECTIONS and POSE");
   addOutOption(*subcommand, options->out, "file to write");
   subcommand->callback([options, text] {
-    std::vector<std::filesystem::path> inputs;
-    if (!options->configuration.empty()) inputs = configurationFiles(options->configuration);
-    inputs.push_back(options->log);
-    requireNoInput(options->out, inputs);
+    requireNoInput(options->out, {options->log});
+    if (!options->configuration.empty()) requireNoInput(options->out, options->configuration, {});
     checkWritable(options->out);
     const RecordedFlight flight = readTargets(
         options->log, options->configuration.empty() ? std::nullopt : std::optional(options->configuration));
     writeAtomically(options->out, text(flight, *options));
-    if (!flight.damage_report.empty()) std::fprintf(stderr, "warning: %s\n", flight.damage_report.c_str());
-    if (flight.damaged > 0)
-      std::fprintf(stderr, "warning: %lld damaged messages are left out\n",
-                   static_cast<long long>(flight.damaged));
+    printWarning(flight.damage_report);
+    printDamaged(flight.damaged);
     std::printf("%s: %zu targets of %lld frames, %zu places of the vehicle\n", options->out.c_str(),
                 flight.targets.size(), static_cast<long long>(flight.frames), flight.vehicle.size());
   });

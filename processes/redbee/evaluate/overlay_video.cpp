@@ -5,6 +5,7 @@
 
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/configuration/configuration_files.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
 #include "redbee/files/log.hpp"
@@ -51,7 +52,7 @@ void forEachOverlay(const std::filesystem::path& log_file, const std::filesystem
 }
 
 void renderOverlay(const OverlayOptions& options) {
-  requireNoInput(options.video, {options.log, options.configuration});
+  requireNoInput(options.video, options.configuration, {options.log});
   constexpr double kDefaultFps = 24;
   std::unique_ptr<VideoWriter> writer;
   cv::Mat first;

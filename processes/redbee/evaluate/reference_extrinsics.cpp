@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/configuration/configuration_files.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
@@ -43,8 +44,7 @@ InertialExtrinsics readTrueExtrinsics(const std::filesystem::path& flight) {
 }
 
 void writeReferenceExtrinsics(const ReferenceExtrinsicsOptions& options) {
-  requireNoInput(options.out, {options.configuration});
-  loadConfiguration(options.configuration);  // throws where the included file is wrong
+  requireNoInput(options.out, options.configuration, {});  // throws where the configuration is wrong, too
   const auto flight = std::filesystem::weakly_canonical(options.flight);
   const std::string seed = options.seed.empty() ? flight.filename().string() : options.seed;
   const InertialExtrinsics extrinsics = disturbed(readTrueExtrinsics(flight), options.disturbance, seed);

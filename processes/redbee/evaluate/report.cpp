@@ -13,6 +13,7 @@
 #include "processes/redbee/pages/number.hpp"
 #include "processes/redbee/pages/page.hpp"
 #include "redbee/bus/build_version.hpp"
+#include "redbee/configuration/configuration_files.hpp"
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_file.hpp"
 #include "redbee/geometry/time.hpp"
@@ -84,7 +85,7 @@ void printIndented(const std::string& text) {
 }  // namespace
 
 void writeReport(const ReportOptions& options) {
-  requireNoInput(options.page, {options.log, options.configuration});
+  requireNoInput(options.page, options.configuration, {options.log});
   checkWritable(options.page);
   const nlohmann::json summary = RunFolder(options.results).summary();
   std::optional<ClipMeasures> measures;

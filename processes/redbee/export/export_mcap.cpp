@@ -4,6 +4,7 @@
 #include <cctype>
 #include <limits>
 
+#include "processes/detection_messages.hpp"
 #include "processes/redbee/export/ros_export.hpp"
 #include "processes/redbee/export/ros_schemas.hpp"
 #include "redbee/bus/build_version.hpp"
@@ -128,8 +129,7 @@ class Exporter {
       return;
     }
     std::vector<Detection> boxes;
-    for (const detection_t& d : message.detections)
-      boxes.push_back({d.id, cv::Rect(d.x, d.y, d.width, d.height), d.area, d.score, d.seen != 0});
+    for (const detection_t& d : message.detections) boxes.push_back(detectionOf(d));
     write(topicOf(channel), imageAnnotationsSchema(), message.utime, exportBoxes(message.utime, boxes));
   }
 
@@ -169,12 +169,9 @@ class Exporter {
 
 McapExported exportMcap(const McapExport& options) {
   std::vector<std::filesystem::path> inputs{options.log};
-  if (options.configuration) {
-    const auto files = configurationFiles(*options.configuration);
-    inputs.insert(inputs.end(), files.begin(), files.end());
-  }
   if (options.results) inputs.push_back(*options.results / "detections.csv");
   requireNoInput(options.out, inputs);
+  if (options.configuration) requireNoInput(options.out, *options.configuration, {});
   LogReader log(options.log);
   Exporter exporter(options);
   Progress progress("exporting " + options.log.string(), "bytes");

@@ -1,4 +1,4 @@
-// redbee export and mosaic: their inputs stay as they are, and damage is reported.
+// redbee export, mosaic and what else writes a file: their inputs stay as they are, and damage is reported.
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -81,6 +81,24 @@ TEST(ExportCommand, NoFileThatIsReadIsOverwritten) {
       EXPECT_NE(outcome.errors.find("is also the input"), std::string::npos) << outcome.errors;
       EXPECT_EQ(readText(folder / input), before) << kind << " " << input;
     }
+  }
+}
+
+TEST(WritingCommands, NoIncludedConfigurationIsOverwritten) {
+  const ScratchFolder folder;
+  writeTargets(folder / "f.lcm");
+  writeText(folder / "base.yaml", kCamera);
+  writeText(folder / "vehicle.yaml", "include: base.yaml\n");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"overlay", "--log", folder / "f.lcm", "--results", folder / "rr"},
+        {"report", "--log", folder / "f.lcm", "--results", folder / "rr"},
+        {"reference-extrinsics", "--flight", folder / "flight"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--config", folder / "vehicle.yaml", "--out", folder / "base.yaml"});
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << command[0];
+    EXPECT_NE(outcome.errors.find("is also the input"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(readText(folder / "base.yaml"), kCamera) << command[0];
   }
 }
 
