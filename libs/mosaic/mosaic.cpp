@@ -16,13 +16,7 @@ constexpr int kBorder_px = 2;    ///< of an image, where rectification and inter
 constexpr double kSharpness =
     1.5;  ///< exponent of the weight: 0 a plain mean, the larger the more the finest frame alone
 
-/// Square units of the map that a pixel covers; infinite at and beyond the horizon, which lies where the sign
-/// of the third coordinate changes against the lower edge's middle.
-double areaOnMap(const Eigen::Matrix3d& to_map, const Eigen::Vector2d& pixel, double sign) {
-  const double w = sign * (to_map.row(2) * pixel.homogeneous()).value();
-  return w > 0 ? std::abs(to_map.determinant()) / (w * w * w) : INFINITY;
-}
-
+/// Of the third coordinate below the horizon, where the lower edge's middle lies.
 double signOf(const Eigen::Matrix3d& to_map, cv::Size image) {
   const Eigen::Vector2d below(0.5 * image.width, image.height);
   return (to_map.row(2) * below.homogeneous()).value() < 0 ? -1 : 1;
@@ -40,12 +34,11 @@ struct Bounds {
 
 /// Of what the image shows no coarser than this.
 void addCovered(const Eigen::Matrix3d& to_map, cv::Size image, double coarsest_area, Bounds& bounds) {
-  const double sign = signOf(to_map, image);
   for (int i = 0; i <= kSamples; ++i) {
     for (int j = 0; j <= kSamples; ++j) {
       const Eigen::Vector2d pixel(image.width * i / static_cast<double>(kSamples),
                                   image.height * j / static_cast<double>(kSamples));
-      if (areaOnMap(to_map, pixel, sign) <= coarsest_area)
+      if (areaOnMap(to_map, pixel, image) <= coarsest_area)
         bounds.add((to_map * pixel.homogeneous()).eval().hnormalized());
     }
   }
@@ -53,10 +46,15 @@ void addCovered(const Eigen::Matrix3d& to_map, cv::Size image, double coarsest_a
 
 }  // namespace
 
+double areaOnMap(const Eigen::Matrix3d& to_map, const Eigen::Vector2d& pixel, cv::Size image) {
+  const double w = signOf(to_map, image) * (to_map.row(2) * pixel.homogeneous()).value();
+  return w > 0 ? std::abs(to_map.determinant()) / (w * w * w) : INFINITY;
+}
+
 std::optional<MosaicGrid> gridFor(const GroundFrames& frames, cv::Size image, int most_px) {
   if (frames.frames.empty()) return std::nullopt;
   const Eigen::Vector2d centre(0.5 * image.width, 0.5 * image.height);
-  const double area = areaOnMap(frames.reference, centre, signOf(frames.reference, image));
+  const double area = areaOnMap(frames.reference, centre, image);
   if (!std::isfinite(area)) return std::nullopt;
   MosaicGrid grid;
   grid.coarsest_area = area * kCoarsest * kCoarsest;

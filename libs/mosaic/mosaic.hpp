@@ -20,6 +20,9 @@ struct MosaicGrid {
   Eigen::Vector2d pixelOf(const Eigen::Vector2d& on_map) const { return (on_map - origin) / units_per_px; }
 };
 
+/// Square units of the map that a pixel of an image covers; infinite at and beyond the horizon.
+double areaOnMap(const Eigen::Matrix3d& to_map, const Eigen::Vector2d& pixel, cv::Size image);
+
 /// As fine as the reference frame's centre, coarser where a side would exceed `most_px`. What a frame shows
 /// more than three times coarser (towards the horizon) is left out. std::nullopt if nothing is left.
 std::optional<MosaicGrid> gridFor(const GroundFrames& frames, cv::Size image, int most_px);

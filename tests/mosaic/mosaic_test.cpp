@@ -172,6 +172,22 @@ TEST_F(MosaicTest, EndsBelowTheHorizon) {
   EXPECT_FALSE(gridFor({}, {kWidth, kHeight}, 4000));
 }
 
+TEST_F(MosaicTest, APixelCoversWhatItSeesOfTheGroundAndBeyondTheHorizonAllOfIt) {
+  constexpr double kHeight_m = 10;
+  Eigen::Matrix3d R_CG;  // level: the horizon is the image's middle row
+  R_CG << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const Eigen::Matrix3d to_map =
+      groundMap(camera().K_inverse(), {R_CG * Eigen::Vector3d(0, 0, -1), kHeight_m});
+  const Eigen::Matrix3d K = camera().K();
+  for (const double below_px : {20.0, 100.0}) {
+    // The map's point: fx h / v to the front, h / v to the side for each pixel.
+    const double side = kHeight_m / below_px, front = K(1, 1) * kHeight_m / (below_px * below_px);
+    const Eigen::Vector2d pixel(K(0, 2), K(1, 2) + below_px);
+    EXPECT_NEAR(areaOnMap(to_map, pixel, {kWidth, kHeight}), side * front * K(1, 1) / K(0, 0), 1e-9);
+  }
+  EXPECT_TRUE(std::isinf(areaOnMap(to_map, {K(0, 2), K(1, 2) - 20}, {kWidth, kHeight})));
+}
+
 TEST_F(MosaicTest, WithoutAPlaneIsInPixelsOfTheMiddleFrame) {
   GroundChain pixels;
   pixels.addStep(1, 2, Eigen::Matrix3d::Identity());

@@ -10,6 +10,7 @@
 #include "processes/rectified_camera.hpp"
 #include "processes/redbee/mosaic/ground_observer.hpp"
 #include "processes/redbee/mosaic/track_drawing.hpp"
+#include "processes/warnings.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/json_file.hpp"
 #include "redbee/files/log.hpp"
@@ -69,7 +70,7 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, c
     ++drawn;
   }
   progress.finish();
-  if (!log.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", log.damageReport().c_str());
+  printWarning(log.damageReport());
   return drawn;
 }
 

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <opencv2/imgproc.hpp>
 
+#include "processes/detection_messages.hpp"
 #include "redbee/files/atomic_file.hpp"
 
 namespace redbee {
@@ -42,29 +43,23 @@ void label(cv::Mat3b& image, const std::string& text, cv::Point at, const cv::Sc
 
 std::string secondsText(int64_t us) { return fmt::format("{:.1f} s", static_cast<double>(us) / 1e6); }
 
-/// Of the points that a pixel covers too much ground for, nothing sure can be said.
-bool isFine(const MappedFrame& frame, const Eigen::Vector2d& pixel, const Eigen::Matrix3d& reference,
-            const Eigen::Vector2d& centre) {
-  constexpr double kCoarsest = 36;  ///< times the area of the reference's pixel
-  const auto area = [](const Eigen::Matrix3d& H, const Eigen::Vector2d& x) {
-    const double w = (H.row(2) * x.homogeneous()).value();
-    return std::abs(H.determinant() / (w * w * w));
-  };
-  return area(frame.to_map, pixel) < kCoarsest * area(reference, centre);
-}
+constexpr double kCoarsest =
+    36;  ///< times the area of the reference's pixel, beyond which nothing sure can be said
 
 }  // namespace
 
 GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, const GroundFrames& frames) {
   GroundTracks tracks;
-  const Eigen::Vector2d centre(0.5 * camera.ideal().width, 0.5 * camera.ideal().height);
+  const cv::Size image(camera.ideal().width, camera.ideal().height);
+  const double coarsest =
+      kCoarsest * areaOnMap(frames.reference, {0.5 * image.width, 0.5 * image.height}, image);
   for (const MappedFrame& frame : frames.frames) {
     const detections_t* detections = ground.detections(frame.utime);
     if (detections == nullptr) continue;
     for (const detection_t& d : detections->detections) {
       if (d.seen == 0) continue;
-      const auto foot = camera.undistort({d.x + 0.5 * (d.width - 1), d.y + d.height - 1.0});
-      if (!foot || !isFine(frame, *foot, frames.reference, centre)) continue;
+      const auto foot = camera.undistort(lowerMiddle(d));
+      if (!foot || areaOnMap(frame.to_map, *foot, image) >= coarsest) continue;
       tracks[d.id].push_back({frame.utime, (frame.to_map * foot->homogeneous()).eval().hnormalized()});
     }
   }
