@@ -52,6 +52,17 @@ inline void fill(double (&entries)[8], const Eigen::Matrix<double, 8, 1>& v) {
   rows = v;
 }
 
+inline void fill(double (&entries)[2], const Eigen::Vector2d& v) {
+  entries[0] = v.x();
+  entries[1] = v.y();
+}
+inline void fill(double (&entries)[4], const Eigen::Matrix2d& M) {
+  entries[0] = M(0, 0);
+  entries[1] = M(0, 1);
+  entries[2] = M(1, 0);
+  entries[3] = M(1, 1);
+}
+
 inline filter_snapshot_t messageOf(const FilterSnapshot& snapshot, const std::string& configuration) {
   filter_snapshot_t message{};
   message.utime = toUtime(snapshot.time);

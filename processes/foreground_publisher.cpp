@@ -1,5 +1,6 @@
 #include "processes/foreground_publisher.hpp"
 
+#include "processes/detection_messages.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
@@ -18,16 +19,7 @@ detections_t detectionsMessage(const DetectorOutput& output) {
   message.status = static_cast<int8_t>(output.status);
   message.n = static_cast<int32_t>(output.detections.size());
   for (const Detection& detection : output.detections) {
-    detection_t d{};
-    d.id = detection.id;
-    d.x = detection.box.x;
-    d.y = detection.box.y;
-    d.width = detection.box.width;
-    d.height = detection.box.height;
-    d.area = detection.area_px;
-    d.score = detection.score;
-    d.seen = detection.seen ? 1 : 0;
-    message.detections.push_back(d);
+    message.detections.push_back(messageOf(detection));
   }
   return message;
 }

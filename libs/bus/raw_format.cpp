@@ -130,4 +130,10 @@ std::string formatName(int32_t pixelformat) {
   return is_text ? "'" + letters + "'" : std::to_string(pixelformat);
 }
 
+int32_t formatNamed(const std::string& name) {
+  const auto& all = rawFormats();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const RawFormat& f) { return f.name == name; });
+  return found == all.end() ? 0 : found->number;
+}
+
 }  // namespace redbee

@@ -20,5 +20,7 @@ bool isRawFormat(int32_t pixelformat);
 std::string readableFormats();
 /// The name, or the four letters, or the number.
 std::string formatName(int32_t pixelformat);
+/// The number of an uncompressed format by its name; 0 for others.
+int32_t formatNamed(const std::string& name);
 
 }  // namespace redbee

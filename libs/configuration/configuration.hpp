@@ -104,9 +104,8 @@ class ConfigurationError : public UserError {
 ///   preset: default | paper | vision_only   overrides included files and is overridden by its own file's
 ///   keys
 /// Throws ConfigurationError on the first error: unknown, renamed or duplicate keys, wrong types, invalid
-/// values, a missing camera, duplicate channel names, an unusable
-/// camera.mask, timeouts in the wrong order, an extent threshold above
-/// its threshold, circular includes.
+/// values, a missing camera, duplicate channel names, an unusable camera.mask, timeouts in the wrong order,
+/// an extent threshold above its threshold, circular includes.
 Configuration loadConfiguration(const std::filesystem::path& file);
 
 /// Overrides from the command line; the preset is applied first.

@@ -38,6 +38,16 @@ inline void requireFile(const std::filesystem::path& file) {
   if (const std::string fault = faultOfFile(file); !fault.empty()) throw InputError(file, fault);
 }
 
+/// Throws InputError unless it is a regular file that its owner and group alone may read. `what`: "key".
+inline void requireSecret(const std::filesystem::path& file, const std::string& what) {
+  using std::filesystem::perms;
+  requireFile(file);
+  std::error_code error;
+  const perms open = std::filesystem::status(file, error).permissions() & perms::others_all;
+  if (!error && open != perms::none)
+    throw InputError(file, "every user may read this " + what + "; chmod o-rwx it, and change the " + what);
+}
+
 /// Throws InputError if `output` is one of `inputs`, under whatever name: writing would destroy it.
 inline void requireNoInput(const std::filesystem::path& output,
                            const std::vector<std::filesystem::path>& inputs) {

@@ -64,15 +64,9 @@ inline std::vector<ObservedBox> boxesOf(const detections_t& m) {
   return boxes;
 }
 
-inline void fill(double (&entries)[2], const Eigen::Vector2d& v) {
-  entries[0] = v.x();
-  entries[1] = v.y();
-}
-inline void fill(double (&entries)[4], const Eigen::Matrix2d& M) {
-  entries[0] = M(0, 0);
-  entries[1] = M(0, 1);
-  entries[2] = M(1, 0);
-  entries[3] = M(1, 1);
+/// Of target_t::state.
+inline const char* stateName(int8_t state) {
+  return state == target_t::MOVING ? "moving" : state == target_t::STOPPED ? "stopped" : "coasting";
 }
 
 inline target_t messageOf(const Target& target, const LocalFrame& frame) {

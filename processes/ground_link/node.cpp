@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "processes/link/signing_key.hpp"
+#include "processes/plausible_subscription.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/node/host_clock.hpp"
-#include "redbee/node/message_check.hpp"
 
 namespace redbee {
 namespace {
@@ -50,13 +50,12 @@ GroundLinkNode::GroundLinkNode(Bus& bus, const Configuration& configuration, std
       camera_(configuration.ground_link, configuration.camera.width, configuration.camera.height,
               readSigningKey(configuration.ground_link.signing_key_file), signingTimeOfDay()) {
   const auto damaged = [this] { health_.noteDamaged(); };
-  subscriptions_.push_back(bus.subscribe<detections_t>(
-      configuration.channels.detections, kStatusQueue,
-      [this](const detections_t& m) { isPlausible(m) ? show(m) : health_.noteDamaged(); }, damaged));
-  subscriptions_.push_back(bus.subscribe<targets_t>(
-      configuration.channels.targets, kStatusQueue,
+  const auto& channels = configuration.channels;
+  subscriptions_.push_back(subscribePlausible<detections_t>(
+      bus, channels.detections, kStatusQueue, [this](const detections_t& m) { show(m); }, damaged));
+  subscriptions_.push_back(subscribePlausible<targets_t>(
+      bus, channels.targets, kStatusQueue,
       [this](const targets_t& m) {
-        if (!isPlausible(m)) return health_.noteDamaged();
         targets_ = m;
         targets_ns_ = link_.now();
       },

@@ -1,7 +1,5 @@
 #include "processes/link/signing_key.hpp"
 
-#include <sys/stat.h>
-
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -13,11 +11,7 @@ namespace redbee {
 
 std::optional<mavlink::SigningKey> readSigningKey(const std::filesystem::path& file) {
   if (file.empty()) return std::nullopt;
-  requireFile(file);
-  struct stat status {};
-  if (stat(file.c_str(), &status) == 0 && (status.st_mode & S_IRWXO) != 0) {
-    throw InputError(file, "every user may read this key; chmod o-rwx it, and change the key");
-  }
+  requireSecret(file, "key");
   std::ifstream in(file);
   if (!in) throw InputError(file, "cannot be read");
   constexpr size_t kLongest = 256;

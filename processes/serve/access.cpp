@@ -1,7 +1,6 @@
 #include "processes/serve/access.hpp"
 
 #include <arpa/inet.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
@@ -49,10 +48,7 @@ bool isLoopback(const std::string& host) {
 
 std::string readToken(const std::filesystem::path& file) {
   if (file.empty()) return "";
-  requireFile(file);
-  struct stat status {};
-  if (stat(file.c_str(), &status) == 0 && (status.st_mode & S_IRWXO) != 0)
-    throw InputError(file, "every user may read this token; chmod o-rwx it, and change the token");
+  requireSecret(file, "token");
   std::ifstream in(file);
   std::string token;
   std::getline(in, token);

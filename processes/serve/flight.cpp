@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "processes/conversions.hpp"
+#include "processes/detection_messages.hpp"
 #include "redbee/bus/codec.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/log.hpp"
@@ -22,19 +23,6 @@ int64_t utimeOf(const std::vector<uint8_t>& data) {
   if (data.size() < 16) return 0;
   for (size_t i = 8; i < 16; ++i) utime = utime << 8 | data[i];
   return static_cast<int64_t>(utime);
-}
-
-detection_t messageOf(const Detection& detection) {
-  detection_t m{};
-  m.id = detection.id;
-  m.x = detection.box.x;
-  m.y = detection.box.y;
-  m.width = detection.box.width;
-  m.height = detection.box.height;
-  m.area = detection.area_px;
-  m.score = detection.score;
-  m.seen = detection.seen ? 1 : 0;
-  return m;
 }
 
 }  // namespace

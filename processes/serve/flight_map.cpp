@@ -1,7 +1,6 @@
 #include "processes/serve/flight_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -28,7 +27,7 @@ size_t countUntil(const std::vector<Message>& messages, int64_t utime) {
 
 FlightMap::FlightMap(const Configuration& configuration)
     : channel_(configuration.channels.pose),
-      timeshift_us_(std::llround(configuration.inertial.extrinsics.timeshift_s * 1e6)),
+      timeshift_us_(fromSeconds(configuration.inertial.extrinsics.timeshift_s).count()),
       snapshots_{MapBuilder(configuration)} {}
 
 void FlightMap::finish() {

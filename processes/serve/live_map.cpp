@@ -1,6 +1,5 @@
 #include "processes/serve/live_map.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "processes/serve/frame_view.hpp"
@@ -17,7 +16,7 @@ LiveMap::LiveMap(const Configuration& configuration)
     : map_(configuration),
       expects_targets_(configuration.geolocation.enabled),
       targets_channel_(configuration.channels.targets),
-      timeshift_us_(std::llround(configuration.inertial.extrinsics.timeshift_s * 1e6)) {}
+      timeshift_us_(fromSeconds(configuration.inertial.extrinsics.timeshift_s).count()) {}
 
 void LiveMap::onPose(const pose_t& pose) {
   map_.onPose(pose);

@@ -5,17 +5,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "processes/geolocation/target_messages.hpp"
+
 namespace redbee {
 namespace {
 
 nlohmann::json rounded(const Eigen::Vector2d& point) {
   constexpr double kSteps = 100;  // a hundredth of a pixel or of a metre
   return {std::round(point.x() * kSteps) / kSteps, std::round(point.y() * kSteps) / kSteps};
-}
-
-const char* stateText(int8_t state) {
-  if (state == target_t::MOVING) return "moving";
-  return state == target_t::STOPPED ? "stopped" : "coasting";
 }
 
 nlohmann::json ellipseJson(const Eigen::Matrix2d& covariance) {
@@ -28,7 +25,7 @@ nlohmann::json ellipseJson(const Eigen::Matrix2d& covariance) {
 
 nlohmann::json targetJson(const MapTarget& target) {
   nlohmann::json result{{"id", target.id},
-                        {"state", stateText(target.state)},
+                        {"state", stateName(target.state)},
                         {"position", rounded(target.position)},
                         {"velocity", rounded(target.velocity)},
                         {"speed", target.velocity.norm()},

@@ -54,7 +54,7 @@ std::vector<Eigen::Vector2d> footprintOf(const Camera& camera, const Eigen::Matr
 MapBuilder::MapBuilder(const Configuration& configuration)
     : camera_(configuration.camera),
       R_IC_(configuration.inertial.extrinsics.R_CI.transpose()),
-      timeshift_us_(std::llround(configuration.inertial.extrinsics.timeshift_s * 1e6)),
+      timeshift_us_(fromSeconds(configuration.inertial.extrinsics.timeshift_s).count()),
       has_gimbal_(configuration.geolocation.mount == "gimbal") {}
 
 void MapBuilder::onPose(const pose_t& pose) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "processes/plausible_subscription.hpp"
 #include "redbee/configuration/process_table.hpp"
 
 namespace redbee {
@@ -57,14 +58,8 @@ std::string healthText(const HealthBoard& board, HealthBoard::Time now) {
 
 template <typename Message, typename Handler>
 Subscription ServeNode::on(const std::string& channel, Handler handler) {
-  const auto damaged = [this] { health_.noteDamaged(); };
-  return bus_.subscribe<Message>(
-      channel, kQueue,
-      [this, damaged, handler = std::move(handler)](const Message& message) {
-        if (!isPlausible(message)) return damaged();
-        handler(message);
-      },
-      damaged);
+  return subscribePlausible<Message>(bus_, channel, kQueue, std::move(handler),
+                                     [this] { health_.noteDamaged(); });
 }
 
 ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live)

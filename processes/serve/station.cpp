@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "processes/health_check.hpp"
 #include "processes/redbee/vehicle/supervisor_client.hpp"
 #include "processes/serve/page_files.hpp"
 #include "redbee/configuration/process_table.hpp"
@@ -71,13 +72,6 @@ json entriesJson(const std::vector<Archive::Entry>& entries) {
   json result = json::array();
   for (const Archive::Entry& entry : entries) result.push_back(entryJson(entry));
   return result;
-}
-
-bool isProcessOfTheTable(const std::string& name) {
-  const auto hasName = [&](const ProcessDescription* process) { return process->name == name; };
-  return std::any_of(kStages.begin(), kStages.end(), hasName) ||
-         std::any_of(kDrivers.begin(), kDrivers.end(), hasName) ||
-         std::any_of(kSupportProcesses.begin(), kSupportProcesses.end(), hasName);
 }
 
 }  // namespace
@@ -212,7 +206,7 @@ WebResponse Station::write(const WebRequest& request) {
   } else if (request.path == "/api/restart") {
     action = "restart";
     process = request.parameter("process");
-    if (!isProcessOfTheTable(process)) return plain(404, "no such process");
+    if (!isKnownProcess("redbee-" + process)) return plain(404, "no such process");
   } else {
     return plain(404, "no such address");
   }

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <optional>
 
+#include "processes/detection_messages.hpp"
+
 namespace redbee {
 namespace {
 
@@ -55,7 +57,7 @@ void Trails::addDetections(const detections_t& detections) {
   if (!carryTo(detections.utime)) points_.clear();
   utime_ = detections.utime;
   for (const detection_t& d : detections.detections) {
-    const auto foot = camera_.undistort({d.x + 0.5 * (d.width - 1), d.y + d.height - 1.0});
+    const auto foot = camera_.undistort(lowerMiddle(d));
     if (foot) points_[d.id].push_back({detections.utime, *foot});
   }
   for (auto trail = points_.begin(); trail != points_.end();)

@@ -11,11 +11,7 @@ constexpr int kOffFrom = 50;
 constexpr int kOffUntil = 110;
 
 const StackFlight& flight() {
-  static const StackFlight flight = [] {
-    StackFlight made = stackFlight(halfSize(simulation::twoPlanes(3)), kFrames);
-    made.configuration.visual.tracker.grid_px = 8;
-    return made;
-  }();
+  static const StackFlight flight = faultFlight(kFrames);
   return flight;
 }
 

@@ -13,11 +13,7 @@ constexpr int kFrames = 200;
 constexpr int kDecided = 96;  ///< frames; the decision takes some seconds where the drone hardly turns
 
 const StackFlight& flight() {
-  static const StackFlight flight = [] {
-    StackFlight made = stackFlight(halfSize(simulation::twoPlanes(3)), kFrames);
-    made.configuration.visual.tracker.grid_px = 8;
-    return made;
-  }();
+  static const StackFlight flight = faultFlight(kFrames);
   return flight;
 }
 

@@ -113,6 +113,16 @@ pose_t poseAt(int64_t utime, double east, double north) {
   return pose;
 }
 
+/// On WGS-84 alone.
+pose_t poseAtPlace(double latitude, double longitude) {
+  pose_t pose = poseAt(0, 0, 0);
+  pose.has_local = 0;
+  pose.has_global = 1;
+  pose.latitude = latitude;
+  pose.longitude = longitude;
+  return pose;
+}
+
 TEST(Map, SaysWhatIsMissing) {
   Configuration configuration;
   configuration.camera = intrinsics();
@@ -130,15 +140,8 @@ TEST(Map, MeasuresMetresFromTheFirstFixWhereThereIsNoLocalPosition) {
   Configuration configuration;
   configuration.camera = intrinsics();
   MapBuilder map(configuration);
-  pose_t pose = poseAt(0, 0, 0);
-  pose.has_local = 0;
-  pose.has_global = 1;
-  pose.latitude = 60;
-  pose.longitude = 10;
-  map.onPose(pose);
-  pose.latitude += 0.001;
-  pose.longitude += 0.001;
-  map.onPose(pose);
+  map.onPose(poseAtPlace(60, 10));
+  map.onPose(poseAtPlace(60.001, 10.001));
   const auto view = map.view(0);
   ASSERT_TRUE(view.own);
   // WGS-84: a degree of latitude is 111.41 km at 60 degrees, one of longitude 55.80 km.
@@ -150,14 +153,8 @@ TEST(Map, MeasuresAcrossTheDateLine) {
   Configuration configuration;
   configuration.camera = intrinsics();
   MapBuilder map(configuration);
-  pose_t pose = poseAt(0, 0, 0);
-  pose.has_local = 0;
-  pose.has_global = 1;
-  pose.latitude = 60;
-  pose.longitude = 179.9995;
-  map.onPose(pose);
-  pose.longitude = -179.9995;
-  map.onPose(pose);
+  map.onPose(poseAtPlace(60, 179.9995));
+  map.onPose(poseAtPlace(60, -179.9995));
   const auto view = map.view(0);
   ASSERT_TRUE(view.own);
   EXPECT_NEAR(view.own->position.x(), 55.80, 0.01);

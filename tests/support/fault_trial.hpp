@@ -27,8 +27,8 @@ constexpr double kSameIoU = 0.6;
 constexpr int kComparablePx = 60;  ///< the overlap of smaller masks (union) is not compared
 
 /// A car on grass beside a facade, at half the usual resolution.
-inline StackFlight faultFlight() {
-  StackFlight flight = stackFlight(halfSize(simulation::twoPlanes(3)), kFaultFrames);
+inline StackFlight faultFlight(int frames = kFaultFrames) {
+  StackFlight flight = stackFlight(halfSize(simulation::twoPlanes(3)), frames);
   flight.configuration.visual.tracker.grid_px = 8;
   return flight;
 }

@@ -99,16 +99,8 @@ std::unique_ptr<RosRecording> openMcap(const std::filesystem::path& file, bool k
 }
 
 Importer mcapImporter() {
-  Importer importer;
-  importer.name = "mcap";
-  importer.description = "MCAP, as rosbag2 and Foxglove record it: images, IMU, range, camera_info";
-  importer.source = "F.mcap";
-  importer.takes.units = true;
-  importer.takes.keep_going = true;
-  importer.takes.topics = true;
-  importer.defaults.jpeg_quality = 95;
-  importer.import = importMcap;
-  return importer;
+  return rosImporter("mcap", "MCAP, as rosbag2 and Foxglove record it: images, IMU, range, camera_info",
+                     "F.mcap", importMcap);
 }
 
 }  // namespace redbee

@@ -137,4 +137,18 @@ ImportSummary importRosRecording(RosRecording& recording, const ImportOptions& o
   return summary;
 }
 
+Importer rosImporter(const std::string& name, const std::string& description, const std::string& source,
+                     ImportSummary (*import)(const ImportOptions&, Progress&)) {
+  Importer importer;
+  importer.name = name;
+  importer.description = description;
+  importer.source = source;
+  importer.takes.units = true;
+  importer.takes.keep_going = true;
+  importer.takes.topics = true;
+  importer.defaults.jpeg_quality = 95;
+  importer.import = import;
+  return importer;
+}
+
 }  // namespace redbee

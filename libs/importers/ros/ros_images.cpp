@@ -1,6 +1,5 @@
 #include "redbee/importers/ros/ros_images.hpp"
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,26 +7,13 @@
 #include "redbee/bus/image.hpp"
 #include "redbee/bus/raw_format.hpp"
 #include "redbee/geometry/time.hpp"
+#include "redbee/importers/ros/ros_encodings.hpp"
 #include "redbee/importers/ros/ros_messages.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr uint32_t kMostPixels = 16384;  // a side, of an image_t
-
-/// image_t's number of an 8-bit encoding; 0 for others.
-int32_t pixelFormatOf(const std::string& encoding) {
-  constexpr int32_t kRgba = 876758866, kBgra = 877807426, kYuyv = 1448695129, kUyvy = 1498831189;
-  constexpr int32_t kBggr = 825770306, kGbrg = 844650584, kGrbg = 861427800, kRggb = 878205016;
-  static const std::map<std::string, int32_t> formats{
-      {"mono8", image_t::GRAY}, {"8UC1", image_t::GRAY}, {"rgb8", image_t::RGB}, {"bgr8", image_t::BGR},
-      {"8UC3", image_t::BGR},   {"rgba8", kRgba},        {"bgra8", kBgra},       {"8UC4", kBgra},
-      {"yuv422", kUyvy},        {"uyvy", kUyvy},         {"yuv422_yuy2", kYuyv}, {"yuyv", kYuyv},
-      {"bayer_rggb8", kRggb},   {"bayer_bggr8", kBggr},  {"bayer_gbrg8", kGbrg}, {"bayer_grbg8", kGrbg},
-  };
-  const auto found = formats.find(encoding);
-  return found == formats.end() ? 0 : found->second;
-}
 
 bool is16Bits(const std::string& encoding) { return encoding == "mono16" || encoding == "16UC1"; }
 

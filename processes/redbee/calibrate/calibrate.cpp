@@ -12,6 +12,7 @@
 #include "processes/redbee/calibrate/calibration_report.hpp"
 #include "processes/redbee/calibrate/calibration_target_csv.hpp"
 #include "processes/redbee/pages/svg_plot.hpp"
+#include "processes/warnings.hpp"
 #include "redbee/calibration/calibration.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/files/atomic_file.hpp"
@@ -89,7 +90,7 @@ void printVerdicts(const CalibrationResult& result) {
     std::printf("%-19s %-14s %s\n", report.name.c_str(), toString(report.verdict),
                 report.explanation.c_str());
   }
-  for (const std::string& warning : result.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  printWarnings(result.warnings);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "processes/warnings.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/files/input_error.hpp"
@@ -104,7 +105,7 @@ class LogIntake {
     if (input_.frames.empty()) throw InputError(log_, "holds no image on " + configuration_.channels.camera);
     if (input_.imu.empty()) throw InputError(log_, "holds no IMU sample on " + configuration_.channels.imu);
     if (damaged_ > 0)
-      std::fprintf(stderr, "warning: %s: %d damaged messages skipped\n", log_.c_str(), damaged_);
+      printWarning(log_.string() + ": " + std::to_string(damaged_) + " damaged messages skipped");
   }
 
  private:
@@ -172,7 +173,7 @@ void readCalibrationLog(const std::filesystem::path& log, const Configuration& c
     progress.update(reader.position() >> 20, reader.size() >> 20);
   }
   progress.finish();
-  if (!reader.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", reader.damageReport().c_str());
+  printWarning(reader.damageReport());
   intake.finish();
 }
 

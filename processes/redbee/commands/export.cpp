@@ -7,20 +7,19 @@
 #include "processes/redbee/commands/command.hpp"
 #include "processes/redbee/commands/export_targets.hpp"
 #include "processes/redbee/export/export_mcap.hpp"
+#include "processes/warnings.hpp"
 
 namespace redbee {
 namespace {
 
 void runExportMcap(const McapExport& options) {
   const McapExported exported = exportMcap(options);
-  for (const std::string& warning : exported.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  if (exported.damaged > 0)
-    std::fprintf(stderr, "warning: %lld damaged messages are left out\n",
-                 static_cast<long long>(exported.damaged));
+  printWarnings(exported.warnings);
+  printDamaged(exported.damaged);
   std::string left_out;
   for (const auto& [channel, count] : exported.left_out)
     left_out += (left_out.empty() ? "" : ", ") + channel + " (" + std::to_string(count) + ")";
-  if (!left_out.empty()) std::fprintf(stderr, "warning: not exported: %s\n", left_out.c_str());
+  if (!left_out.empty()) printWarning("not exported: " + left_out);
   for (const auto& [topic, count] : exported.messages)
     std::printf("%s: %lld messages\n", topic.c_str(), static_cast<long long>(count));
 }

@@ -9,6 +9,7 @@
 #include "processes/redbee/commands/program_beside.hpp"
 #include "processes/redbee/rosbag/rosbag_program.hpp"
 #include "processes/redbee/vehicle/import_kalibr.hpp"
+#include "processes/warnings.hpp"
 #include "redbee/importers/importer.hpp"
 
 namespace redbee {
@@ -30,8 +31,7 @@ void addKalibr(CLI::App& command) {
       ->capture_default_str();
   addOutOption(command, options->out, "configuration of the vehicle to write, a YAML file");
   command.callback([options] {
-    for (const std::string& warning : importKalibr(*options))
-      std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    printWarnings(importKalibr(*options));
     std::printf("%s: the vehicle as Kalibr calibrated it; check it before use\n", options->out.c_str());
   });
 }

@@ -7,6 +7,7 @@
 #include "processes/redbee/commands/command.hpp"
 #include "processes/redbee/logs/log_repair.hpp"
 #include "processes/redbee/logs/log_survey.hpp"
+#include "processes/warnings.hpp"
 
 namespace redbee {
 namespace {
@@ -30,7 +31,7 @@ void addRepair(CLI::App& log) {
   addOutOption(*command, options->out, "log to write");
   command->callback([options] {
     const LogRepair repair = repairLog(options->parts, options->out);
-    for (const std::string& line : repair.damage) std::fprintf(stderr, "warning: %s\n", line.c_str());
+    printWarnings(repair.damage);
     std::printf("%s: %lld messages\n", options->out.c_str(), static_cast<long long>(repair.messages));
   });
 }

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "processes/conversions.hpp"
+#include "processes/detection_messages.hpp"
 #include "processes/health_check.hpp"
+#include "processes/plausible_subscription.hpp"
 #include "redbee/bus/build_version.hpp"
 #include "redbee/files/input_error.hpp"
 
@@ -15,34 +17,11 @@ std::string_view bytesOf(const std::vector<uint8_t>& data) {
   return {reinterpret_cast<const char*>(data.data()), data.size()};
 }
 
-Detection detectionOf(const detection_t& message) {
-  Detection detection;
-  detection.id = message.id;
-  detection.box = {message.x, message.y, message.width, message.height};
-  detection.area_px = message.area;
-  detection.score = message.score;
-  detection.seen = message.seen != 0;
-  return detection;
-}
-
 nlohmann::json stageJson(const process_health_t& health) {
   return {{"median_ms", health.work_median}, {"p99_ms", health.work_p99}, {"mean_ms", health.work_mean},
           {"frames", health.published},      {"skipped", health.skipped}, {"lost", health.lost},
           {"damaged", health.damaged},       {"timed_out", health.late},  {"resident_bytes", health.resident},
           {"state", health.state},           {"message", health.message}};
-}
-
-/// For a program that only listens: what does not decode or is not plausible is `damaged`.
-template <typename Message>
-Subscription subscribePlausible(Bus& bus, const std::string& channel,
-                                std::function<void(const Message&)> handler,
-                                const std::function<void()>& damaged) {
-  return bus.subscribe<Message>(
-      channel, kListenerQueue,
-      [handler = std::move(handler), damaged](const Message& message) {
-        isPlausible(message) ? handler(message) : damaged();
-      },
-      damaged);
 }
 
 /// Per frame of the run [ms]; the figures of each stage are added to `stages`.
@@ -67,13 +46,15 @@ ResultCollector::ResultCollector(Bus& bus, const Channels& channels, std::filesy
   run_.prepare();
   const auto damaged = [this] { ++damaged_; };
   subscriptions_.push_back(subscribePlausible<foreground_t>(
-      bus, channels.foreground, [this](const foreground_t& m) { onForeground(m); }, damaged));
+      bus, channels.foreground, kListenerQueue, [this](const foreground_t& m) { onForeground(m); }, damaged));
   subscriptions_.push_back(subscribePlausible<detections_t>(
-      bus, channels.detections, [this](const detections_t& m) { detections_[m.utime] = m; }, damaged));
+      bus, channels.detections, kListenerQueue, [this](const detections_t& m) { detections_[m.utime] = m; },
+      damaged));
   subscriptions_.push_back(subscribePlausible<fused_homography_t>(
-      bus, channels.fused_homography, [this](const fused_homography_t& m) { onFused(m); }, damaged));
+      bus, channels.fused_homography, kListenerQueue, [this](const fused_homography_t& m) { onFused(m); },
+      damaged));
   subscriptions_.push_back(subscribePlausible<process_health_t>(
-      bus, channels.health,
+      bus, channels.health, kListenerQueue,
       [this](const process_health_t& m) {
         if (isKnownProcess(m.process)) health_[m.process] = m;
       },

@@ -8,6 +8,7 @@
 #include "processes/redbee/detect/collector.hpp"
 #include "processes/redbee/detect/input_survey.hpp"
 #include "processes/redbee/detect/process_usage.hpp"
+#include "processes/warnings.hpp"
 #include "redbee/configuration/configuration_value.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/detection/detector.hpp"
@@ -79,9 +80,9 @@ std::string reasonOfNoFrame(const ResultCollector& collector, const InputSurvey&
   return withReason(text, fault.empty() ? lastWord(collector) : fault);
 }
 
-void printWarnings(const InputSurvey& survey, const LogReader& log) {
-  if (!log.damageReport().empty()) std::fprintf(stderr, "warning: %s\n", log.damageReport().c_str());
-  for (const std::string& line : survey.warnings()) std::fprintf(stderr, "warning: %s\n", line.c_str());
+void warnOf(const InputSurvey& survey, const LogReader& log) {
+  printWarning(log.damageReport());
+  printWarnings(survey.warnings());
 }
 
 }  // namespace
@@ -128,7 +129,7 @@ int64_t runDetect(const DetectOptions& options) {
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
   stack.publishHealth();
   progress.finish();
-  printWarnings(survey, log);
+  warnOf(survey, log);
   if (collector.framesWithImage() == 0) throw InputError(options.log, reasonOfNoFrame(collector, survey));
   ProcessUsage usage = processUsage();
   usage.stages = stack.cpu();

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "processes/geolocation/node.hpp"
+#include "processes/geolocation/target_messages.hpp"
 #include "processes/in_process_stack.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
@@ -18,10 +19,6 @@ namespace redbee {
 namespace {
 
 constexpr int64_t kPathStep_us = 100'000;  // a path needs no more points
-
-const char* stateName(int8_t state) {
-  return state == target_t::MOVING ? "moving" : state == target_t::STOPPED ? "stopped" : "coasting";
-}
 
 class TargetRecorder {
  public:

@@ -2,38 +2,17 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <array>
 
 #include "processes/redbee/export/cdr_writer.hpp"
 #include "redbee/bus/image.hpp"
-#include "redbee/bus/raw_format.hpp"
+#include "redbee/importers/ros/ros_encodings.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr const char* kCameraFrame = "camera_optical";  ///< x right, y down, z forward
 constexpr const char* kImuFrame = "imu";
-
-/// Foxglove's name of a pixel format; empty where it has none.
-std::string encodingOf(int32_t pixelformat) {
-  static const std::array<std::array<const char*, 2>, 12> names{{{"GRAY", "mono8"},
-                                                                 {"RGB", "rgb8"},
-                                                                 {"BGR", "bgr8"},
-                                                                 {"RGBA", "rgba8"},
-                                                                 {"BGRA", "bgra8"},
-                                                                 {"YUYV", "yuyv"},
-                                                                 {"UYVY", "uyvy"},
-                                                                 {"BAYER_BGGR", "bayer_bggr8"},
-                                                                 {"BAYER_GBRG", "bayer_gbrg8"},
-                                                                 {"BAYER_GRBG", "bayer_grbg8"},
-                                                                 {"BAYER_RGGB", "bayer_rggb8"},
-                                                                 {"LE_GRAY16", "mono16"}}};
-  const std::string name = formatName(pixelformat);
-  const auto found =
-      std::find_if(names.begin(), names.end(), [&](const auto& row) { return row[0] == name; });
-  return found == names.end() ? "" : (*found)[1];
-}
 
 CdrWriter& writeHeader(CdrWriter& out, int64_t utime, const char* frame) {
   return out.time(utime).string(frame);
@@ -102,7 +81,7 @@ CdrBytes exportCompressedImage(int64_t utime, const std::vector<uint8_t>& data, 
 }
 
 CdrBytes exportRawImage(const image_t& image) {
-  const std::string encoding = encodingOf(image.pixelformat);
+  const std::string encoding = rosEncodingOf(image.pixelformat);
   if (!encoding.empty() && faultOfImage(image).empty()) {
     return rawImage(image.utime, image.width, image.height, encoding, static_cast<uint32_t>(image.row_stride),
                     {image.data.data(), image.data.size()});

@@ -13,17 +13,6 @@ ImportSummary importRosbag(const ImportOptions& options, Progress& progress) {
 
 }  // namespace
 
-Importer rosbagImporter() {
-  Importer importer;
-  importer.name = kRosbagName;
-  importer.description = kRosbagDescription;
-  importer.source = "F.bag";
-  importer.takes.units = true;
-  importer.takes.keep_going = true;
-  importer.takes.topics = true;
-  importer.defaults.jpeg_quality = 95;
-  importer.import = importRosbag;
-  return importer;
-}
+Importer rosbagImporter() { return rosImporter(kRosbagName, kRosbagDescription, "F.bag", importRosbag); }
 
 }  // namespace redbee

@@ -106,16 +106,14 @@ int HealthBoard::good(Time now) const {
   }));
 }
 
-BoardLine HealthBoard::row(const Entry& entry, Time now) {
-  const process_health_t& h = entry.last;
-  const auto state = static_cast<HealthState>(h.state);
-  const bool silent = isSilent(entry, now);
-  const std::string shown = silent ? "silent" : toString(state);
+BoardLine HealthBoard::row(const Process& process) {
+  if (!process.last) return {fmt::format("{:<19} no messages", process.name), process.tone};
+  const process_health_t& h = *process.last;
   // A space separates columns even if a cell is full.
-  return {fmt::format(kRow, shortName(h.process), shown, h.pid, brief(h.rate_in), brief(h.rate_out),
+  return {fmt::format(kRow, process.name, process.state, h.pid, brief(h.rate_in), brief(h.rate_out),
                       brief(h.latency_median), brief(h.latency_p99), brief(h.skipped), brief(h.lost),
                       brief(h.damaged), brief(h.resident >> 20)),
-          silent ? Tone::kBad : toneOf(state)};
+          process.tone};
 }
 
 void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
@@ -189,12 +187,7 @@ std::vector<BoardLine> HealthBoard::table(Time now, int columns) const {
   lines.push_back({fmt::format(kRow, "PROCESS", "STATE", "PID", "IN/s", "OUT/s", "MED", "P99ms", "SKIP",
                                "LOST", "DMGD", "MiB"),
                    Tone::kHeading});
-  for (const std::string& name : inOrderOfWork(entries_)) {
-    const auto it = entries_.find(name);
-    lines.push_back(it == entries_.end()
-                        ? BoardLine{fmt::format("{:<19} no messages", shortName(name)), Tone::kBad}
-                        : row(it->second, now));
-  }
+  for (const Process& process : list(now)) lines.push_back(row(process));
   lines.push_back({"", Tone::kPlain});
   appendRemarks(lines, now);
   appendBuilds(lines);

@@ -59,7 +59,7 @@ class HealthBoard {
   };
 
   static bool isSilent(const Entry& entry, Time now);
-  static BoardLine row(const Entry& entry, Time now);
+  static BoardLine row(const Process& process);
   void appendRemarks(std::vector<BoardLine>& lines, Time now) const;
   void appendBuilds(std::vector<BoardLine>& lines) const;
 

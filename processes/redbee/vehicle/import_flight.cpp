@@ -4,6 +4,7 @@
 #include <string>
 
 #include "processes/redbee/vehicle/vehicle_file.hpp"
+#include "processes/warnings.hpp"
 #include "redbee/files/progress.hpp"
 #include "redbee/files/user_error.hpp"
 #include "redbee/geometry/time.hpp"
@@ -37,8 +38,7 @@ ImportedFlight importFlight(const Importer& importer, const ImportOptions& optio
              !line.empty()) {
     flight.summary.warnings.push_back(line);
   }
-  for (const std::string& warning : flight.summary.warnings)
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  printWarnings(flight.summary.warnings);
   return flight;
 }
 
