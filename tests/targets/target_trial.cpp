@@ -52,7 +52,7 @@ void writeLog(const std::string& file, bool has_targets) {
 void print(const targets_t& m, int64_t start_us, const TargetFlight& flight) {
   const double t = static_cast<double>(m.utime - start_us) * 1e-6;
   for (const target_t& each : m.targets) {
-    std::printf("TARGET,%.3f,%d,%d,%d,%.9f,%.9f,%.3f\n", t, m.status, each.id, each.state, each.latitude,
+    std::printf("TARGET,%.3f,%d,%d,%d,%.17g,%.17g,%.3f\n", t, m.status, each.id, each.state, each.latitude,
                 each.longitude, flight.missOf(each.latitude, each.longitude, t));
   }
   if (m.targets.empty()) std::printf("NONE,%.3f,%d\n", t, m.status);
