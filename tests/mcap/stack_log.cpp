@@ -18,6 +18,7 @@ process_health_t healthAt(int k) {
   process_health_t health{};
   health.utime = kStart_us + 1'000'000 * k;
   health.process = "homography-fusion";
+  health.pid = 1234;
   health.state = k < 6 ? process_health_t::GOOD : process_health_t::DEGRADED;
   health.message = k < 6 ? "" : "IMU and camera disagree";
   health.latency_p99 = 2.5 * k;
