@@ -15,16 +15,23 @@ namespace {
 /// Returns whether the log has homographies of its own.
 bool readOwn(LogReader& log, const Channels& channels, GroundObserver& observer) {
   bool has_homographies = false;
+  const auto take = [&](const LogEvent& event, auto message, auto&& note) {
+    if (decodePlausible(event.data, message)) {
+      note(message);
+    } else {
+      observer.onDamaged();
+    }
+  };
   while (const auto event = log.next()) {
     if (event->channel == channels.fused_homography) {
-      fused_homography_t m;
-      if (!decodePlausible(event->data, m)) continue;
-      observer.onFused(m);
-      has_homographies = true;
+      take(*event, fused_homography_t(), [&](const auto& m) {
+        observer.onFused(m);
+        has_homographies = true;
+      });
     } else if (event->channel == channels.foreground) {
-      if (foreground_t m; decodePlausible(event->data, m)) observer.onForeground(m);
+      take(*event, foreground_t(), [&](const auto& m) { observer.onForeground(m); });
     } else if (event->channel == channels.detections) {
-      if (detections_t m; decodePlausible(event->data, m)) observer.onDetections(m);
+      take(*event, detections_t(), [&](const auto& m) { observer.onDetections(m); });
     }
   }
   return has_homographies;

@@ -22,17 +22,22 @@ class GroundObserver {
   void onForeground(const foreground_t& foreground);
   void onDetections(const detections_t& detections) { detections_[detections.utime] = detections; }
 
+  void onDamaged() { ++damaged_; }
+
   const GroundChain& chain() const { return chain_; }
   /// PNG on the raw image's grid, 255 moving, of the frame at this time; null where there is no valid one.
   const std::vector<uint8_t>* mask(int64_t utime) const;
   /// Null where there are none.
   const detections_t* detections(int64_t utime) const;
   const std::map<int64_t, detections_t>& detections() const { return detections_; }
+  /// Messages that cannot be decoded or are implausible.
+  int64_t damaged() const { return damaged_; }
 
  private:
   GroundChain chain_;
   std::map<int64_t, std::vector<uint8_t>> masks_;
   std::map<int64_t, detections_t> detections_;
+  int64_t damaged_ = 0;
 };
 
 /// From the log's own FUSED_HOMOGRAPHY, FOREGROUND and DETECTIONS; where it has none, from those of the stack

@@ -1,6 +1,7 @@
 #include "processes/redbee/mosaic/make_mosaic.hpp"
 
-#include <cstdio>
+#include <spdlog/fmt/fmt.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -8,9 +9,12 @@
 #include <optional>
 
 #include "processes/rectified_camera.hpp"
+#include "processes/redbee/mosaic/geotiff_file.hpp"
 #include "processes/redbee/mosaic/ground_observer.hpp"
+#include "processes/redbee/mosaic/ground_ties.hpp"
 #include "processes/redbee/mosaic/track_drawing.hpp"
 #include "processes/warnings.hpp"
+#include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/json_file.hpp"
 #include "redbee/files/log.hpp"
@@ -47,7 +51,7 @@ cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, i
 /// Without a mask nothing says what moves.
 bool isDrawn(const GroundObserver& ground, int64_t utime) { return ground.mask(utime) != nullptr; }
 
-int64_t draw(const MosaicOptions& options, const Configuration& configuration, const GroundObserver& ground,
+int64_t draw(const MosaicOptions& options, const Configuration& configuration, GroundObserver& ground,
              const GroundFrames& frames, Mosaic& mosaic) {
   std::map<int64_t, const MappedFrame*> by_time;
   for (const MappedFrame& frame : frames.frames) by_time[frame.utime] = &frame;
@@ -61,7 +65,10 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, c
     if (event->channel != configuration.channels.camera) continue;
     progress.update(log.position() >> 20, log.size() >> 20);
     image_t message;
-    if (!decodePlausible(event->data, message)) continue;
+    if (!decodePlausible(event->data, message)) {
+      ground.onDamaged();
+      continue;
+    }
     const auto frame = by_time.find(message.utime);
     if (frame == by_time.end() || !isDrawn(ground, message.utime) || seen++ % options.every != 0) continue;
     const IdealImage image = camera.ideal(message, true, health);
@@ -74,16 +81,42 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, c
   return drawn;
 }
 
-cv::Mat transparent(const cv::Mat3b& image, const cv::Mat1b& known) {
+cv::Mat4b transparent(const cv::Mat3b& image, const cv::Mat1b& known) {
   std::vector<cv::Mat> channels;
   cv::split(image, channels);
   channels.push_back(known);
-  cv::Mat result;
+  cv::Mat4b result;
   cv::merge(channels, result);
   return result;
 }
 
-void writeSummary(const std::filesystem::path& file, const MosaicSummary& s, const MosaicGrid& grid) {
+/// Before the work of minutes.
+void checkFolder(const std::filesystem::path& out) {
+  std::filesystem::path there = std::filesystem::absolute(out);
+  if (std::filesystem::exists(there)) return checkWritable(there / "summary.json");
+  while (!std::filesystem::exists(there.parent_path())) there = there.parent_path();
+  checkWritable(there);
+}
+
+/// Returns the place on the earth as summary.json says it; without one, why.
+nlohmann::json writeOnEarth(const MosaicOptions& options, const Configuration& configuration,
+                            const Camera& camera, const GroundFrames& frames, const MosaicGrid& grid,
+                            const cv::Mat4b& image, MosaicSummary& summary) {
+  std::filesystem::remove(options.out / "mosaic.tif");  // of an earlier run
+  const GroundTies ties = readGroundTies(options.log, configuration, camera, frames, grid);
+  const auto reference = georeference(ties.ties);
+  if (!reference) {
+    summary.why_no_place = ties.why_empty.empty() ? "all poses are of one place" : ties.why_empty;
+    return nullptr;
+  }
+  writeGeoTiff(options.out / "mosaic.tif", image, grid, *reference, ties.epsg);
+  summary.epsg = ties.epsg;
+  summary.residual_m = reference->residual_m;
+  return {{"epsg", ties.epsg}, {"m_per_unit", reference->scale}, {"residual_m", reference->residual_m}};
+}
+
+void writeSummary(const std::filesystem::path& file, const MosaicSummary& s, const MosaicGrid& grid,
+                  const nlohmann::json& on_earth) {
   writeJson(file, {{"frames", s.frames},
                    {"frames_drawn", s.drawn},
                    {"pieces", s.pieces},
@@ -92,6 +125,7 @@ void writeSummary(const std::filesystem::path& file, const MosaicSummary& s, con
                    {"units_per_px", s.units_per_px},
                    {"unit", s.is_metric ? "m" : "px of the middle frame"},
                    {"origin", {grid.origin.x(), grid.origin.y()}},
+                   {"on_earth", on_earth},
                    {"tracks", s.tracks}});
 }
 
@@ -100,7 +134,8 @@ void writeSummary(const std::filesystem::path& file, const MosaicSummary& s, con
 MosaicSummary makeMosaic(const MosaicOptions& options) {
   const Configuration configuration = loadConfiguration(options.configuration);
   const Camera camera(configuration.camera);
-  const GroundObserver ground = observeGround(options.log, configuration);
+  checkFolder(options.out);
+  GroundObserver ground = observeGround(options.log, configuration);
   const GroundFrames frames = mapped(ground.chain().longestPiece(), camera.K_inverse());
   const auto grid = gridFor(frames, {camera.ideal().width, camera.ideal().height}, options.most_px);
   if (!grid)
@@ -121,11 +156,18 @@ MosaicSummary makeMosaic(const MosaicOptions& options) {
   const GroundTracks tracks = tracksOnMap(camera, ground, frames);
   summary.tracks = tracks.size();
   cv::Mat3b image = mosaic.image();
-  writePng(options.out / "mosaic.png", transparent(image, mosaic.known()));
+  const cv::Mat4b transparent_image = transparent(image, mosaic.known());
+  writePng(options.out / "mosaic.png", transparent_image);
+  const nlohmann::json on_earth =
+      writeOnEarth(options, configuration, camera, frames, *grid, transparent_image, summary);
   drawTracks(image, tracks, *grid, frames.frames.front().utime);
   writePng(options.out / "tracks.png", image);
   writeTracks(options.out / "tracks.csv", tracks);
-  writeSummary(options.out / "summary.json", summary, *grid);
+  writeSummary(options.out / "summary.json", summary, *grid, on_earth);
+  if (ground.damaged() > 0) {
+    printWarning(fmt::format("{}: {} damaged or implausible messages are left out", options.log.string(),
+                             ground.damaged()));
+  }
   return summary;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace redbee {
 
@@ -23,10 +24,14 @@ struct MosaicSummary {
   double units_per_px = 0;
   bool is_metric = false;  ///< units are metres
   size_t tracks = 0;
+  int epsg = 0;              ///< projected grid of mosaic.tif; 0: there is none
+  double residual_m = 0;     ///< root mean square between it and the poses
+  std::string why_no_place;  ///< if there is none
 };
 
-/// Writes mosaic.png (ground alone; transparent where it is unknown), tracks.png (with the tracks and their
-/// times), tracks.csv (utime, identity, x, y) and summary.json. Throws InputError or ConfigurationError; also
+/// Writes mosaic.png (ground alone; transparent where it is unknown), mosaic.tif (the same as GeoTIFF, where
+/// the log has poses with a position), tracks.png (with the tracks and their times), tracks.csv (utime,
+/// identity, x, y) and, last, summary.json. Throws InputError or ConfigurationError; also
 /// where no homography leads from a frame to another.
 MosaicSummary makeMosaic(const MosaicOptions& options);
 
