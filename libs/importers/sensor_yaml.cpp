@@ -181,6 +181,9 @@ CamchainCamera readCamchain(const std::filesystem::path& path, const std::string
   if (const auto T_CI = file.pose("T_cam_imu")) {
     camera.R_CI = T_CI->R_BS;
     camera.p_IC = -T_CI->R_BS.transpose() * T_CI->p_BS;
+  } else if (const auto T_IC = file.pose("T_imu_cam")) {  // as OpenVINS has it
+    camera.R_CI = T_IC->R_BS.transpose();
+    camera.p_IC = T_IC->p_BS;
   }
   if (file.has("timeshift_cam_imu")) camera.timeshift_s = file.get<double>("timeshift_cam_imu");
   return camera;

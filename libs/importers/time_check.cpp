@@ -27,11 +27,11 @@ std::vector<Places> runsOf(const Times& utimes) {
   std::vector<double> gaps;
   for (size_t i = 1; i < order.size(); ++i) gaps.push_back(span_s(utimes[order[i - 1]], utimes[order[i]]));
   if (gaps.empty()) return {order};
-  // A recording may pause, and a time lapse has long periods.
-  constexpr double kPause_s = 60, kPeriods = 1000;
+  // A recording may pause, as a phone's does in the background, and a time lapse has long periods.
+  constexpr double kPeriods = 1000;
   std::vector<double> sorted = gaps;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
-  const double large_s = std::max(kPause_s, kPeriods * sorted[sorted.size() / 2]);
+  const double large_s = std::max(kClockWasSet_s, kPeriods * sorted[sorted.size() / 2]);
   std::vector<Places> runs{{order.front()}};
   for (size_t i = 0; i < gaps.size(); ++i) {
     if (gaps[i] > large_s) runs.emplace_back();

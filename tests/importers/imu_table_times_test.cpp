@@ -15,6 +15,23 @@ TEST_F(ImuTableTest, ARowYearsAheadCostsItself) {
   EXPECT_TRUE(warns(table, "Gyroscope.csv: 1 of 300 times leap, the first (number 101) by 300000000.0"));
 }
 
+TEST_F(ImuTableTest, APauseIsNoLeap) {
+  writeSensorLogger("android,false", 1);
+  // A phone's sensors pause while the app is in the background; the last samples are few.
+  for (const char* name : {"Gyroscope.csv", "TotalAcceleration.csv"}) {
+    std::string file = readText(folder_ / name);
+    const bool is_gyro = name[0] == 'G';
+    for (int k = 0; k < 3; ++k)
+      file += std::to_string(kStart_ns + 100'000'000'000 + k * kPeriod_ns) +
+              (is_gyro ? ",100,0.1,0,0\n" : ",100,0,9.8,0\n");
+    write(name, file);
+  }
+  const ImuTable table = read("");
+  EXPECT_GE(table.samples.size(), size_t{kSamples + 1});
+  EXPECT_GT(toUtime(table.samples.back().time), 99'000'000);
+  EXPECT_FALSE(warns(table, "leap"));
+}
+
 TEST_F(ImuTableTest, TimesThatRunBackwardsAreRefused) {
   writeSensorLogger("android,false", 1);
   const std::string header = "time,seconds_elapsed,z,y,x\n";
