@@ -6,8 +6,8 @@
 
 namespace redbee {
 
-/// Control characters and bytes that are no UTF-8 as \xNN: names in a recording must neither start a second
-/// line nor command a terminal.
+/// Control characters and bytes that are no UTF-8 as their hexadecimal codes: names in a recording must
+/// neither start a second line nor command a terminal.
 std::string printable(const std::string& text);
 
 /// "a, b, c and 7 more": ten at most.

@@ -1,5 +1,5 @@
-// Any bytes as a ROS 1 bag: imported, or refused. ROS's own library reads it, in this process; on a vehicle and
-// for `redbee import` it has one of its own.
+// Any bytes as a ROS 1 bag: imported, or refused. ROS's own library reads it, in this process; on a vehicle
+// and for `redbee import` it has one of its own.
 #include "processes/redbee/rosbag/bag_recording.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/importers/ros/import_ros.hpp"
