@@ -130,6 +130,7 @@ void keepWhatIncreases(const Times& utimes, const std::string& source, TimeFindi
 TimeFindings checkTimes(const Times& utimes, TimeOrder order, const std::string& source) {
   TimeFindings findings;
   findings.keep.assign(utimes.size(), true);
+  if (utimes.empty()) return findings;
   leaveOutLeaps(utimes, source, findings);
   if (order == TimeOrder::kAsTheyCome) keepWhatIncreases(utimes, source, findings);
   return findings;
