@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "redbee/files/printable.hpp"
 #include "redbee/files/user_error.hpp"
 
 namespace redbee {
@@ -32,7 +33,7 @@ void requirePrinted() {
 }
 
 int fail(int code, const std::string& line) {
-  std::fprintf(stderr, "%s\n", line.c_str());
+  std::fprintf(stderr, "%s\n", printable(line).c_str());
   return code;
 }
 

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "redbee/files/printable.hpp"
+
 namespace redbee {
 
 /// Nothing for an empty line.
 inline void printWarning(const std::string& line) {
-  if (!line.empty()) std::fprintf(stderr, "warning: %s\n", line.c_str());
+  if (!line.empty()) std::fprintf(stderr, "warning: %s\n", printable(line).c_str());
 }
 inline void printWarnings(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) printWarning(line);

@@ -9,8 +9,13 @@
 
 namespace redbee {
 
-/// One or more frames of zstd (RFC 8878) or LZ4 that give `size` bytes, which are allocated. Throws
-/// std::runtime_error with the reason if they do not, or if `method` ("", "zstd", "lz4") is another.
-std::vector<uint8_t> decompress(const std::string& method, ByteView compressed, size_t size);
+struct Decompressed {
+  std::vector<uint8_t> bytes;  ///< as far as they go
+  std::string fault;           ///< empty if they are all
+};
+
+/// One or more frames of zstd (RFC 8878) or LZ4 that should give `size` bytes, which are allocated. `method`:
+/// "", "zstd", "lz4"; another is a fault.
+Decompressed decompress(const std::string& method, ByteView compressed, size_t size);
 
 }  // namespace redbee

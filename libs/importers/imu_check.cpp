@@ -10,6 +10,7 @@
 
 #include "redbee/geometry/median.hpp"
 #include "redbee/importers/import.hpp"
+#include "redbee/importers/time_check.hpp"
 
 namespace redbee {
 namespace {
@@ -160,6 +161,13 @@ void checkHoles(const std::vector<ImuSample>& imu, ImuFindings& findings) {
     at_s = seconds(imu[i - 1].time.time_since_epoch());
   }
   if (count == 0) return;
+  if (longest_s > kClockWasSet_s) {
+    findings.faults.push_back(
+        fmt::format("the IMU's times leap by {:.0f} s after {:.3f} s: take out what leaps, or "
+                    "cut the recording there",
+                    longest_s, at_s));
+    return;
+  }
   findings.warnings.push_back(
       fmt::format("the IMU has {} hole{}, the longest of {:.3g} s at {:.3f} s: record it "
                   "with a larger buffer",
@@ -193,7 +201,11 @@ ImuFindings checkImu(const std::vector<ImuSample>& imu, CameraTime first_frame, 
                      const ImuUnits& read_as) {
   ImuFindings findings;
   if (imu.empty()) return findings;
-  if (imu.size() >= kFewSamples) {
+  if (imu.size() < kFewSamples) {
+    findings.faults.push_back(
+        fmt::format("the IMU has {} sample{}: that is no recording; import without the IMU", imu.size(),
+                    imu.size() == 1 ? "" : "s"));
+  } else {
     checkRate(imu, seconds(last_frame - first_frame), read_as, findings);
     checkGravity(imu, read_as, findings);
     // In a wrong unit of time the gyro's turns mean nothing.

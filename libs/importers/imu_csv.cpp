@@ -7,6 +7,7 @@
 
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/printable.hpp"
 
 namespace redbee {
 namespace {
@@ -14,19 +15,13 @@ namespace {
 constexpr std::array<const char*, 7> kColumnNames = {"t_s", "gx", "gy", "gz", "ax", "ay", "az"};
 using ColumnNumbers = std::array<size_t, kColumnNames.size()>;
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
-  return text;
-}
-
 ColumnNumbers findColumns(const CsvReader& csv, const std::vector<std::string>& header) {
   ColumnNumbers columns{};
   for (size_t i = 0; i < kColumnNames.size(); ++i) {
     const auto found = std::find(header.begin(), header.end(), kColumnNames[i]);
     if (found == header.end()) {
-      csv.fail(std::string("header names no column '") + kColumnNames[i] + "' (found: " + listed(header) +
-               "; needed: t_s gx gy gz ax ay az)");
+      csv.fail(std::string("header names no column '") + kColumnNames[i] +
+               "' (found: " + firstTenOf(header, " ") + "; needed: t_s gx gy gz ax ay az)");
     }
     columns[i] = static_cast<size_t>(found - header.begin());
   }

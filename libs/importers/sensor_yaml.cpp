@@ -70,6 +70,8 @@ class SensorFile {
       if (!std::isfinite(number)) fail(key, "holds a number that is not finite");
     }
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T_BS(data.data());
+    if ((T_BS.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-6)
+      fail(key, "its last row is not 0 0 0 1");
     const Eigen::Matrix3d R = T_BS.topLeftCorner<3, 3>();
     // Files print few digits; what is a rotation up to that is made an exact one.
     if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0) {
@@ -179,6 +181,9 @@ CamchainCamera readCamchain(const std::filesystem::path& path, const std::string
   if (const auto T_CI = file.pose("T_cam_imu")) {
     camera.R_CI = T_CI->R_BS;
     camera.p_IC = -T_CI->R_BS.transpose() * T_CI->p_BS;
+  } else if (const auto T_IC = file.pose("T_imu_cam")) {  // as OpenVINS has it
+    camera.R_CI = T_IC->R_BS.transpose();
+    camera.p_IC = T_IC->p_BS;
   }
   if (file.has("timeshift_cam_imu")) camera.timeshift_s = file.get<double>("timeshift_cam_imu");
   return camera;

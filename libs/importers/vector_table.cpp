@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/printable.hpp"
+#include "redbee/importers/time_check.hpp"
 
 namespace redbee {
 
@@ -10,9 +12,7 @@ size_t columnOf(const CsvReader& csv, const std::string& name) {
   const auto& header = csv.header();
   const auto found = std::find(header.begin(), header.end(), name);
   if (found != header.end()) return static_cast<size_t>(found - header.begin());
-  std::string list;
-  for (const std::string& column : header) list += (list.empty() ? "" : " ") + column;
-  csv.fail("header names no column '" + name + "' (found: " + list + ")");
+  csv.fail("header names no column '" + name + "' (found: " + firstTenOf(header, " ") + ")");
 }
 
 int64_t timeOf(const CsvReader& csv, size_t column) {
@@ -25,8 +25,8 @@ int64_t timeOf(const CsvReader& csv, size_t column) {
 
 std::vector<AxisSample> readVectors(CsvReader& csv, const VectorColumns& columns,
                                     std::vector<std::string>& warnings) {
-  std::vector<AxisSample> samples;
-  int64_t repeated = 0;
+  std::vector<AxisSample> rows;
+  std::vector<int64_t> utimes;
   // A table without a header has these columns alone.
   const size_t width = csv.header().empty() ? 1 + std::max({columns.time, columns.x, columns.y, columns.z})
                                             : csv.header().size();
@@ -34,17 +34,15 @@ std::vector<AxisSample> readVectors(CsvReader& csv, const VectorColumns& columns
     AxisSample sample;
     sample.time_ns = timeOf(csv, columns.time);
     sample.value = {csv.number(columns.x), csv.number(columns.y), csv.number(columns.z)};
-    if (!samples.empty() && sample.time_ns <= samples.back().time_ns) {
-      ++repeated;
-    } else {
-      samples.push_back(sample);
-    }
+    rows.push_back(sample);
+    utimes.push_back(fromNanoseconds(sample.time_ns).count());
   }
-  if (samples.empty()) throw InputError(csv.path(), "holds no samples");
-  if (repeated > 0) {
-    warnings.push_back(csv.path().string() + ": " + std::to_string(repeated) + " of " +
-                       std::to_string(repeated + static_cast<int64_t>(samples.size())) +
-                       " rows do not come after the row before and are left out");
+  if (rows.empty()) throw InputError(csv.path(), "holds no samples");
+  const TimeFindings times = checkTimes(utimes, TimeOrder::kAsTheyCome, csv.path().string());
+  for (const std::string& line : times.lines) warnings.push_back(csv.path().string() + ": " + line);
+  std::vector<AxisSample> samples;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (times.keep[i]) samples.push_back(rows[i]);
   }
   return samples;
 }

@@ -29,8 +29,9 @@ size_t columnOf(const CsvReader& csv, const std::string& name);
 /// A whole number that can be a time; fails otherwise.
 int64_t timeOf(const CsvReader& csv, size_t column);
 
-/// The rest of the table. Rows whose time is not after the one before (apps repeat some) are left out, and
-/// counted in `warnings`. Throws InputError with file and line, also for an empty table.
+/// The rest of the table. Rows whose time leaps, or is not after the one before (apps repeat some), are left
+/// out, and counted in `warnings`. Throws InputError with file and line, also for an empty table, and where
+/// checkTimes() does.
 std::vector<AxisSample> readVectors(CsvReader& csv, const VectorColumns& columns,
                                     std::vector<std::string>& warnings);
 

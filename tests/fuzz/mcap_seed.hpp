@@ -10,6 +10,7 @@
 #include "redbee/bus/image.hpp"
 #include "redbee/files/mcap_writer.hpp"
 #include "tests/bus/sample_messages.hpp"
+#include "tests/support/mcap_bytes.hpp"
 
 namespace redbee::fuzz {
 
@@ -50,32 +51,17 @@ inline void writeMcapFile(const std::filesystem::path& file, const std::vector<E
   writer.close();
 }
 
-inline std::string little(uint64_t value, int bytes) {
-  std::string out;
-  for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i));
-  return out;
-}
-inline std::string mcapString(const std::string& text) { return little(text.size(), 4) + text; }
-inline std::string mcapRecord(McapRecord kind, const std::string& content) {
-  return little(static_cast<uint64_t>(kind), 1) + little(content.size(), 8) + content;
-}
-
 /// Neither compressed nor protected by a CRC, so that a search gets through to the messages.
 inline std::string mcapWithoutChunks(const std::vector<ExportedMessage>& messages, size_t left_out) {
-  std::string file(kMcapMagic.begin(), kMcapMagic.end());
-  file += mcapRecord(McapRecord::kHeader, mcapString("ros2") + mcapString(""));
+  std::string file = test::mcapHeader();
   for (size_t i = 0; i < messages.size(); ++i) {
     if (i == left_out) continue;
-    const std::string id = little(i + 1, 2);
-    file += mcapRecord(McapRecord::kSchema,
-                       id + mcapString(messages[i].schema.name) + mcapString("ros2msg") + mcapString(""));
-    file += mcapRecord(McapRecord::kChannel,
-                       id + id + mcapString("/" + messages[i].name) + mcapString("cdr") + mcapString(""));
-    file +=
-        mcapRecord(McapRecord::kMessage, id + std::string(4 + 8 + 8, '\0') +
-                                             std::string(messages[i].bytes.begin(), messages[i].bytes.end()));
+    const auto id = static_cast<uint16_t>(i + 1);
+    file += test::mcapSchema(id, messages[i].schema.name) +
+            test::mcapChannel(id, id, "/" + messages[i].name) +
+            test::mcapMessage(id, 0, {messages[i].bytes.begin(), messages[i].bytes.end()});
   }
-  return file + mcapRecord(McapRecord::kDataEnd, std::string(4, '\0'));
+  return file + test::mcapRecord(McapRecord::kDataEnd, std::string(4, '\0'));
 }
 
 }  // namespace redbee::fuzz

@@ -124,11 +124,9 @@ TEST_F(ImportAslTest, HeadersNeedNoHash) {
   EXPECT_EQ(summary.altitudes, 3);
 }
 
-TEST_F(ImportAslTest, AnImuThatMissesTheFramesIsAWarning) {
+TEST_F(ImportAslTest, AHandfulOfImuSamplesIsRefused) {
   writeText(mav() / "imu0" / "data.csv", "1000,0,0,0,0,0,9.8\n5001000,0,0,0,0,0,9.8\n");
-  const ImportSummary summary = import();
-  ASSERT_EQ(summary.warnings.size(), 1u);
-  EXPECT_NE(summary.warnings[0].find("covers none of the frames"), std::string::npos) << summary.warnings[0];
+  EXPECT_NE(errorMessage().find("imu0/data.csv: the IMU has 2 samples"), std::string::npos);
 }
 
 struct Recorded {

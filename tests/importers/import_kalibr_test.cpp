@@ -74,6 +74,36 @@ class ImportKalibrTest : public testing::Test {
   KalibrImport options_;
 };
 
+TEST_F(ImportKalibrTest, AMatrixThatIsNoPoseIsRefused) {
+  for (const char* row : {"[0.0, 0.0, 0.0, 2.0]", "[0.0, 0.1, 0.0, 1.0]", "[0.1, 0.2, 0.3, 1.0]"}) {
+    writeText(options_.camchain, replaced(kCamchain, "[0.0, 0.0, 0.0, 1.0]", row));
+    expectError("camchain-imucam.yaml:3: T_cam_imu: its last row is not 0 0 0 1");
+  }
+}
+
+TEST_F(ImportKalibrTest, ACamchainMayStateTheInverse) {
+  importKalibr(options_);
+  const InertialExtrinsics expected = loadConfiguration(options_.out).inertial.extrinsics;
+  fs::remove(options_.out);
+  // As OpenVINS writes it: the inverse of kCamchain's, by hand (R', and -R' t).
+  writeText(options_.camchain, replaced(kCamchain,
+                                        "  T_cam_imu:\n  - [0.0, -1.0, 0.0, 0.1]\n  - [1.0, 0.0, 0.0, 0.2]\n"
+                                        "  - [0.0, 0.0, 1.0, 0.3]\n",
+                                        "  T_imu_cam:\n  - [0.0, 1.0, 0.0, -0.2]\n  - [-1.0, 0.0, 0.0, 0.1]\n"
+                                        "  - [0.0, 0.0, 1.0, -0.3]\n"));
+  EXPECT_TRUE(importKalibr(options_).empty());
+  const InertialExtrinsics extrinsics = loadConfiguration(options_.out).inertial.extrinsics;
+  EXPECT_LT((extrinsics.R_CI - expected.R_CI).norm(), 1e-12);
+  EXPECT_LT((extrinsics.p_IC - expected.p_IC).norm(), 1e-12);
+}
+
+TEST_F(ImportKalibrTest, WhatTheConfigurationRefusesIsTheCamchains) {
+  writeText(options_.camchain, replaced(kCamchain, "[512, 512]", "[512, 2000000]"));
+  expectError(options_.camchain.string() + " and " + options_.imu->string() + ": gives no vehicle: camera.");
+  const std::string line = errorMessageOf([&] { importKalibr(options_); });
+  EXPECT_EQ(line.find("drone.yaml"), std::string::npos) << line;
+}
+
 TEST_F(ImportKalibrTest, CameraAndImuAreTheVehicles) {
   for (const char* imu : {kImu, kImuResult}) {
     writeText(*options_.imu, imu);

@@ -88,17 +88,22 @@ TEST_F(ImportVideoTest, AChosenWidthKeepsTheAspect) {
 
 TEST_F(ImportVideoTest, ImuColumnsComeInAnyOrder) {
   options_.imu = folder_ / "imu.csv";
-  writeText(*options_.imu,
-            "az,t_s,gx,gy,gz,ax,ay,temperature\n9.8,0.001,1,2,3,4,5,20\n9.7,1.1995,1,2,3,4,5,20\n");
+  std::string rows = "az,t_s,gx,gy,gz,ax,ay,temperature\n";
+  for (int k = 0; k < 120; ++k) {
+    const std::string digit = std::to_string(k % 2);  // a sensor that is alive changes
+    rows += "9." + digit + "," + std::to_string(0.01 * k + 0.001) + ",0.1" + digit + ",0.2" + digit + ",0.3" +
+            digit + ",1." + digit + ",2." + digit + ",20\n";
+  }
+  writeText(*options_.imu, rows);
   const ImportSummary summary = import();
-  EXPECT_EQ(summary.imu_samples, 2);
+  EXPECT_EQ(summary.imu_samples, 120);
   ASSERT_EQ(summary.warnings.size(), 1u);
   EXPECT_NE(summary.warnings[0].find("focal length"), std::string::npos);
   const auto imu = messagesOn<ins_t>(readEvents(options_.log), "IMU");
-  ASSERT_EQ(imu.size(), 2u);
-  EXPECT_EQ(imu[1].utime, 1'199'500);
-  EXPECT_EQ(imu[1].gyro[2], 3);
-  EXPECT_EQ(imu[1].accel[2], 9.7);
+  ASSERT_EQ(imu.size(), 120u);
+  EXPECT_EQ(imu[119].utime, 1'191'000);
+  EXPECT_EQ(imu[119].gyro[2], 0.31);
+  EXPECT_EQ(imu[119].accel[2], 9.1);
 }
 
 TEST_F(ImportVideoTest, BadImuFilesAreReportedWithTheirLine) {

@@ -55,6 +55,23 @@ TEST(ImuCheckTest, AnAccelerometerWithoutGravityIsAFault) {
   EXPECT_TRUE(says(findingsOf([](ImuSample& s) { s.accel.setZero(); }).faults, "median length is 0"));
 }
 
+TEST(ImuCheckTest, AHandfulOfSamplesIsAFault) {
+  std::vector<ImuSample> imu = swingingImu(200, 4);
+  imu.resize(9);
+  const CameraTime first(Duration(0)), last(fromSeconds(3.95));
+  EXPECT_TRUE(says(checkImu(imu, first, last).faults, "the IMU has 9 samples"));
+  imu.resize(1);
+  EXPECT_TRUE(says(checkImu(imu, first, last).faults, "the IMU has 1 sample:"));
+}
+
+TEST(ImuCheckTest, ATimeThatLeapsIsAFault) {
+  int number = 0;
+  const auto findings = findingsOf([&](ImuSample& s) {
+    if (++number > 790) s.time += std::chrono::hours(24 * 365);
+  });
+  EXPECT_TRUE(says(findings.faults, "the IMU's times leap by 31536000"));
+}
+
 TEST(ImuCheckTest, AnotherClockIsAFault) {
   const auto findings = findingsOf([](ImuSample& s) { s.time += std::chrono::seconds(1'600'000'000); });
   EXPECT_TRUE(says(findings.faults, "covers none of the frames"));

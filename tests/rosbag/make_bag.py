@@ -102,8 +102,27 @@ if kind == 'imu_out_of_order':
 if kind == 'repeated_image':
     places = [i for i, event in enumerate(events) if event[0] == '/cam0/image_raw']
     events[places[5]] = (events[places[5]][0], events[places[4]][1], events[places[5]][2])
+pictures = [event[1] for event in events if event[0] == '/cam0/image_raw']
+samples = [event[1] for event in events if event[0] == '/imu0']
 if kind == 'short_image':
-    [event for event in events if event[0] == '/cam0/image_raw'][6][1].data = b'abc'
+    pictures[6].data = b'abc'
+if kind == 'mono16_short_first':
+    pictures[0].data = b'abc'
+YEARS = rospy.Duration(10 * 365 * 24 * 3600)
+leaps = {'leaping_images': (pictures, slice(5, 7)), 'leaping_first': (pictures, slice(0, 1)), 'leaping_last': (pictures, slice(-1, None)),
+         'clock_set': (pictures, slice(10, None)), 'leaping_imu': (samples, slice(30, 31))}
+if kind in leaps:
+    messages, where = leaps[kind]
+    for message in messages[where]:
+        message.header.stamp += YEARS
+if kind == 'stamps_back':
+    for message in pictures[10:]:
+        message.header.stamp -= rospy.Duration(5)
+if kind == 'images_unstamped':
+    for message in pictures:
+        message.header.stamp = rospy.Time()
+if kind == 'few_imu':
+    events = [event for event in events if event[0] != '/imu0' or event[1] in samples[::26]]
 with rosbag.Bag(out, 'w', compression=compression, chunk_threshold=20000) as bag:
     for topic, message, time in events:
         bag.write(topic, message, time)

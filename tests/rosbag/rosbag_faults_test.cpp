@@ -35,7 +35,7 @@ TEST_F(RosbagTest, OrderAndTimesThatAreMissingAreSaid) {
   make("repeated_image");
   const ImportSummary repeated = import();
   EXPECT_EQ(repeated.frames, kFrames - 1);
-  expectWarning(repeated, "1 of 20 images do not come after the one before");
+  expectWarning(repeated, "/cam0/image_raw: 1 of 20 do not come after the one before");
 }
 
 TEST_F(RosbagTest, ADamagedImageIsPassedOverWhereThatIsWanted) {
@@ -45,6 +45,57 @@ TEST_F(RosbagTest, ADamagedImageIsPassedOverWhereThatIsWanted) {
   const ImportSummary summary = import();
   EXPECT_EQ(summary.frames, kFrames - 1);
   expectWarning(summary, "1 of 20 images are damaged and left out");
+}
+
+TEST_F(RosbagTest, StampsThatLeapAreLeftOutAndSaid) {
+  make("leaping_images");
+  const ImportSummary two = import();
+  EXPECT_EQ(two.frames, kFrames - 2);
+  EXPECT_EQ(two.last_utime, kStart_us + 50'000 * (kFrames - 1));
+  expectWarning(two, "/cam0/image_raw: 2 of 20 times leap, the first (number 6) by 315360000.05");
+  for (const char* kind : {"leaping_first", "leaping_last"}) {
+    make(kind);
+    const ImportSummary one = import();
+    EXPECT_EQ(one.frames, kFrames - 1) << kind;
+    EXPECT_LT(one.last_utime - one.first_utime, 1'000'000) << kind;
+    expectWarning(one, "1 of 20 times leap");
+  }
+  make("leaping_imu");
+  const ImportSummary imu = import();
+  EXPECT_EQ(imu.imu_samples, kImuSamples - 1);
+  EXPECT_EQ(imu.frames, kFrames);
+  expectWarning(imu, "/imu0: 1 of 208 times leap");
+}
+
+TEST_F(RosbagTest, AClockThatIsSetDuringTheRecordingIsRefused) {
+  make("clock_set");
+  expectError("/cam0/image_raw: times leap by 315360000 s");
+  make("stamps_back");
+  expectError("/cam0/image_raw: 10 of 20 times run backwards");
+}
+
+TEST_F(RosbagTest, AHandfulOfImuSamplesIsRefused) {
+  make("few_imu");
+  expectError("the IMU has 8 samples");
+}
+
+TEST_F(RosbagTest, ImagesWithoutStampsAreSaid) {
+  make("images_unstamped");
+  expectWarning(import(), "/cam0/image_raw: 20 of 20 messages have no stamp");
+}
+
+TEST_F(RosbagTest, TheRangeOf16BitsIsThatOfTheImagesThatAreWhole) {
+  options_.keep_going = true;
+  make("mono16_short_first");
+  EXPECT_EQ(import().frames, kFrames - 1);
+  const auto images = frames();
+  // Values from 1100 to 3210 fill the range: the ramp of an image is more than a few steps of grey.
+  const auto grey = decodeGrey(images.back());
+  ASSERT_TRUE(grey);
+  EXPECT_GT((*grey)(0, kWidth - 1), 250);
+  const auto first = decodeGrey(images.front());
+  ASSERT_TRUE(first);
+  EXPECT_LT((*first)(0, 0), 5);
 }
 
 TEST_F(RosbagTest, DamagedBagsGiveOneLine) {

@@ -1,12 +1,11 @@
 #include "redbee/importers/mcap/import_mcap.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <map>
 #include <utility>
 
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/mcap_reader.hpp"
+#include "redbee/files/printable.hpp"
 #include "redbee/importers/ros/import_ros.hpp"
 #include "redbee/importers/ros/ros_messages.hpp"
 
@@ -39,33 +38,45 @@ class McapRecording : public RosRecording {
                              message.channel->schema.name == topic->second->type;
       return !is_wanted || on_message({topic->second, message.log_ns, message.data});
     });
+    takeDamage();
   }
 
  private:
   void listTopics() {
     std::map<std::string, RosTopic> by_name;
     std::map<std::string, std::string> others;  // encoding by topic
-    reader_.read([&](const McapMessage& message) {
-      const McapChannel& channel = *message.channel;
+    const auto add = [&](const McapChannel& channel, int64_t messages) {
       if (!isReadable(channel)) {
         others[channel.topic] = channel.message_encoding + " " + channel.schema.name;
-        return true;
+        return;
       }
       RosTopic& topic = by_name[channel.topic];
-      if (topic.messages++ == 0) {
+      if (topic.messages == 0) {
         topic.name = channel.topic;
         topic.type = channel.schema.name;
         topic.encoding = channel.message_encoding == "cdr" ? RosEncoding::kCdr : RosEncoding::kRos1;
       }
-      return true;
-    });
-    for (const auto& [name, topic] : by_name) topics_.push_back(topic);
-    if (!reader_.damage().empty()) {
-      if (!keep_going_)
-        throw InputError(reader_.damage() + "; --keep-going imports what is before (mcap recover writes it)");
-      warnings_.push_back(reader_.damage() + ": what is before is imported");
+      topic.messages += messages;
+    };
+    if (const auto summary = reader_.summary()) {
+      for (const auto& [channel, messages] : *summary) add(channel, messages);
+    } else {
+      reader_.read([&](const McapMessage& message) {
+        add(*message.channel, 1);
+        return true;
+      });
+      takeDamage();
     }
+    for (const auto& [name, topic] : by_name) topics_.push_back(topic);
     refuseOtherEncodings(others);
+  }
+
+  /// Of what has been read.
+  void takeDamage() {
+    const std::string& damage = reader_.damage();
+    if (damage.empty() || !warnings_.empty()) return;
+    if (!keep_going_) throw InputError(damage + "; --keep-going imports what is whole");
+    warnings_.push_back(damage + ": what is whole is imported");
   }
 
   /// Where no image can be read but something else is there, say what.
@@ -75,10 +86,10 @@ class McapRecording : public RosRecording {
       if (kind == RosKind::kImage || kind == RosKind::kCompressedImage) return;
     }
     if (others.empty()) return;
-    std::string list;
-    for (const auto& [topic, encoding] : others)
-      list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", topic, encoding);
-    throw InputError(file_, "holds no images of ROS messages (cdr, ros1); what it has is not read: " + list);
+    std::vector<std::string> list;
+    for (const auto& [topic, encoding] : others) list.push_back(topic + " (" + encoding + ")");
+    throw InputError(
+        file_, "holds no images of ROS messages (cdr, ros1); what it has is not read: " + firstTenOf(list));
   }
 
   std::filesystem::path file_;

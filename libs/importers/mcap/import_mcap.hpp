@@ -11,7 +11,7 @@ namespace redbee {
 /// Source: an MCAP file. Messages of ROS 2 (CDR) and ROS 1 are read, see rosKindOf().
 Importer mcapImporter();
 
-/// Its topics and messages. `keep_going`: a file that is damaged, or cut short, is read up to the damage,
+/// Its topics and messages. `keep_going`: of a file that is damaged, or cut short, what is whole is read,
 /// with a warning. Throws InputError with the fix.
 std::unique_ptr<RosRecording> openMcap(const std::filesystem::path& file, bool keep_going);
 

@@ -11,33 +11,35 @@
 namespace redbee {
 namespace {
 
-/// Of a sequence whose first image has 16 bits.
+/// Of a sequence whose first whole image has 16 bits.
 std::optional<GreyRange> rangeOfImages(RosRecording& recording, const RosTopic& topic,
                                        const ImportOptions& options) {
   ValueHistogram histogram;
-  bool is_16_bits = false;
+  std::optional<bool> is_16_bits;
   recording.read({topic.name}, [&](const RosMessage& message) {
     try {
       const auto values = valuesOf16BitRosImage(message, options.source);
-      is_16_bits = values.has_value();
+      if (!is_16_bits) is_16_bits = values.has_value();
       if (values) histogram.add(*values);
-      return is_16_bits;
-    } catch (const RosMessageError&) {
+    } catch (const RosMessageError&) {  // what is damaged is reported when the images are converted
     } catch (const InputError&) {
     }
-    return is_16_bits;  // what is damaged is reported when the images are converted
+    return is_16_bits.value_or(true);
   });
-  if (!is_16_bits) return std::nullopt;
+  if (!is_16_bits.value_or(false)) return std::nullopt;
   return histogram.range();
 }
 
 class ImageTrack {
  public:
-  ImageTrack(const RosTopic& topic, const ImportOptions& options, std::optional<GreyRange> range)
-      : topic_(topic), options_(options), images_{true, options.jpeg_quality, range} {}
+  /// `keep`: one for each message.
+  ImageTrack(const RosTopic& topic, const ImportOptions& options, std::optional<GreyRange> range,
+             const std::vector<bool>& keep)
+      : topic_(topic), options_(options), images_{true, options.jpeg_quality, range}, keep_(keep) {}
 
   void add(const RosMessage& message, FlightMerger& merger, ImportSummary& summary) {
-    ++number_;
+    const auto place = static_cast<size_t>(number_++);
+    if (place >= keep_.size() || !keep_[place]) return;  // grown since, or its time cannot be true
     std::optional<LoadedImage> image;
     try {
       image = convertRosImage(message, topic_.name + ", message " + std::to_string(number_), images_);
@@ -48,14 +50,9 @@ class ImageTrack {
     }
     if (!image) return;
     const image_t& frame = image->message;
-    if (frames_ > 0 && frame.utime <= last_utime_) {
-      ++repeated_;
-      return;
-    }
     resolution_.check(options_.source.string() + ": " + topic_.name, frame);
     summary.vehicle.width = frame.width;
     summary.vehicle.height = frame.height;
-    last_utime_ = frame.utime;
     ++frames_;
     merger.addFrame(frame);
   }
@@ -68,10 +65,6 @@ class ImageTrack {
     if (damaged_ > 0)
       summary.warnings.push_back(fmt::format("{} of {} images are damaged and left out; the first: {}",
                                              damaged_, number_, first_fault_));
-    if (repeated_ > 0)
-      summary.warnings.push_back(
-          fmt::format("{}: {} of {} images do not come after the one before by their stamps and are left out",
-                      topic_.name, repeated_, number_));
   }
 
   int64_t number() const { return number_; }
@@ -85,12 +78,11 @@ class ImageTrack {
   const RosTopic& topic_;
   const ImportOptions& options_;
   ImageOptions images_;
+  const std::vector<bool>& keep_;
   ResolutionCheck resolution_;
   int64_t number_ = 0;
   int64_t frames_ = 0;
   int64_t damaged_ = 0;
-  int64_t repeated_ = 0;
-  int64_t last_utime_ = 0;
   std::string first_fault_;
 };
 
@@ -119,16 +111,18 @@ ImportSummary importRosRecording(RosRecording& recording, const ImportOptions& o
   const RosSensors sensors = readRosSensors(recording, topics, options);
   ImportSummary summary;
   summary.vehicle.name = options.source.stem().string();
-  summary.warnings = recording.warnings();
-  summary.warnings.insert(summary.warnings.end(), sensors.warnings.begin(), sensors.warnings.end());
+  summary.warnings = sensors.warnings;
   FlightMerger merger(options.log, options.channels, sensors.imu, sensors.altitudes);
   if (topics.imu) merger.requirePlausibleImu(options.source, options.units);
-  ImageTrack track(topics.image, options, rangeOfImages(recording, topics.image, options));
+  ImageTrack track(topics.image, options, rangeOfImages(recording, topics.image, options),
+                   sensors.keep_image);
   recording.read({topics.image.name}, [&](const RosMessage& message) {
     track.add(message, merger, summary);
     progress.update(track.number(), topics.image.messages);
     return true;
   });
+  const std::vector<std::string> warnings = recording.warnings();
+  summary.warnings.insert(summary.warnings.begin(), warnings.begin(), warnings.end());
   track.finish(summary);
   if (sensors.camera_info) setIntrinsics(*sensors.camera_info, topics, options, summary);
   merger.close(summary);

@@ -49,6 +49,11 @@ RosKind rosKindOf(const std::string& type) {
   return found == kinds.end() ? RosKind::kOther : found->second;
 }
 
+int64_t readRosImageStamp(const std::string& type, ByteView bytes, RosEncoding encoding) {
+  RosReader reader(bytes, encoding);
+  return isFoxglove(type) ? readStamp(reader) : readHeader(reader);
+}
+
 RosImage readRosImage(const std::string& type, ByteView bytes, RosEncoding encoding) {
   RosReader reader(bytes, encoding);
   RosImage image;

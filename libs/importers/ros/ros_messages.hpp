@@ -54,6 +54,8 @@ struct RosCameraInfo {
   std::array<double, 12> P{};  ///< row by row, of the rectified image
 };
 
+/// Of an image, compressed or not.
+int64_t readRosImageStamp(const std::string& type, ByteView bytes, RosEncoding encoding);
 /// `type` decides between sensor_msgs and foxglove_msgs. Throw RosMessageError; views point into `bytes`.
 RosImage readRosImage(const std::string& type, ByteView bytes, RosEncoding encoding);
 RosCompressedImage readRosCompressedImage(const std::string& type, ByteView bytes, RosEncoding encoding);

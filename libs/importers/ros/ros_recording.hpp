@@ -34,7 +34,7 @@ class RosRecording {
   /// returns false. Can be called again. Throws InputError.
   virtual void read(const std::set<std::string>& topics,
                     const std::function<bool(const RosMessage&)>& on_message) = 0;
-  /// One line each.
+  /// One line each, of what has been read so far.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 

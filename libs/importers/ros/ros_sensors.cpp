@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "redbee/files/input_error.hpp"
 #include "redbee/geometry/camera_model.hpp"
+#include "redbee/importers/time_check.hpp"
 
 namespace redbee {
 namespace {
@@ -45,9 +47,19 @@ ImuSample imuSample(const RosMessage& message, const ImuUnits& units, Counts& co
   return sample;
 }
 
-/// By time; those that repeat one are left out.
+/// By time; those that leap or repeat one are left out. `source`: file and topic.
 template <typename Sample>
-void sortByTime(std::vector<Sample>& samples, const std::string& topic, std::vector<std::string>& warnings) {
+void sortByTime(std::vector<Sample>& samples, const std::string& source, const std::string& topic,
+                std::vector<std::string>& warnings) {
+  std::vector<int64_t> utimes;
+  for (const Sample& sample : samples) utimes.push_back(toUtime(sample.time));
+  const TimeFindings times = checkTimes(utimes, TimeOrder::kSorted, source);
+  for (const std::string& line : times.lines) warnings.push_back(topic + ": " + line);
+  std::vector<Sample> kept;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (times.keep[i]) kept.push_back(samples[i]);
+  }
+  samples = std::move(kept);
   const auto isBefore = [](const Sample& a, const Sample& b) { return a.time < b.time; };
   if (!std::is_sorted(samples.begin(), samples.end(), isBefore)) {
     warnings.push_back(topic + ": messages are not in the order of their stamps; they are sorted");
@@ -60,6 +72,33 @@ void sortByTime(std::vector<Sample>& samples, const std::string& topic, std::vec
                                  samples.end() - end));
   samples.erase(end, samples.end());
 }
+
+/// The stamps of the images; one that cannot be read has none.
+class ImageTimes {
+ public:
+  void add(const RosMessage& message, Counts& counts) {
+    try {
+      const int64_t stamp = readRosImageStamp(message.topic->type, message.bytes, message.topic->encoding);
+      utimes_.push_back(toUtime(timeOf(stamp, message, counts)));
+      places_.push_back(messages_);
+    } catch (const RosMessageError&) {  // reported when the images are converted
+    }
+    ++messages_;
+  }
+  std::vector<bool> check(const std::string& source, const std::string& topic,
+                          std::vector<std::string>& warnings) const {
+    const TimeFindings times = checkTimes(utimes_, TimeOrder::kAsTheyCome, source);
+    for (const std::string& line : times.lines) warnings.push_back(topic + ": " + line);
+    std::vector<bool> keep(messages_, true);
+    for (size_t i = 0; i < places_.size(); ++i) keep[places_[i]] = times.keep[i];
+    return keep;
+  }
+
+ private:
+  std::vector<int64_t> utimes_;
+  std::vector<size_t> places_;
+  size_t messages_ = 0;
+};
 
 void warnOf(const std::string& topic, const Counts& counts, std::vector<std::string>& warnings) {
   if (counts.damaged > 0) {
@@ -125,18 +164,23 @@ std::string faultOfMessage(const std::filesystem::path& file, const std::string&
 
 RosSensors readRosSensors(RosRecording& recording, const RosTopics& topics, const ImportOptions& options) {
   std::map<std::string, Counts> counts;
+  counts[topics.image.name];
   for (const auto* topic : {&topics.imu, &topics.range, &topics.camera_info}) {
     if (*topic) counts[(*topic)->name];
   }
   std::set<std::string> names;
   for (const auto& [name, count] : counts) names.insert(name);
   RosSensors sensors;
-  if (names.empty()) return sensors;
+  ImageTimes images;
   recording.read(names, [&](const RosMessage& message) {
     Counts& count = counts[message.topic->name];
     ++count.messages;
     try {
-      addMessage(message, options, sensors, count);
+      if (message.topic->name == topics.image.name) {
+        images.add(message, count);
+      } else {
+        addMessage(message, options, sensors, count);
+      }
     } catch (const RosMessageError& error) {
       if (!options.keep_going)
         throw InputError(faultOfMessage(options.source, message.topic->name, count.messages, error.what()));
@@ -145,8 +189,11 @@ RosSensors readRosSensors(RosRecording& recording, const RosTopics& topics, cons
     return true;
   });
   for (const auto& [name, count] : counts) warnOf(name, count, sensors.warnings);
-  if (topics.imu) sortByTime(sensors.imu, topics.imu->name, sensors.warnings);
-  if (topics.range) sortByTime(sensors.altitudes, topics.range->name, sensors.warnings);
+  const auto source = [&](const RosTopic& topic) { return options.source.string() + ": " + topic.name; };
+  sensors.keep_image = images.check(source(topics.image), topics.image.name, sensors.warnings);
+  if (topics.imu) sortByTime(sensors.imu, source(*topics.imu), topics.imu->name, sensors.warnings);
+  if (topics.range)
+    sortByTime(sensors.altitudes, source(*topics.range), topics.range->name, sensors.warnings);
   return sensors;
 }
 

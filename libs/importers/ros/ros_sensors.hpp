@@ -14,6 +14,7 @@ struct RosSensors {
   std::vector<ImuSample> imu;             ///< in the order of their times
   std::vector<AltitudeSample> altitudes;  ///< the same
   std::optional<RosCameraInfo> camera_info;
+  std::vector<bool> keep_image;  ///< one for each message of the images: those whose times can be true
   std::vector<std::string> warnings;
 };
 

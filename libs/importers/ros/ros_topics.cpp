@@ -4,6 +4,7 @@
 #include <set>
 
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/printable.hpp"
 #include "redbee/importers/ros/ros_messages.hpp"
 
 namespace redbee {
@@ -17,13 +18,11 @@ struct TopicRole {
   const char* option;
 };
 
-std::string listOf(const Topics& topics) {
-  std::string text;
-  for (const RosTopic& topic : topics) {
-    text += (text.empty() ? "" : ", ") + topic.name + " (" + std::to_string(topic.messages) + " " +
-            topic.type + ")";
-  }
-  return text.empty() ? "none" : text;
+std::string listed(const Topics& topics) {
+  std::vector<std::string> names;
+  for (const RosTopic& topic : topics)
+    names.push_back(topic.name + " (" + std::to_string(topic.messages) + " " + topic.type + ")");
+  return names.empty() ? "none" : firstTenOf(names);
 }
 
 std::optional<RosTopic> choose(const Topics& topics, const std::string& chosen, const TopicRole& role,
@@ -38,12 +37,12 @@ std::optional<RosTopic> choose(const Topics& topics, const std::string& chosen, 
                                     [&](const RosTopic& topic) { return topic.name == chosen; });
     if (found != candidates.end()) return *found;
     throw InputError(file, "holds no " + std::string(role.what) + " on " + chosen + " (" + role.option +
-                               "); it has " + listOf(candidates));
+                               "); it has " + listed(candidates));
   }
   if (candidates.empty()) return std::nullopt;
   if (candidates.size() == 1) return candidates.front();
   throw InputError(file, "has several topics with " + std::string(role.what) + ": choose one with " +
-                             role.option + ": " + listOf(candidates));
+                             role.option + ": " + listed(candidates));
 }
 
 /// camera_info beside the image, or beside the image that this one was compressed from.
@@ -66,7 +65,7 @@ RosTopics chooseRosTopics(const Topics& topics, const RosTopicChoice& choice,
                             {{RosKind::kImage, RosKind::kCompressedImage}, "images", "--image-topic"}, file);
   if (!image)
     throw InputError(file,
-                     "holds no images (sensor_msgs Image or CompressedImage); it has " + listOf(topics));
+                     "holds no images (sensor_msgs Image or CompressedImage); it has " + listed(topics));
   RosTopics chosen{*image, {}, {}, {}};
   chosen.imu = choose(topics, choice.imu, {{RosKind::kImu}, "an IMU", "--imu-topic"}, file);
   chosen.range = choose(topics, choice.range, {{RosKind::kRange}, "a range", "--range-topic"}, file);

@@ -8,6 +8,7 @@
 #include "processes/redbee/commands/export_targets.hpp"
 #include "processes/redbee/export/export_mcap.hpp"
 #include "processes/warnings.hpp"
+#include "redbee/files/printable.hpp"
 
 namespace redbee {
 namespace {
@@ -16,12 +17,12 @@ void runExportMcap(const McapExport& options) {
   const McapExported exported = exportMcap(options);
   printWarnings(exported.warnings);
   printDamaged(exported.damaged);
-  std::string left_out;
+  std::vector<std::string> left_out;
   for (const auto& [channel, count] : exported.left_out)
-    left_out += (left_out.empty() ? "" : ", ") + channel + " (" + std::to_string(count) + ")";
-  if (!left_out.empty()) printWarning("not exported: " + left_out);
+    left_out.push_back(channel + " (" + std::to_string(count) + ")");
+  if (!left_out.empty()) printWarning("not exported: " + firstTenOf(left_out));
   for (const auto& [topic, count] : exported.messages)
-    std::printf("%s: %lld messages\n", topic.c_str(), static_cast<long long>(count));
+    std::printf("%s: %lld messages\n", printable(topic).c_str(), static_cast<long long>(count));
 }
 
 void addMcap(CLI::App& command) {

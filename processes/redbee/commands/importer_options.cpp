@@ -19,8 +19,6 @@ void addUnitOption(CLI::App& command, const std::string& name, std::string& unit
       ->capture_default_str();
 }
 
-}  // namespace
-
 void addTopicOptions(CLI::App& command, RosTopicChoice& topics) {
   command.add_option("--image-topic", topics.image, "topic of the images, where there are several");
   command.add_option("--imu-topic", topics.imu, "topic of the IMU; none: without");
@@ -28,39 +26,45 @@ void addTopicOptions(CLI::App& command, RosTopicChoice& topics) {
   command.add_option("--camera-info-topic", topics.camera_info, "topic of the calibration; none: without");
 }
 
+}  // namespace
+
+void addImporterOptions(CLI::App& command, ImportOptions& options, const ImporterTakes& takes) {
+  if (takes.imu) {
+    command.add_option(
+        "--imu", options.imu,
+        "IMU samples: what Sensor Logger, MARS Logger, OpenCamera Sensors or a logger of Gyroflow's "
+        "(.gcsv) left, file or folder; or CSV with the columns t_s,gx,gy,gz,ax,ay,az in its first "
+        "line (s since the start of the video, rad/s, m/s^2)");
+    addUnitOption(command, "--time-unit", options.units.time, timeUnits());
+  }
+  if (takes.units) {
+    addUnitOption(command, "--gyro-unit", options.units.gyro, gyroUnits());
+    addUnitOption(command, "--accel-unit", options.units.accel, accelUnits());
+  }
+  if (takes.width) {
+    command.add_option("--width", options.width, "width of the images at most, px; 0: as in the video")
+        ->check(CLI::Range(0, kMostPixels))
+        ->capture_default_str();
+  }
+  if (takes.fps)
+    command.add_option("--fps", options.fps, "frames per second of a folder of images, or of a raw stream")
+        ->check(CLI::Range(kLeastFps, kMostFps));
+  if (takes.keep_going)
+    command.add_flag("--keep-going", options.keep_going, "pass over damage, up to the next key frame");
+  if (takes.topics) addTopicOptions(command, options.topics);
+  command.add_option("--camchain", options.camchain,
+                     "the camera's calibration: Kalibr's camchain.yaml or camchain-imucam.yaml");
+  command.add_option("--camera", options.camchain_camera, "the camera's section of the camchain")
+      ->capture_default_str();
+}
+
 void setUpImporter(CLI::App& command, const Importer& importer) {
   auto options = std::make_shared<ImportOptions>(importer.defaults);
   command.add_option("source", options->source, importer.source)->required();
   if (importer.takes.chapters)
     command.add_option("further", options->further_sources, "the chapters that follow");
-  if (importer.takes.imu) {
-    command.add_option(
-        "--imu", options->imu,
-        "IMU samples: what Sensor Logger, MARS Logger, OpenCamera Sensors or a logger of Gyroflow's "
-        "(.gcsv) left, file or folder; or CSV with the columns t_s,gx,gy,gz,ax,ay,az in its first "
-        "line (s since the start of the video, rad/s, m/s^2)");
-    addUnitOption(command, "--time-unit", options->units.time, timeUnits());
-  }
-  if (importer.takes.units) {
-    addUnitOption(command, "--gyro-unit", options->units.gyro, gyroUnits());
-    addUnitOption(command, "--accel-unit", options->units.accel, accelUnits());
-  }
-  if (importer.takes.width) {
-    command.add_option("--width", options->width, "width of the images at most, px; 0: as in the video")
-        ->check(CLI::Range(0, kMostPixels))
-        ->capture_default_str();
-  }
-  if (importer.takes.fps)
-    command.add_option("--fps", options->fps, "frames per second of a folder of images, or of a raw stream")
-        ->check(CLI::Range(kLeastFps, kMostFps));
-  if (importer.takes.keep_going)
-    command.add_flag("--keep-going", options->keep_going, "pass over damage, up to the next key frame");
-  if (importer.takes.topics) addTopicOptions(command, options->topics);
+  addImporterOptions(command, *options, importer.takes);
   addOutOption(command, options->log, "log to write; the vehicle's configuration goes beside it");
-  command.add_option("--camchain", options->camchain,
-                     "the camera's calibration: Kalibr's camchain.yaml or camchain-imucam.yaml");
-  command.add_option("--camera", options->camchain_camera, "the camera's section of the camchain")
-      ->capture_default_str();
   command.callback([options, importer] { printFlight(importFlight(importer, *options), options->log); });
 }
 

@@ -12,7 +12,7 @@ namespace redbee {
 /// Adds source, --out and what the importer takes, and a callback that imports and prints the flight.
 void setUpImporter(CLI::App& command, const Importer& importer);
 
-/// --image-topic and the like.
-void addTopicOptions(CLI::App& command, RosTopicChoice& topics);
+/// The options alone, those that `takes` names and --camchain.
+void addImporterOptions(CLI::App& command, ImportOptions& options, const ImporterTakes& takes);
 
 }  // namespace redbee

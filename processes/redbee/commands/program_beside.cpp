@@ -32,6 +32,15 @@ std::vector<char*> argumentsOf(Words& words) {
   return argv;
 }
 
+/// Options may stand before it, and take values; empty if there is none.
+std::string firstFileOf(const Words& arguments) {
+  for (const std::string& word : arguments) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(word, error)) return word;
+  }
+  return "";
+}
+
 void replaceBy(const std::filesystem::path& program, Words arguments) {
   arguments.insert(arguments.begin(), program.string());
   execv(program.c_str(), argumentsOf(arguments).data());
@@ -73,10 +82,9 @@ void runProgramBeside(const std::string& program, const std::string& subcommand,
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status)) {
-    std::fprintf(stderr, "%s: is damaged so that %s was ended by signal %d (%s)\n",
-                 arguments.empty() ? "its input" : arguments.front().c_str(), program.c_str(),
-                 WTERMSIG(status), strsignal(WTERMSIG(status)));
-    throw CLI::RuntimeError(2);
+    const std::string input = firstFileOf(arguments);
+    throw UserError((input.empty() ? "" : input + ": is damaged: ") + program + " was ended by signal " +
+                    std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")");
   }
   if (WEXITSTATUS(status) != 0) throw CLI::RuntimeError(WEXITSTATUS(status));
 }

@@ -15,8 +15,7 @@ Command::Setup programBeside(const std::string& program);
 Command::Setup processBeside(const std::string& program);
 
 /// Runs `program SUBCOMMAND ARGUMENT...` and waits for it. Throws UserError where it cannot be started, with
-/// `how` to get it; CLI::RuntimeError with its exit code where that is not 0, after one line and with 2 where
-/// a signal ended it.
+/// `how` to get it; and where a signal ended it; CLI::RuntimeError with its exit code where that is not 0.
 void runProgramBeside(const std::string& program, const std::string& subcommand,
                       const std::vector<std::string>& arguments, const std::string& how);
 

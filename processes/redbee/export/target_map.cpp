@@ -23,23 +23,90 @@ OrderedJson feature(OrderedJson geometry, OrderedJson properties) {
   return {{"type", "Feature"}, {"geometry", std::move(geometry)}, {"properties", std::move(properties)}};
 }
 
-OrderedJson pathOf(const std::vector<RecordedPlace>& places) {
-  OrderedJson coordinates = OrderedJson::array();
-  for (const RecordedPlace& place : places) coordinates.push_back(positionOf(place));
-  return {{"type", "LineString"}, {"coordinates", std::move(coordinates)}};
+/// A part of a path: places, and of a target's path their sigmas.
+struct PathPart {
+  std::vector<RecordedPlace> places;
+  std::vector<double> sigmas_m;
+
+  void add(const RecordedPlace& place, double sigma) {
+    places.push_back(place);
+    sigmas_m.push_back(sigma);
+  }
+};
+
+RecordedPlace between(const RecordedPlace& a, const RecordedPlace& b, double part, double longitude_deg) {
+  RecordedPlace place = a;
+  place.utime += static_cast<int64_t>(std::llround(part * static_cast<double>(b.utime - a.utime)));
+  place.latitude_deg += part * (b.latitude_deg - a.latitude_deg);
+  place.altitude_m += part * (b.altitude_m - a.altitude_m);
+  place.longitude_deg = longitude_deg;
+  return place;
 }
 
-OrderedJson timesOf(const std::vector<RecordedPlace>& places) {
-  OrderedJson times = OrderedJson::array();
-  for (const RecordedPlace& place : places) times.push_back(place.utime);
-  return times;
+/// Maps draw a line from 179.9 to -179.9 degrees round the world: each part ends at the antimeridian (RFC
+/// 7946, 3.1.9), and the next begins there. `sigmas_m` may be empty.
+std::vector<PathPart> cutAtAntimeridian(const std::vector<RecordedPlace>& places,
+                                        const std::vector<double>& sigmas_m) {
+  constexpr double kHalfTurn = 180, kTurn = 360;
+  const auto sigmaOf = [&](size_t i) { return sigmas_m.empty() ? 0 : sigmas_m[i]; };
+  std::vector<PathPart> parts(1);
+  for (size_t i = 0; i < places.size(); ++i) {
+    if (i > 0 && std::abs(places[i].longitude_deg - places[i - 1].longitude_deg) > kHalfTurn) {
+      const RecordedPlace &a = places[i - 1], &b = places[i];
+      const double side = a.longitude_deg > 0 ? kHalfTurn : -kHalfTurn;
+      const double whole = b.longitude_deg + std::copysign(kTurn, side) - a.longitude_deg;
+      const double part = whole == 0 ? 0 : (side - a.longitude_deg) / whole;
+      const double sigma = sigmaOf(i - 1) + part * (sigmaOf(i) - sigmaOf(i - 1));
+      parts.back().add(between(a, b, part, side), sigma);
+      parts.emplace_back();
+      parts.back().add(between(a, b, part, -side), sigma);
+    }
+    parts.back().add(places[i], sigmaOf(i));
+  }
+  return parts;
 }
 
-OrderedJson pathProperties(int id, const RecordedTarget& target) {
-  OrderedJson sigmas = OrderedJson::array();
-  for (const double sigma : target.sigmas_m) sigmas.push_back(rounded(sigma, 0.01));
-  return {
-      {"what", "path"}, {"target", id}, {"utime_us", timesOf(target.places)}, {"sigma_m", std::move(sigmas)}};
+/// One line, or one for each part; what belongs to its places has the same form.
+OrderedJson pathOf(const std::vector<PathPart>& parts) {
+  OrderedJson lines = OrderedJson::array();
+  for (const PathPart& part : parts) {
+    OrderedJson coordinates = OrderedJson::array();
+    for (const RecordedPlace& place : part.places) coordinates.push_back(positionOf(place));
+    lines.push_back(std::move(coordinates));
+  }
+  if (parts.size() == 1) return {{"type", "LineString"}, {"coordinates", std::move(lines[0])}};
+  return {{"type", "MultiLineString"}, {"coordinates", std::move(lines)}};
+}
+
+template <typename Value>
+OrderedJson listed(const std::vector<PathPart>& parts, const Value& valueOf) {
+  OrderedJson lists = OrderedJson::array();
+  for (const PathPart& part : parts) {
+    OrderedJson list = OrderedJson::array();
+    for (size_t i = 0; i < part.places.size(); ++i) list.push_back(valueOf(part, i));
+    lists.push_back(std::move(list));
+  }
+  return parts.size() == 1 ? lists[0] : lists;
+}
+
+OrderedJson timesOf(const std::vector<PathPart>& parts) {
+  return listed(parts, [](const PathPart& part, size_t i) { return part.places[i].utime; });
+}
+
+OrderedJson sigmasOf(const std::vector<PathPart>& parts) {
+  return listed(parts, [](const PathPart& part, size_t i) { return rounded(part.sigmas_m[i], 0.01); });
+}
+
+OrderedJson pathFeature(int id, const RecordedTarget& target) {
+  const auto parts = cutAtAntimeridian(target.places, target.sigmas_m);
+  return feature(
+      pathOf(parts),
+      {{"what", "path"}, {"target", id}, {"utime_us", timesOf(parts)}, {"sigma_m", sigmasOf(parts)}});
+}
+
+OrderedJson vehicleFeature(const std::vector<RecordedPlace>& places) {
+  const auto parts = cutAtAntimeridian(places, {});
+  return feature(pathOf(parts), {{"what", "vehicle"}, {"utime_us", timesOf(parts)}});
 }
 
 OrderedJson placeProperties(int id, const RecordedTarget& target) {
@@ -92,6 +159,14 @@ std::string trackOf(const std::vector<RecordedPlace>& places) {
   return "<gx:Track><altitudeMode>clampToGround</altitudeMode>\n" + times + coordinates + "</gx:Track>";
 }
 
+std::string tracksOf(const std::vector<RecordedPlace>& places) {
+  const auto parts = cutAtAntimeridian(places, {});
+  if (parts.size() == 1) return trackOf(places);
+  std::string tracks;
+  for (const PathPart& part : parts) tracks += trackOf(part.places) + "\n";
+  return "<gx:MultiTrack>\n" + tracks + "</gx:MultiTrack>";
+}
+
 std::string pointOf(const RecordedPlace& place) {
   return fmt::format("<Point><coordinates>{:.7f},{:.7f}</coordinates></Point>", place.longitude_deg,
                      place.latitude_deg);
@@ -108,12 +183,9 @@ std::string styleOf(const char* id, const char* colour, int width) {
 
 std::string asGeoJson(const RecordedFlight& flight) {
   OrderedJson features = OrderedJson::array();
-  if (flight.vehicle.size() > 1)
-    features.push_back(
-        feature(pathOf(flight.vehicle), {{"what", "vehicle"}, {"utime_us", timesOf(flight.vehicle)}}));
+  if (flight.vehicle.size() > 1) features.push_back(vehicleFeature(flight.vehicle));
   for (const auto& [id, target] : flight.targets) {
-    if (target.places.size() > 1)
-      features.push_back(feature(pathOf(target.places), pathProperties(id, target)));
+    if (target.places.size() > 1) features.push_back(pathFeature(id, target));
     features.push_back(feature({{"type", "Point"}, {"coordinates", positionOf(target.places.back())}},
                                placeProperties(id, target)));
   }
@@ -127,10 +199,10 @@ std::string asKml(const RecordedFlight& flight, const std::string& name) {
       "xmlns=\"http://www.opengis.net/kml/2.2\" xmlns:gx=\"http://www.google.com/kml/ext/2.2\">\n<Document>\n"
       "  <name>" +
       escaped(name) + "</name>\n" + styleOf("vehicle", "ffb27200", 2) + styleOf("target", "ff009fe6", 3);
-  if (flight.vehicle.size() > 1) text += placemark("vehicle", "vehicle", "path", trackOf(flight.vehicle));
+  if (flight.vehicle.size() > 1) text += placemark("vehicle", "vehicle", "path", tracksOf(flight.vehicle));
   for (const auto& [id, target] : flight.targets) {
     const std::string title = "target " + std::to_string(id);
-    if (target.places.size() > 1) text += placemark(title, "target", "path", trackOf(target.places));
+    if (target.places.size() > 1) text += placemark(title, "target", "path", tracksOf(target.places));
     const std::string description = fmt::format(
         "{}, {:.1f} m/s towards {:.0f} deg, within {:.1f} m (one sigma), {:.1f} m x {:.1f} m", target.state,
         target.speed_m_s, target.course_deg, target.sigmas_m.back(), target.width_m, target.height_m);

@@ -119,12 +119,13 @@ std::string asText(const LogSurvey& survey, const std::filesystem::path& log) {
     any = true;
   }
   for (const auto& [name, channel] : survey.channels) {
-    table.rows.push_back(
-        {name, channel.type, std::to_string(channel.messages), fmt::format("{:.2f}", channel.rate()),
-         fmt::format("{:.1f}", 1e-3 * static_cast<double>(channel.longest_gap_us)),
-         fmt::format("{:.3f}", inSeconds(channel.first_utime - first)),
-         fmt::format("{:.3f}", inSeconds(channel.last_utime - first)),
-         fmt::format("{:.2f}", 1e-6 * static_cast<double>(channel.bytes)), faultsOf(channel)});
+    table.rows.push_back({printable(name), printable(channel.type), std::to_string(channel.messages),
+                          fmt::format("{:.2f}", channel.rate()),
+                          fmt::format("{:.1f}", 1e-3 * static_cast<double>(channel.longest_gap_us)),
+                          fmt::format("{:.3f}", inSeconds(channel.first_utime - first)),
+                          fmt::format("{:.3f}", inSeconds(channel.last_utime - first)),
+                          fmt::format("{:.2f}", 1e-6 * static_cast<double>(channel.bytes)),
+                          faultsOf(channel)});
   }
   return fmt::format(
              "log:      {} ({:.2f} MB)\nstart:    {}\nduration: {:.3f} s\nmessages: {}\ndamage:   {}\n",

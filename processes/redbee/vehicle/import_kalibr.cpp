@@ -40,6 +40,13 @@ void requirePlausible(const VehicleDescription& vehicle, const std::filesystem::
   }
 }
 
+/// "FILE:LINE: what" without the file, which the user never sees.
+std::string withoutPlace(const std::string& line, const std::filesystem::path& file) {
+  if (line.rfind(file.string() + ":", 0) != 0) return line;
+  const size_t what = line.find(": ", file.string().size());
+  return what == std::string::npos ? line : line.substr(what + 2);
+}
+
 std::vector<std::string> warningsOf(const VehicleDescription& vehicle, const KalibrImport& options) {
   std::vector<std::string> warnings;
   if (vehicle.R_CI && !options.imu)
@@ -63,9 +70,9 @@ std::vector<std::string> importKalibr(const KalibrImport& options) {
                                    vehicleYaml(vehicle));
   try {
     loadConfiguration(options.out);
-  } catch (const UserError&) {
+  } catch (const UserError& error) {
     std::filesystem::remove(options.out);
-    throw;
+    throw InputError(from + ": gives no vehicle: " + withoutPlace(error.what(), options.out));
   }
   return warningsOf(vehicle, options);
 }

@@ -71,5 +71,58 @@ TEST(TryCommand, AFolderOfImagesAndALogLeaveOverlayAndReport) {
       << "no frame rate";
 }
 
+/// What a command prints to stderr.
+std::string complaintOf(const std::vector<std::string>& arguments) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run(arguments), 2);
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(TryCommand, WhatIsRefusedLeavesNoFolder) {
+  const ScratchFolder folder;
+  TestVideo video;
+  video.image = numbered;
+  video.frames = 3;
+  writeTestVideo(folder / "v.mp4", video);
+  const std::string source = (folder / "v.mp4").string(), out = (folder / "a" / "b").string();
+  const std::string none = (folder / "none.yaml").string();
+  EXPECT_NE(complaintOf({"try", source, "--config", none, "--out", out}).find(none), std::string::npos);
+  writeText(folder / "bad.yaml", "camera: {width: many}\n");
+  EXPECT_NE(complaintOf({"try", source, "--config", (folder / "bad.yaml").string(), "--out", out})
+                .find("bad.yaml:1"),
+            std::string::npos);
+  writeText(folder / "text.mp4", "no video");
+  complaintOf({"try", (folder / "text.mp4").string(), "--out", out});
+  EXPECT_FALSE(fs::exists(folder / "a"));
+  fs::create_directories(folder / "kept");
+  complaintOf({"try", (folder / "text.mp4").string(), "--out", (folder / "kept").string()});
+  EXPECT_TRUE(fs::exists(folder / "kept")) << "it was there before";
+}
+
+TEST(TryCommand, WhatMessagesOfImportersNameIsTaken) {
+  const ScratchFolder folder;
+  TestVideo video;
+  video.image = numbered;
+  video.frames = 30;
+  writeTestVideo(folder / "v.mp4", video);
+  const std::string source = (folder / "v.mp4").string(), out = (folder / "o").string();
+  std::string rows = "t_s,gx,gy,gz,ax,ay,az\n";
+  for (int k = 0; k < 150; ++k)
+    rows += std::to_string(0.01 * k) + ",0.0" + std::to_string(k % 3) + ",0.0" + std::to_string(k % 5) +
+            ",0.0" + std::to_string(k % 7) + ",0.0" + std::to_string(k % 4) + ",0.0" + std::to_string(k % 6) +
+            ",1.0" + std::to_string(k % 2) + "\n";
+  writeText(folder / "imu.csv", rows);
+  const std::string imu = (folder / "imu.csv").string();
+  EXPECT_NE(complaintOf({"try", source, "--imu", imu, "--out", out}).find("--accel-unit g"),
+            std::string::npos);
+  const std::string later =
+      complaintOf({"try", source, "--imu", imu, "--accel-unit", "g", "--keep-going", "--out", out});
+  EXPECT_EQ(later.find("--accel-unit"), std::string::npos) << later;  // it comes as far as the detection
+  EXPECT_TRUE(fs::exists(folder / "o" / "flight.lcm"));
+  EXPECT_NE(complaintOf({"try", source, "--image-topic", "/a", "--out", out})
+                .find("import video takes no --image-topic"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace redbee::test
