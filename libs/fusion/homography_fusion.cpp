@@ -1,6 +1,7 @@
 #include "redbee/fusion/homography_fusion.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "redbee/fusion/overlap.hpp"
 #include "redbee/fusion/transfer_sigma.hpp"
@@ -14,6 +15,10 @@ namespace {
 /// A step with a larger transfer sigma is useless at pixel level. An inertial filter whose velocity vision
 /// has not yet observed is off by ten pixels, one that lost vision a second ago by tenths.
 constexpr double kMaxStepSigma_px = 2;
+/// Frames by which those that agree must outweigh those that do not, threefold, before the IMU has precedence
+/// where the two contradict each other: one second.
+constexpr int kProvenFrames = 24;
+constexpr int kContradictionWeight = 3;
 constexpr double kUnknownVariance = 1.0;  // scaled units: half the image's width
 
 /// The paper's filter works in pixels: its Q and P_0 are diagonal in these units only.
@@ -153,7 +158,8 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
   out.innovation_covariance = toScaled({inertial.H, S});
 
   const bool agrees = factors.isPositive() && out.test_ratio <= 1;
-  if (!agrees && ++gated_in_a_row_ <= parameters_.max_gated_in_a_row) {
+  proveInertial(agrees);
+  if (!agrees && inertial_is_proven_ && ++gated_in_a_row_ <= parameters_.max_gated_in_a_row) {
     out.source = FusionSource::kInertial;
     return follow(inertial);
   }
@@ -175,6 +181,11 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
   return accept(H, step_noise,
                 paper ? Matrix8d(transformed(rest, prior) + transformed(gain, visual.P))
                       : Matrix8d(propagated + step_noise));
+}
+
+void HomographyFusion::proveInertial(bool agrees) {
+  agreed_ = std::max(0, agreed_ + (agrees ? 1 : -kContradictionWeight));
+  inertial_is_proven_ = inertial_is_proven_ || agreed_ >= kProvenFrames;
 }
 
 Estimate HomographyFusion::accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,

@@ -51,6 +51,9 @@ class HomographyFusion {
   Estimate advance(const Sources& sources, FusedHomography& out);
   Estimate follow(const Estimate& source);
   Estimate fuse(const Estimate& inertial, const Estimate& visual, FusedHomography& out);
+  /// An IMU that has just started may have another clock or mounting than configured: until it has agreed
+  /// with vision for a while, vision is followed where they contradict each other.
+  void proveInertial(bool agrees);
   Estimate accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,
                   const Matrix8d& covariance_anchor);
   void anchorAt(CameraTime time);
@@ -70,6 +73,8 @@ class HomographyFusion {
   Estimate anchor_ = identityEstimate();  ///< anchor frame to the newest frame
   StepChain chain_;
   int gated_in_a_row_ = 0;
+  int agreed_ = 0;
+  bool inertial_is_proven_ = false;
 };
 
 }  // namespace redbee

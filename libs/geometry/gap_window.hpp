@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <deque>
+#include <numeric>
 #include <vector>
 
 #include "redbee/geometry/median.hpp"
@@ -35,6 +36,7 @@ class GapWindow {
   bool isFull() const { return gaps_.size() == most_; }
   /// Precondition: there is one.
   Duration median() const { return redbee::median(std::vector<Duration>(gaps_.begin(), gaps_.end())); }
+  Duration total() const { return std::accumulate(gaps_.begin(), gaps_.end(), Duration(0)); }
   /// Whether `holds` of each gap.
   template <typename Predicate>
   bool allOf(const Predicate& holds) const {

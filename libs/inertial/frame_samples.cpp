@@ -23,7 +23,12 @@ FrameSamples::FrameSamples(const InertialParameters& parameters)
 
 bool FrameSamples::add(const ImuSample& sample) {
   if (!isPlausibleTime(sample.time) || !sample.gyro.allFinite() || !sample.accel.allFinite()) return false;
-  if (!rhythm_.isKeptBy(sample.time)) {
+  const bool is_own = rhythm_.isKeptBy(sample.time);
+  if (rhythm_.takeWereMixed()) {
+    imu_.clear();
+    were_mixed_ = true;
+  }
+  if (!is_own) {
     ++foreign_;
     return true;
   }

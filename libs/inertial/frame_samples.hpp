@@ -21,6 +21,8 @@ class FrameSamples {
   bool add(const ImuSample& sample);
   /// Samples of another IMU (ImuRhythm), which were not used, since the last call.
   int takeForeign() { return std::exchange(foreign_, 0); }
+  /// Whether samples before were of two IMUs mixed, since the last call; they are discarded.
+  bool takeWereMixed() { return std::exchange(were_mixed_, false); }
   ImuTime imuTime(CameraTime frame) const { return toImu(frame, timeshift_); }
 
   /// True if the samples reach a frame's exposure.
@@ -48,6 +50,7 @@ class FrameSamples {
   double max_gap_s_;
   ImuRhythm rhythm_;
   int foreign_ = 0;
+  bool were_mixed_ = false;
   ImuSampleCheck check_;
   ImuBuffer imu_;
 };

@@ -31,6 +31,10 @@ class ImuBuffer {
   explicit ImuBuffer(double clock_jump_s) : clock_jump_us_(clock_jump_s * 1e6) {}
 
   void add(const ImuSample& sample);
+  void clear() {
+    samples_.clear();
+    suspect_.reset();
+  }
   bool empty() const { return samples_.empty(); }
   std::size_t size() const { return samples_.size(); }
   /// Precondition of all below: not empty.

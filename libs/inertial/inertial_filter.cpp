@@ -35,7 +35,6 @@ class InertialFilter::Implementation {
         vision_(parameters) {}
 
   bool addImu(const ImuSample& sample) { return samples_.add(sample); }
-
   int takeForeignSamples() { return samples_.takeForeign(); }
 
   bool addAltitude(const AltitudeSample& sample) {
@@ -50,6 +49,10 @@ class InertialFilter::Implementation {
   InertialHomography advanceTo(CameraTime frame) {
     if (!isPlausibleTime(frame) || (frame_ && frame == *frame_)) {
       return nothing(frame_.value_or(frame), frame, InertialStatus::kClockJump);
+    }
+    if (samples_.takeWereMixed()) {
+      agreement_ = VisionAgreement();
+      return startAfresh(frame);
     }
     if (!frame_) return start(frame, InertialStatus::kInitialising);
     const double interval = seconds(frame - *frame_);
@@ -84,9 +87,7 @@ class InertialFilter::Implementation {
   }
 
   const std::optional<FilterSnapshot>& snapshot() const { return known_; }
-
   const VisionAgreement& agreement() const { return agreement_; }
-
   bool isAtFirstFrame() const { return state_ && !has_moved_; }
 
   SnapshotCheck warmStart(const FilterSnapshot& known) {

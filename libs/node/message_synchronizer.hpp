@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "redbee/geometry/time.hpp"
@@ -13,15 +14,17 @@ namespace redbee {
 
 /// Stores the messages of one channel by frame time; of several messages about a frame, the first. A
 /// companion is pending until message time has advanced by `timeout`, or a later message of the channel has
-/// overtaken it by more than messages are ever reordered: then it was lost. A publisher that timed out is
-/// considered dead until its next message and is not waited for. So the results depend on the messages only,
-/// and a dead publisher causes only one timeout.
+/// overtaken it by more than messages are ever reordered: then it was lost. A publisher that timed out for
+/// kMissedInARow frames is considered dead until its next message and is not waited for. So the results
+/// depend on the messages only, and a dead publisher costs the delay of one timeout. After fewer, where
+/// stages wait for each other, a lost message would have all of them go on without the others at once.
 template <typename Message>
 class MessageSynchronizer {
  public:
   enum class Status { kReady, kPending, kTimedOut };
   /// A message may be overtaken by later ones for this long.
   static constexpr Duration kReordering = std::chrono::milliseconds(100);
+  static constexpr int kMissedInARow = 3;
   /// A message may be ahead of the newest frame by this much, where images are lost; what arrives further
   /// ahead overtakes nothing.
   static constexpr Duration kMostAhead = std::chrono::milliseconds(500);
@@ -33,7 +36,10 @@ class MessageSynchronizer {
   /// `newest`: the newest frame, or CameraTime::min().
   void put(CameraTime time, Message message, CameraTime newest) {
     const bool is_far_ahead = time > newest + kMostAhead;
-    if (!is_far_ahead) alive_ = expected_;
+    if (!is_far_ahead) {
+      alive_ = expected_;
+      missed_in_a_row_ = 0;
+    }
     const auto known = messages_.find(time);
     if (known != messages_.end() && known->second.kind == Kind::kReceived) return;
     store(time, {std::move(message), newest, is_far_ahead ? Kind::kFarAhead : Kind::kReceived});
@@ -50,10 +56,16 @@ class MessageSynchronizer {
     if (!alive_) return Status::kTimedOut;
     const bool overtaken = isOvertaken(time, newest);
     if (!overtaken && newest - time <= timeout_) return Status::kPending;
-    if (!overtaken) alive_ = false;
-    ++timed_out_;
+    if (last_timed_out_ != time) {
+      ++timed_out_;
+      if (!overtaken && ++missed_in_a_row_ >= kMissedInARow) alive_ = false;
+    }
+    last_timed_out_ = time;
     return Status::kTimedOut;
   }
+
+  /// Whether the publisher is waited for.
+  bool isAlive() const { return alive_; }
 
   const Message* find(CameraTime time) const {
     const auto it = messages_.find(time);
@@ -100,6 +112,8 @@ class MessageSynchronizer {
   bool alive_;
   size_t capacity_;
   int64_t timed_out_ = 0;
+  int missed_in_a_row_ = 0;
+  std::optional<CameraTime> last_timed_out_;  ///< the frame counted last: it may be asked for again
   std::map<CameraTime, Received> messages_;
 };
 

@@ -70,6 +70,10 @@ class Stage : public Node {
   bool isInOrder(const FrameQueue<Content>& frames) const {
     return finishing_ || frames.isInOrder(now());
   }
+  /// For stages that queue the frames of other messages: takes the next frame once it is in order and
+  /// `isReady(time)`, and does `work(time)`, inside workOn(). Whether there was one.
+  template <typename Ready, typename Work>
+  bool processFront(FrameQueue<WorkTimer>& frames, const Ready& isReady, const Work& work);
   /// No more messages will arrive: process() handles what is left.
   bool isFinishing() const { return finishing_; }
 
@@ -176,6 +180,15 @@ bool Stage::isPending(MessageSynchronizer<Message>& messages, CameraTime time) {
   const auto status = messages.status(time, now());
   health_.noteLate(messages.timedOut() - before);
   return status == MessageSynchronizer<Message>::Status::kPending;
+}
+
+template <typename Ready, typename Work>
+bool Stage::processFront(FrameQueue<WorkTimer>& frames, const Ready& isReady, const Work& work) {
+  if (frames.empty() || !isInOrder(frames) || !isReady(frames.frontTime())) return false;
+  const CameraTime frame = frames.frontTime();
+  const WorkTimer arrival = frames.pop();
+  workOn(frame, arrival, [&] { work(frame); });
+  return true;
 }
 
 template <typename Work>

@@ -89,11 +89,9 @@ bool HomographyFusionNode::isReadyFor(CameraTime time) {
 
 bool HomographyFusionNode::processNext() {
   publishWarmStart();  // before the fused message of its first frame, which it waits for
-  if (pending_.empty() || !isInOrder(pending_) || !isReadyFor(pending_.frontTime())) return false;
-  const CameraTime frame = pending_.frontTime();
-  const WorkTimer arrival = pending_.pop();
-  workOn(frame, arrival, [&] { fuse(frame); });
-  return true;
+  return processFront(
+      pending_, [this](CameraTime frame) { return isReadyFor(frame); },
+      [this](CameraTime frame) { fuse(frame); });
 }
 
 void HomographyFusionNode::fuse(CameraTime time) {

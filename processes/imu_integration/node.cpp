@@ -130,11 +130,9 @@ void ImuIntegrationNode::publishSnapshot() {
 }
 
 bool ImuIntegrationNode::processNext() {
-  if (pending_.empty() || !isInOrder(pending_) || !isReadyFor(pending_.frontTime())) return false;
-  const CameraTime frame = pending_.frontTime();
-  const WorkTimer arrival = pending_.pop();
-  workOn(frame, arrival, [&] { integrate(frame); });
-  return true;
+  return processFront(
+      pending_, [this](CameraTime frame) { return isReadyFor(frame); },
+      [this](CameraTime frame) { integrate(frame); });
 }
 
 void ImuIntegrationNode::integrate(CameraTime frame) {

@@ -48,10 +48,12 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
   on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) {
     companions().put(timeOf(m), m, now());
     fused_path_.reset();
+    unbridged_.reset();
     health().setCalibration(m.calibration);
   });
   on<visual_homography_t>(channels.visual_homography, [this](const visual_homography_t& m) {
     visual_.put(timeOf(m), m, now());
+    unbridged_.reset();
     if (const auto restored = restoredVisual(m)) visual_.putRestored(timeOf(*restored), *restored);
   });
 }
@@ -59,6 +61,7 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
 void MotionSegmentationNode::reset(CameraTime newest) {
   visual_.eraseAfter(newest);
   fused_path_.reset();
+  unbridged_.reset();
   last_.reset();
 }
 
@@ -69,7 +72,8 @@ bool MotionSegmentationNode::isLeftOut(CameraTime frame) const {
 
 bool MotionSegmentationNode::isWaiting(CameraTime frame) {
   if (ImageStage::isWaiting(frame)) return true;
-  return needs_.camera_motion && last_ && !fusedPathTo(frame) && isPending(visual_, frame);
+  if (!needs_.camera_motion || !last_ || fusedPathTo(frame)) return false;
+  return isPending(visual_, frame) || isBridgePending(frame);
 }
 
 FrameInput MotionSegmentationNode::inputFor(const image_t& message) {
@@ -109,6 +113,19 @@ bool MotionSegmentationNode::isBridged(CameraTime frame) const {
   }
   return std::any_of(later.begin(), later.end(),
                      [&](CameraTime time) { return homographyAlong(links, *last_, time).has_value(); });
+}
+
+bool MotionSegmentationNode::isBridgePending(CameraTime frame) {
+  const bool is_too_late = now() - frame > fromSeconds(configuration_.waits.segmentation_s);
+  if (isFinishing() || is_too_late || !visual_.isAlive()) return false;
+  const visual_homography_t* visual = visual_.find(frame);
+  const bool tracks_from_here = visual != nullptr && (visual->status == visual_homography_t::FIRST_FRAME ||
+                                                      visual->status == visual_homography_t::NO_PLANE);
+  if (tracks_from_here) return false;
+  if (unbridged_ == frame) return true;
+  if (homographyAlong(allLinks(), *last_, frame) || isBridged(frame)) return false;
+  unbridged_ = frame;
+  return true;
 }
 
 std::optional<Eigen::Matrix3d> MotionSegmentationNode::fusedPathTo(CameraTime frame) {

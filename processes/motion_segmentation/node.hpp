@@ -32,7 +32,8 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   void work(const image_t& message) override;
   /// Whether vision has skipped the frame: one that both skip costs less than two.
   bool isLeftOut(CameraTime frame) const override;
-  /// Vision's homography is waited for as well where the fused ones say nothing about the frame.
+  /// Vision's homography is waited for as well where the fused ones say nothing about the frame; and where
+  /// vision's does not either, what connects a later frame to the last processed one.
   bool isWaiting(CameraTime frame) override;
   FrameInput inputFor(const image_t& message);
   /// While the fusion is not running or has no estimate yet after a restart, vision's own homography
@@ -43,6 +44,8 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   /// Whether the motion from the last processed frame to one after this is known: vision has not seen this
   /// one, but background and tracks go on with the next.
   bool isBridged(CameraTime frame) const;
+  /// Whether it may become known: vision still tracks from a frame before this one.
+  bool isBridgePending(CameraTime frame);
   /// The homography from the last processed frame, by the fused homographies alone: asked for again and again
   /// while a frame waits, computed once for what has arrived.
   std::optional<Eigen::Matrix3d> fusedPathTo(CameraTime frame);
@@ -63,6 +66,7 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
     std::optional<Eigen::Matrix3d> H;
   };
   std::optional<FusedPath> fused_path_;  ///< until another fused homography arrives
+  std::optional<CameraTime> unbridged_;  ///< the frame known to be, until another homography arrives
   std::optional<CameraTime> last_;       ///< the last processed frame
   TrackIdStore identities_;
 };

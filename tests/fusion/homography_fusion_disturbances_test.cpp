@@ -9,27 +9,48 @@
 namespace redbee::test {
 namespace {
 
+constexpr int kProven = 24;  ///< frames in which an IMU that has just started agrees
+
+VisualInput wrongBy60px(FusionInputs& inputs, int k) {
+  VisualInput wrong = inputs.visual(k - 1, k);
+  wrong.H = translation(60) * wrong.H;
+  return wrong;
+}
+
 TEST(HomographyFusion, AGrossVisualErrorIsRejectedAndLaterAccepted) {
   FusionInputs inputs(2);
   FusionParameters parameters = consistentNoise();
   HomographyFusion fusion = makeFusion(parameters);
   FusedHomography out;
-  for (int k = 1; k <= parameters.max_gated_in_a_row; ++k) {
-    VisualInput wrong = inputs.visual(k - 1, k);
-    wrong.H = translation(60) * wrong.H;
-    out = fusion.step(frameTime(k), inputs.inertial(k - 1, k), wrong);
+  int k = 1;
+  for (; k <= kProven; ++k) {
+    out = fusion.step(frameTime(k), inputs.inertial(k - 1, k), inputs.visual(k - 1, k));
+  }
+  for (; k <= kProven + parameters.max_gated_in_a_row; ++k) {
+    out = fusion.step(frameTime(k), inputs.inertial(k - 1, k), wrongBy60px(inputs, k));
     EXPECT_EQ(out.source, FusionSource::kInertial);
     EXPECT_GT(out.test_ratio, 1);
     EXPECT_FALSE(out.visual_accepted);
     EXPECT_LT(inputs.error(out.H_step, k - 1, k), 5);
   }
   const int32_t epoch = out.epoch;
-  const int k = parameters.max_gated_in_a_row + 1;
-  VisualInput insistent = inputs.visual(k - 1, k);
-  insistent.H = translation(60) * insistent.H;
-  out = fusion.step(frameTime(k), inputs.inertial(k - 1, k), insistent);
+  out = fusion.step(frameTime(k), inputs.inertial(k - 1, k), wrongBy60px(inputs, k));
   EXPECT_EQ(out.source, FusionSource::kVisual);
   EXPECT_EQ(out.epoch, epoch + 1);
+}
+
+/// Its clock or its mounting may be other than configured.
+TEST(HomographyFusion, AnImuThatContradictsFromTheStartHasNoPrecedence) {
+  FusionInputs inputs(2);
+  HomographyFusion fusion = makeFusion();
+  for (int k = 1; k <= 4 * kProven; ++k) {
+    InertialInput wrong = inputs.inertial(k - 1, k);
+    const bool contradicts = k % 3 != 0;  // it hardly turns now and then
+    if (contradicts) wrong.H = translation(60) * wrong.H;
+    const FusedHomography out = fusion.step(frameTime(k), wrong, inputs.visual(k - 1, k));
+    EXPECT_EQ(out.source, contradicts ? FusionSource::kVisual : FusionSource::kFused);
+    EXPECT_LT(inputs.error(out.H_step, k - 1, k), 5) << k;
+  }
 }
 
 TEST(HomographyFusion, EitherSourceMayBeLostForASecondAndComeBack) {

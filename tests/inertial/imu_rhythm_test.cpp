@@ -43,6 +43,38 @@ TEST(ImuRhythm, AnotherImuMayHaveAnotherRate) {
   EXPECT_LE(mistaken, others / 5);
 }
 
+/// The second has the same rate, but for its oscillator, or half of it. Phases that are even, or close to the
+/// first's beats, cannot be told apart.
+TEST(ImuRhythm, OfTwoMixedFromTheBeginningTheFirstIsListenedTo) {
+  for (const int64_t phase_us : {300, 400, 625, 700, 833, 1667, 1700, 2100}) {
+    for (const int every : {1, 2}) {
+      ImuRhythm rhythm;
+      int own = 0;
+      int foreign = 0;
+      for (int i = 0; i < 400; ++i) {
+        const bool is_told = i >= 100;
+        own += rhythm.isKeptBy(at(i * kPeriod_us)) && is_told ? 1 : 0;
+        if (i % every != 0) continue;
+        foreign += rhythm.isKeptBy(at(i * kPeriod_us + phase_us + i / 10)) && is_told ? 1 : 0;
+      }
+      EXPECT_EQ(own, 300) << phase_us << " " << every;
+      EXPECT_EQ(foreign, 0) << phase_us << " " << every;
+    }
+  }
+}
+
+/// Up to half a period of jitter, but no second source.
+TEST(ImuRhythm, AnImuOfLessRegularTimesIsNotTakenForTwo) {
+  for (const int64_t jitter_us : {150, 300, 600, 1200}) {
+    std::mt19937 random(3);
+    ImuRhythm rhythm;
+    for (int i = 0; i < 4000; ++i) {
+      const auto jitter = static_cast<int64_t>(random() % static_cast<uint64_t>(jitter_us));
+      ASSERT_TRUE(rhythm.isKeptBy(at(i * kPeriod_us + jitter))) << jitter_us << " " << i;
+    }
+  }
+}
+
 TEST(ImuRhythm, LostLateAndRepeatedSamplesKeepIt) {
   ImuRhythm rhythm = listening(40);
   for (const int beat : {42, 41, 42, 47, 43, 44, 48}) EXPECT_TRUE(rhythm.isKeptBy(at(beat * kPeriod_us)));

@@ -46,14 +46,29 @@ TEST(MessageSynchronizer, OfSeveralMessagesAboutAFrameTheFirstIsKept) {
   EXPECT_EQ(*buffer.find(at(100)), "first");
 }
 
-TEST(MessageSynchronizer, ADeadPublisherTimesOutOnce) {
+TEST(MessageSynchronizer, APublisherIsDeadAfterThreeTimeoutsInARowUntilItsNextMessage) {
   Buffer buffer(kTimeout, true);
   EXPECT_EQ(buffer.status(at(100), at(100) + kTimeout), Status::kPending);
   EXPECT_EQ(buffer.status(at(100), at(101) + kTimeout), Status::kTimedOut);
-  EXPECT_EQ(buffer.status(at(200), at(200)), Status::kTimedOut) << "no second wait";
+  EXPECT_EQ(buffer.status(at(200), at(101) + kTimeout), Status::kPending) << "one may have been lost";
+  EXPECT_EQ(buffer.status(at(200), at(201) + kTimeout), Status::kTimedOut);
+  EXPECT_TRUE(buffer.isAlive());
+  EXPECT_EQ(buffer.status(at(300), at(301) + kTimeout), Status::kTimedOut);
+  EXPECT_FALSE(buffer.isAlive());
+  EXPECT_EQ(buffer.status(at(400), at(400)), Status::kTimedOut) << "no further wait";
+  EXPECT_EQ(buffer.timedOut(), 3);
+  buffer.put(at(500), "back", at(500));
+  EXPECT_TRUE(buffer.isAlive());
+  EXPECT_EQ(buffer.status(at(600), at(600)), Status::kPending) << "its next message arrived";
+}
+
+TEST(MessageSynchronizer, AFrameThatIsAskedForAgainTimesOutOnce) {
+  Buffer buffer(kTimeout, true);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(buffer.status(at(100), at(101) + kTimeout), Status::kTimedOut);
+  }
   EXPECT_EQ(buffer.timedOut(), 1);
-  buffer.put(at(300), "back", at(300));
-  EXPECT_EQ(buffer.status(at(400), at(400)), Status::kPending) << "its next message arrived";
+  EXPECT_TRUE(buffer.isAlive());
 }
 
 TEST(MessageSynchronizer, AMessageFromAheadOvertakesNothing) {

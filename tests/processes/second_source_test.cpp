@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "tests/support/forgery.hpp"
 #include "tests/support/trusted_frames.hpp"
@@ -110,6 +112,32 @@ TEST(SecondSource, ACameraWhoseClockIsAnHourBehindIsIgnored) {
   EXPECT_EQ(flown.frames.trusted, flown.frames.expected);
   EXPECT_EQ(flown.frames.wild, 0);
   EXPECT_EQ(flown.foreign, 0);
+}
+
+/// From the first message on, mounted a quarter turn from the first and read a third of a period after it.
+TEST(SecondSource, AnImuThatIsMixedInFromTheBeginningIsIgnored) {
+  StackFlight flight = undisturbedFlight();
+  std::vector<SensorMessage> both;
+  std::optional<int64_t> last;
+  for (const SensorMessage& sent : flight.messages) {
+    both.push_back(sent);
+    ins_t other;
+    if (sent.channel != "IMU" || !decodeMessage(sent.data.data(), static_cast<int>(sent.data.size()), other))
+      continue;
+    if (last) {
+      for (double* v : {other.gyro, other.accel}) v[0] = -std::exchange(v[1], v[0]);
+      other.utime += (sent.utime - *last) / 3;
+      both.push_back(encoded(other));
+    }
+    last = sent.utime;
+  }
+  flight.messages = both;
+  sortByTime(flight.messages);
+  const Flown flown = fly("a second IMU from the beginning", flight);
+  EXPECT_EQ(flown.health.at("redbee-imu-integration").message, "IMU: a second source is ignored");
+  EXPECT_EQ(flown.health.at("redbee-homography-fusion").state, process_health_t::GOOD);
+  EXPECT_EQ(flown.frames.trusted, flown.frames.expected);
+  EXPECT_EQ(flown.frames.wild, 0);
 }
 
 TEST(SecondSource, StrayFramesFromAnHourAheadAreIgnored) {

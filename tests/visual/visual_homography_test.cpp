@@ -97,6 +97,31 @@ TEST(VisualHomography, APredictionThatLeadsNowhereIsIgnored) {
   EXPECT_EQ(found, 14);
 }
 
+/// A repeated image is one only for a prediction that is used.
+TEST(VisualHomography, ThePredictionIsUsedAgainOnceTheClockWasSetBack) {
+  const Canvas canvas(8);
+  const Eigen::Matrix3d step = groundHomography({3, 2, 3}, {0.4, 0.2, 1});
+  const HomographyPrediction moving{step, 1e-6 * Matrix8d::Identity()};
+  HomographyPrediction wrong = moving;
+  wrong.H(0, 2) = 300;  // px, far beyond what the search reaches
+  const cv::Mat image = canvas.view(Eigen::Matrix3d::Identity(), 1.5, 1);
+  for (const int first : {1, 1000}) {  // the clock goes on, or is set back
+    VisualHomographyEstimator estimator({});
+    Eigen::Matrix3d since = Eigen::Matrix3d::Identity();
+    for (int k = 0; k <= 5; ++k) {
+      estimator.step(frameTime(first + k), canvas.view(since, 1.5, static_cast<uint64_t>(k)), wrong);
+      since = normaliseHomography(step * since);
+    }
+    estimator.step(frameTime(10), image, moving);
+    const VisualHomography repeated = estimator.step(frameTime(11), image, moving);
+    if (first > 10) {
+      EXPECT_EQ(repeated.status, VisualStatus::kRepeated);
+    } else {
+      EXPECT_NE(repeated.status, VisualStatus::kRepeated) << "the trial has no difficulty";
+    }
+  }
+}
+
 TEST(VisualHomography, BlankBlackAndBlurredFramesAreNoHomography) {
   cv::Mat blurred;
   cv::GaussianBlur(still(3), blurred, {}, 9);
