@@ -46,6 +46,7 @@ class FrameSamples {
  private:
   Duration timeshift_;
   double max_gap_s_;
+  Eigen::Matrix3d gyro_correction_;
   ImuRhythm rhythm_;
   int foreign_ = 0;
   ImuSampleCheck check_;
