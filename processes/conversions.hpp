@@ -12,6 +12,7 @@
 #include "redbee/earlier_step_t.hpp"
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/rolling_shutter.hpp"
 #include "redbee/geometry/row_major.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/homography_t.hpp"
@@ -19,6 +20,7 @@
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/node/frame_time.hpp"
 #include "redbee/plane_motion_t.hpp"
+#include "redbee/row_motion_t.hpp"
 #include "redbee/tracks_t.hpp"
 #include "redbee/visual/point_tracker.hpp"
 #include "redbee/visual_homography_t.hpp"
@@ -134,6 +136,20 @@ inline void fill(plane_motion_t& message, const PlaneMotion& motion) {
   fill(message.t, motion.t_ba);
   fill(message.normal, motion.m_a);
   message.distance = motion.h_a;
+}
+
+inline std::optional<RowMotion> rowMotionOf(const row_motion_t& message) {
+  if (message.valid == 0) return std::nullopt;
+  return RowMotion{vector3(message.rate), vector3(message.acceleration), vector3(message.velocity),
+                   vector3(message.normal)};
+}
+inline void fill(row_motion_t& message, const std::optional<RowMotion>& motion) {
+  message.valid = motion ? 1 : 0;
+  if (!motion) return;
+  fill(message.rate, motion->rate);
+  fill(message.acceleration, motion->acceleration);
+  fill(message.velocity, motion->velocity);
+  fill(message.normal, motion->normal);
 }
 
 inline void fill(homography_t& message, const Eigen::Matrix3d& H,

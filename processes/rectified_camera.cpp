@@ -15,6 +15,7 @@ CameraIntrinsics shrunk(CameraIntrinsics camera, int downscale) {
   camera.fy /= downscale;
   camera.cx = (camera.cx + 0.5) / downscale - 0.5;
   camera.cy = (camera.cy + 0.5) / downscale - 0.5;
+  camera.line_delay_s *= downscale;
   return camera;
 }
 
@@ -27,7 +28,8 @@ RectifiedCamera::RectifiedCamera(const CameraIntrinsics& intrinsics, int downsca
       downscale_(downscale),
       image_rectifier_(Camera(shrunk(intrinsics, downscale), shrunk(camera_.ideal(), downscale))) {}
 
-IdealImage RectifiedCamera::ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const {
+IdealImage RectifiedCamera::ideal(const image_t& message, bool wants_colour, HealthMonitor& health,
+                                  const std::optional<RowMotion>& measured) {
   cv::Mat image;
   if (wants_colour) {
     image = decodeColour(message, downscale_).value_or(cv::Mat3b());
@@ -38,11 +40,16 @@ IdealImage RectifiedCamera::ideal(const image_t& message, bool wants_colour, Hea
   const cv::Size wanted(camera_.intrinsics().width / downscale_, camera_.intrinsics().height / downscale_);
   if (image.size() != wanted) return {};
   IdealImage ideal;
+  if (measured) {
+    cv::Mat1b grey = image;
+    if (wants_colour) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+    ideal.row_motion = row_motion_.of(grey, measured);
+  }
   if (wants_colour) {
-    ideal.colour = image_rectifier_.toIdeal(image);
+    ideal.colour = image_rectifier_.toIdeal(image, ideal.row_motion);
     cv::cvtColor(ideal.colour, ideal.grey, cv::COLOR_BGR2GRAY);
   } else {
-    ideal.grey = image_rectifier_.toIdeal(image);
+    ideal.grey = image_rectifier_.toIdeal(image, ideal.row_motion);
   }
   return ideal;
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "redbee/geometry/camera.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/imaging/image_row_motion.hpp"
 #include "redbee/imaging/rectifier.hpp"
 #include "redbee/node/health.hpp"
 
@@ -13,7 +15,8 @@ namespace redbee {
 /// On the grid of the ideal camera, downscaled; both empty if there is no image.
 struct IdealImage {
   cv::Mat1b grey;
-  cv::Mat3b colour;  ///< BGR; empty unless requested
+  cv::Mat3b colour;                     ///< BGR; empty unless requested
+  std::optional<RowMotion> row_motion;  ///< that was taken out; as Rectifier::toRaw() wants it
 };
 
 class RectifiedCamera {
@@ -27,13 +30,16 @@ class RectifiedCamera {
   const Camera& camera() const { return camera_; }
   const Rectifier& rectifier() const { return rectifier_; }
   int downscale() const { return downscale_; }
-  /// Empty for an image that is damaged (counted in `health`) or not of the raw camera's size.
-  IdealImage ideal(const image_t& message, bool wants_colour, HealthMonitor& health) const;
+  /// Empty for an image that is damaged (counted in `health`) or not of the raw camera's size. `measured`: at
+  /// the image's time.
+  IdealImage ideal(const image_t& message, bool wants_colour, HealthMonitor& health,
+                   const std::optional<RowMotion>& measured = {});
 
  private:
   Camera camera_;
   Rectifier rectifier_;
   int downscale_;
+  ImageRowMotion row_motion_;
   Rectifier image_rectifier_;  ///< of the images that ideal() makes
 };
 

@@ -3,11 +3,14 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
 #include "redbee/calibration/diagnostics.hpp"
 #include "redbee/calibration/flight_solution.hpp"
+#include "redbee/calibration/gyro_shape.hpp"
+#include "redbee/calibration/line_delay.hpp"
 #include "redbee/calibration/recording.hpp"
 #include "redbee/calibration/split_half.hpp"
 #include "redbee/calibration/verdict_table.hpp"
@@ -111,6 +114,59 @@ void fillFit(CalibrationResult& result, const FlightSolution& solution, const Re
   result.measurements = static_cast<int>(solution.input.ground.size() + solution.input.target.size());
 }
 
+struct Solved {
+  Recording recording;
+  RotationAlignment alignment;
+  FlightSolution solution;
+};
+
+Solved solve(const CalibrationInput& input) {
+  Solved solved;
+  solved.recording = prepareRecording(input);
+  solved.alignment = alignRotations(rotationsOf(solved.recording), *solved.recording.imu);
+  const Mounting mounting = mountingFrom(solved.alignment, input);
+  solved.solution =
+      solveFlight(solved.recording, input, mounting, priorsFor(input, mounting), input.start_height);
+  return solved;
+}
+
+/// What makes images and gyro disagree beside the joint problem's parameters.
+struct SensorErrors {
+  LineDelay line_delay;
+  GyroShape gyro;
+
+  /// Those that the sensors must have.
+  SensorErrors significant() const {
+    SensorErrors taken = *this;
+    if (!line_delay.isSignificant()) taken.line_delay.delay_s = 0;
+    if (!gyro.isSignificant()) taken.gyro.shape.setZero();
+    return taken;
+  }
+  bool areNone() const { return line_delay.delay_s == 0 && gyro.shape.isZero(0); }
+  /// `rest`: what is left after these were taken out.
+  SensorErrors with(SensorErrors rest) const {
+    rest.line_delay.delay_s += line_delay.delay_s;
+    rest.gyro.shape += gyro.shape;
+    return rest;
+  }
+};
+
+SensorErrors sensorErrors(const Solved& solved) {
+  return {estimateLineDelay(solved.recording, solved.solution.state),
+          estimateGyroShape(solved.alignment.rates, solved.alignment.hand_eye)};
+}
+
+/// `given`: of the input; `solved`: of the input or of a corrected one.
+CalibrationInput withoutSensorErrors(const CalibrationInput& input, Recording given, const Solved& solved,
+                                     const SensorErrors& errors) {
+  given.imu = solved.recording.imu;
+  CalibrationInput corrected = input;
+  corrected.ground = withoutLineDelay(input, given, solved.solution.state, errors.line_delay.delay_s);
+  const Eigen::Matrix3d correction = errors.gyro.correction();
+  for (ImuSample& sample : corrected.imu) sample.gyro = correction * sample.gyro;
+  return corrected;
+}
+
 void addWarnings(CalibrationResult& result) {
   if (result.frames < result.frames_given) {
     result.warnings.push_back("used " + std::to_string(result.frames) + " of " +
@@ -150,16 +206,27 @@ CalibrationResult calibrate(const CalibrationInput& input, const std::function<v
   const auto done = [&](double fraction) {
     if (progress) progress(fraction);
   };
-  const Recording recording = prepareRecording(input);
-  done(0.2);
-  const RotationAlignment alignment = alignRotations(rotationsOf(recording), *recording.imu);
+  Solved solved = solve(input);
   done(0.4);
-  const Mounting mounting = mountingFrom(alignment, input);
-  const JointPriors priors = priorsFor(input, mounting);
-  const FlightSolution solution = solveFlight(recording, input, mounting, priors, input.start_height);
-  if (!solution.usable) {
+  if (!solved.solution.usable) {
     throw CalibrationError("the joint problem has no solution: images and IMU are inconsistent");
   }
+  SensorErrors errors = sensorErrors(solved);
+  // The motion that a first line delay is taken out by is still that of the disturbed points.
+  const Recording given = solved.recording;
+  std::array<CalibrationInput, 2> corrected;  // they outlive the recordings that refer to them
+  for (CalibrationInput& next : corrected) {
+    const SensorErrors taken = errors.significant();
+    if (taken.areNone()) break;
+    next = withoutSensorErrors(input, given, solved, taken);
+    Solved again = solve(next);
+    if (!again.solution.usable) break;
+    const SensorErrors rest = sensorErrors(again);
+    errors = taken.with(rest);
+    solved = std::move(again);
+    if (rest.significant().areNone()) break;
+  }
+  const auto& [recording, alignment, solution] = solved;
   done(0.7);
 
   CalibrationResult result;
@@ -174,6 +241,7 @@ CalibrationResult calibrate(const CalibrationInput& input, const std::function<v
   done(0.95);
   result.parameters = parameterReports(result, covariance, input);
   keepOrRefuse(result);
+  addSensorReports(errors.line_delay, errors.gyro, input, result);
   result.diagnostics = diagnose(solution, recording, input, alignment);
   addWarnings(result);
   return result;

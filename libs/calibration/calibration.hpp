@@ -1,7 +1,8 @@
 // Offline camera-IMU calibration, from a flight over flat ground or from views of a known target.
 //
 // Estimated: R_CI, time shift, lever arm, gyro and accelerometer bias, and over ground the height at the
-// first frame and the plane's tilt against gravity. A parameter that the recording does not make observable
+// first frame, the plane's tilt against gravity and a rolling shutter's line delay; and the gyro's scale and
+// misalignment. A parameter that the recording does not make observable
 // is refused: it keeps its nominal value.
 #pragma once
 
@@ -73,6 +74,9 @@ struct CalibratedValues {
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  ///< m/s^2 in I, at the start
   Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();    ///< of the ground's normal, towards G's x and y
   double rotation_sigma_rad = 0;                         ///< of R_CI, about its least certain axis
+  double line_delay_s = 0;                               ///< kept; 0 where a global shutter fits, too
+  /// Kept: turns the gyro's rates, their bias taken off, into true ones; the identity where it fits, too.
+  Eigen::Matrix3d gyro_correction = Eigen::Matrix3d::Identity();
 };
 
 /// Difference of the two halves' estimates and its standard deviation; only of parameters that are observable

@@ -119,7 +119,70 @@ ParameterReport accelBiasReport(const CalibratedValues& values, const JointCovar
   return report;
 }
 
+/// Errors of the read-out's duration that images do not show, and that spoil less than the correction mends.
+constexpr double kFoundReadout_s = 0.001, kWeakReadout_s = 0.004;
+
+ParameterReport lineDelayReport(const LineDelay& delay, const CalibrationInput& input) {
+  ParameterReport report;
+  report.name = "camera.line_delay_s";
+  report.unit = "s";
+  report.value = {delay.delay_s};
+  report.nominal = {input.camera.line_delay_s};
+  report.sigma = {delay.sigma_s};
+  report.worst_sigma = delay.sigma_s;
+  report.found_below = kFoundReadout_s / input.camera.height;
+  report.weak_below = kWeakReadout_s / input.camera.height;
+  if (!input.target.empty()) {
+    report.verdict = Verdict::kNotApplicable;
+    report.explanation = "only a flight over ground shows it";
+    return report;
+  }
+  classify(report, "quick changes of the turning rate over ground that fills the image");
+  return report;
+}
+
+ParameterReport gyroShapeReport(const GyroShape& gyro) {
+  auto report = vectorReport("imu.gyro_correction", "", gyro.shape, Vector6d::Zero(),
+                             Eigen::Matrix<double, 6, 6>(gyro.sigma.cwiseAbs2().asDiagonal()), 1);
+  report.worst_sigma = gyro.worst_sigma;
+  report.found_below = 0.003;
+  report.weak_below = 0.01;
+  classify(report, "strong rotation about all three axes");
+  return report;
+}
+
+bool isEstimated(const ParameterReport& report) {
+  return report.verdict == Verdict::kFound || report.verdict == Verdict::kWeak;
+}
+
 }  // namespace
+
+void addSensorReports(LineDelay delay, GyroShape gyro, const CalibrationInput& input,
+                      CalibrationResult& result) {
+  const double scale = result.halves_sigma_scale * result.misfit_sigma_scale;
+  delay.sigma_s *= scale;
+  gyro.sigma *= scale;
+  gyro.worst_sigma *= scale;
+  ParameterReport shutter = lineDelayReport(delay, input);
+  if (shutter.verdict != Verdict::kNotApplicable) refuseWithoutRotation(shutter, result.excitation);
+  CalibratedValues& values = result.values;
+  values.line_delay_s = input.camera.line_delay_s;
+  if (isEstimated(shutter)) {
+    values.line_delay_s = delay.isSignificant() ? delay.delay_s : 0;
+    if (!delay.isSignificant()) shutter.explanation += "; a global shutter fits";
+  }
+  ParameterReport axes = gyroShapeReport(gyro);
+  refuseWithoutRotation(axes, result.excitation);
+  if (isEstimated(axes)) {
+    if (gyro.isSignificant()) {
+      values.gyro_correction = gyro.correction();
+    } else {
+      axes.explanation += "; axes without an error fit";
+    }
+  }
+  result.parameters.push_back(std::move(shutter));
+  result.parameters.push_back(std::move(axes));
+}
 
 std::vector<ParameterReport> parameterReports(const CalibrationResult& result,
                                               const JointCovariance& covariance,

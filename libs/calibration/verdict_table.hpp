@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "redbee/calibration/calibration.hpp"
+#include "redbee/calibration/gyro_shape.hpp"
 #include "redbee/calibration/joint_problem.hpp"
+#include "redbee/calibration/line_delay.hpp"
 
 namespace redbee::calibration {
 
@@ -12,6 +14,10 @@ namespace redbee::calibration {
 std::vector<ParameterReport> parameterReports(const CalibrationResult& result,
                                               const JointCovariance& covariance,
                                               const CalibrationInput& input);
+/// With the scales of the result's deviations: of the line delay and of the gyro's axes, which are estimated
+/// on their own; after the others.
+void addSensorReports(LineDelay delay, GyroShape gyro, const CalibrationInput& input,
+                      CalibrationResult& result);
 
 /// Fills result.values.kept according to the verdicts.
 void keepOrRefuse(CalibrationResult& result);

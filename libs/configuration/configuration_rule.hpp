@@ -62,9 +62,14 @@ inline const Rule slopeSigma{[](double x) { return x >= 0 && x <= 45; }, "must l
 inline const Rule depression{[](double x) { return x >= 1 && x <= 80; }, "must lie from 1 to 80"};
 inline const Rule cameraMount{[](const std::string& x) { return x == "body" || x == "gimbal"; },
                               "must be body or gimbal"};
+inline const Rule lineDelay{[](double x) { return x >= -1e-3 && x <= 1e-3; },
+                            "must lie from -0.001 to 0.001: the read-out time over the number of rows"};
 inline const Rule mounting{[](double x) { return x >= -10 && x <= 10; }, "must lie from -10 to 10"};
 inline const Rule rotation{[](const Eigen::Matrix3d& R) { return isRotation(R, 1e-5); },
                            "is no rotation: its rows must be orthonormal to 1e-5, its determinant +1"};
+inline const Rule nearIdentity{
+    [](const Eigen::Matrix3d& M) { return (M - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 0.2; },
+    "must lie within 0.2 of the identity: errors of a gyro's axes are a few percent"};
 inline const Rule variances{[](const Vector8d& v) { return (v.array() > 0).all(); },
                             "must be eight variances above 0"};
 inline const Rule channelName{[](const std::string& x) {

@@ -38,8 +38,9 @@ struct FrameInput {
   std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current [px]
   std::optional<Eigen::Matrix3d> front;  ///< the same of the front plane; std::nullopt if there is none
   std::optional<PlaneMotion> motion;     ///< of the camera, from an IMU: rotation, translation, plane
-  cv::Mat1b own_parts;                   ///< 255 where images show the vehicle itself; of `size`, or empty
-  PointTracks tracks;                    ///< tracked sample points, for the entropy of the flow
+  cv::Mat1b own_parts;  ///< 255 where images show the vehicle itself, or nothing (of a rolling
+                        ///< shutter beyond the border); of `size`, or empty
+  PointTracks tracks;   ///< tracked sample points, for the entropy of the flow
   int sample_grid_px = TrackerParameters{}.grid_px;  ///< px between the sample points
 
   cv::Size fullSize() const { return size.empty() ? grey.size() : size; }

@@ -18,6 +18,9 @@ struct CameraIntrinsics {
   /// distortion.
   std::vector<double> distortion = std::vector<double>(5, 0.0);
   std::string model = "radtan";  ///< lens model: a name known to findCameraModel()
+  /// s, from the exposure of one row to that of the row below; 0: global shutter. The middle row is exposed
+  /// at the image's time (rolling_shutter.hpp).
+  double line_delay_s = 0;
 };
 
 }  // namespace redbee

@@ -32,6 +32,7 @@ void setCamera(const CamchainCamera& calibrated, const std::filesystem::path& fi
   // Pixel (0, 0) is the middle of the first pixel, half a pixel from the image's corner.
   camera.cx = scale * (camera.cx + 0.5) - 0.5;
   camera.cy = scale * (camera.cy + 0.5) - 0.5;
+  camera.line_delay_s /= scale;
   vehicle.intrinsics = camera;
   if (calibrated.R_CI) vehicle.R_CI = calibrated.R_CI;
   if (calibrated.p_IC) vehicle.p_IC = calibrated.p_IC;

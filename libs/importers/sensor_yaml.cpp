@@ -145,6 +145,12 @@ CameraIntrinsics cameraIntrinsics(const SensorFile& file, const char* coefficien
   camera.fy = intrinsics[1];
   camera.cx = intrinsics[2];
   camera.cy = intrinsics[3];
+  if (file.has("line_delay_s")) {
+    constexpr double kMost_s = 1e-3;
+    camera.line_delay_s = file.get<double>("line_delay_s");
+    if (!(std::abs(camera.line_delay_s) <= kMost_s))
+      file.fail("line_delay_s", "must lie from -0.001 to 0.001: the read-out time over the number of rows");
+  }
   const auto name =
       file.has("distortion_model") ? file.get<std::string>("distortion_model") : std::string("radtan");
   if (name == "none" || !file.has(coefficients_key)) return camera;

@@ -33,13 +33,17 @@ AltitudeCorrection::AltitudeCorrection(const InertialParameters& parameters)
     : p_IC_(parameters.extrinsics.p_IC),
       gate_(chiSquareQuantile(parameters.innovation_gate_probability, 1)) {}
 
-void AltitudeCorrection::add(const AltitudeSample& sample) {
+bool AltitudeCorrection::add(const AltitudeSample& sample) {
+  const bool is_usable = isPlausibleTime(sample.time) && std::isfinite(sample.height_m) &&
+                         std::isfinite(sample.sigma_m) && sample.sigma_m > 0;
+  if (!is_usable) return false;
   const auto place =
       std::lower_bound(samples_.begin(), samples_.end(), sample.time,
                        [](const AltitudeSample& held, ImuTime time) { return held.time < time; });
-  if (place != samples_.end() && place->time == sample.time) return;
+  if (place != samples_.end() && place->time == sample.time) return true;
   samples_.insert(place, sample);
   if (samples_.size() > kMaxAltitudes) samples_.pop_front();
+  return true;
 }
 
 std::optional<AltitudeSample> AltitudeCorrection::next(ImuTime end) {

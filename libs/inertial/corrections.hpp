@@ -18,7 +18,8 @@ class AltitudeCorrection {
  public:
   explicit AltitudeCorrection(const InertialParameters& parameters);
 
-  void add(const AltitudeSample& sample);
+  /// False for a sample that is not plausible, which is refused.
+  bool add(const AltitudeSample& sample);
   /// Removes and returns the oldest queued sample, if not later than `end`.
   std::optional<AltitudeSample> next(ImuTime end);
   /// Applies samples that arrived late, after the filter had passed their time, propagated with the vertical

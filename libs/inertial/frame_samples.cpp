@@ -18,6 +18,7 @@ constexpr Duration kMemory =
 FrameSamples::FrameSamples(const InertialParameters& parameters)
     : timeshift_(fromSeconds(parameters.extrinsics.timeshift_s)),
       max_gap_s_(parameters.max_imu_gap_s),
+      gyro_correction_(parameters.gyro_correction),
       check_(parameters.imu_limits),
       imu_(parameters.max_frame_gap_s) {}
 
@@ -32,7 +33,9 @@ bool FrameSamples::add(const ImuSample& sample) {
     ++foreign_;
     return true;
   }
-  for (const ImuSample& accepted : check_.filter(sample)) imu_.add(accepted);
+  for (const ImuSample& accepted : check_.filter(sample)) {
+    imu_.add({accepted.time, gyro_correction_ * accepted.gyro, accepted.accel});
+  }
   return true;
 }
 

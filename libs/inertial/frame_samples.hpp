@@ -48,6 +48,7 @@ class FrameSamples {
  private:
   Duration timeshift_;
   double max_gap_s_;
+  Eigen::Matrix3d gyro_correction_;
   ImuRhythm rhythm_;
   int foreign_ = 0;
   bool were_mixed_ = false;

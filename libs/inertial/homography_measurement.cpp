@@ -96,6 +96,13 @@ double cameraHeightSigma(const NavigationState& state, const Eigen::Vector3d& p_
   return std::sqrt((J * state.P * J.transpose()).value());
 }
 
+void keepAboveGround(NavigationState& state, const Eigen::Vector3d& p_IC) {
+  const double missing = kMinCameraHeight - cameraHeight(state, p_IC);
+  if (missing <= 0) return;
+  state.p_GI.z() += missing;
+  state.p_GI_clone.z() += missing;
+}
+
 Eigen::Matrix3d scaledMatrix(const Camera& camera) {
   return ImageScaling(camera.ideal().width, camera.ideal().height).T * camera.K();
 }

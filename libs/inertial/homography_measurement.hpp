@@ -43,6 +43,9 @@ double cameraHeight(const NavigationState& state, const Eigen::Vector3d& p_IC);
 MeasurementJacobian<1> cameraHeightJacobian(const NavigationState& state, const Eigen::Vector3d& p_IC);
 double cameraHeightSigma(const NavigationState& state, const Eigen::Vector3d& p_IC);
 
+/// Lifts a camera that is lower than kMinCameraHeight.
+void keepAboveGround(NavigationState& state, const Eigen::Vector3d& p_IC);
+
 /// K with the image scaling in front: T K.
 Eigen::Matrix3d scaledMatrix(const Camera& camera);
 

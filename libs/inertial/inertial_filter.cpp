@@ -1,12 +1,11 @@
 #include "redbee/inertial/inertial_filter.hpp"
 
-#include <cmath>
-
 #include "redbee/inertial/corrections.hpp"
 #include "redbee/inertial/error_state.hpp"
 #include "redbee/inertial/frame_samples.hpp"
 #include "redbee/inertial/homography_measurement.hpp"
 #include "redbee/inertial/initial_state.hpp"
+#include "redbee/inertial/row_motion.hpp"
 #include "redbee/inertial/vision_agreement.hpp"
 
 namespace redbee {
@@ -37,31 +36,16 @@ class InertialFilter::Implementation {
   bool addImu(const ImuSample& sample) { return samples_.add(sample); }
   int takeForeignSamples() { return samples_.takeForeign(); }
 
-  bool addAltitude(const AltitudeSample& sample) {
-    const bool usable = isPlausibleTime(sample.time) && std::isfinite(sample.height_m) &&
-                        std::isfinite(sample.sigma_m) && sample.sigma_m > 0;
-    if (usable) altitude_.add(sample);
-    return usable;
+  bool addAltitude(const AltitudeSample& sample) { return altitude_.add(sample); }
+
+  bool covers(CameraTime frame) const {
+    return samples_.cover(frame + fromSeconds(halfReadout(camera_.intrinsics())));
   }
 
-  bool covers(CameraTime frame) const { return samples_.cover(frame); }
-
   InertialHomography advanceTo(CameraTime frame) {
-    if (!isPlausibleTime(frame) || (frame_ && frame == *frame_)) {
-      return nothing(frame_.value_or(frame), frame, InertialStatus::kClockJump);
-    }
-    if (samples_.takeWereMixed()) {
-      agreement_ = VisionAgreement();
-      return startAfresh(frame);
-    }
-    if (!frame_) return start(frame, InertialStatus::kInitialising);
-    const double interval = seconds(frame - *frame_);
-    if (interval < 0 || interval > parameters_.max_frame_gap_s) {
-      return start(frame, InertialStatus::kClockJump);
-    }
-    if (samples_.empty()) return coast(frame);
-    const ImuSpan span = samples_.span(samples_.imuTime(*frame_), samples_.imuTime(frame));
-    return FrameSamples::isMissing(span) ? coast(frame) : move(frame, span);
+    InertialHomography result = stepTo(frame);
+    result.row_motion = rowMotionAt(frame);
+    return result;
   }
 
   CorrectionReport correct(const HomographyObservation& observation) {
@@ -72,7 +56,7 @@ class InertialFilter::Implementation {
     const NavigationState before = *state_;
     const CorrectionReport report = vision_.correct(*state_, observation, camera_, p_IC());
     corrected_ = report.applied;
-    keepAboveGround();
+    keepAboveGround(*state_, p_IC());
     if (!isValid(*state_)) {
       state_ = before;
       return {};
@@ -102,6 +86,30 @@ class InertialFilter::Implementation {
 
  private:
   const Eigen::Vector3d& p_IC() const { return parameters_.extrinsics.p_IC; }
+
+  InertialHomography stepTo(CameraTime frame) {
+    if (!isPlausibleTime(frame) || (frame_ && frame == *frame_)) {
+      return nothing(frame_.value_or(frame), frame, InertialStatus::kClockJump);
+    }
+    if (samples_.takeWereMixed()) {
+      agreement_ = VisionAgreement();
+      return startAfresh(frame);
+    }
+    if (!frame_) return start(frame, InertialStatus::kInitialising);
+    const double interval = seconds(frame - *frame_);
+    if (interval < 0 || interval > parameters_.max_frame_gap_s) {
+      return start(frame, InertialStatus::kClockJump);
+    }
+    if (samples_.empty()) return coast(frame);
+    const ImuSpan span = samples_.span(samples_.imuTime(*frame_), samples_.imuTime(frame));
+    return FrameSamples::isMissing(span) ? coast(frame) : move(frame, span);
+  }
+
+  std::optional<RowMotion> rowMotionAt(CameraTime frame) const {
+    const double half_s = halfReadout(camera_.intrinsics());
+    if (half_s == 0 || !state_ || frame_ != frame || !agreement_.agrees()) return std::nullopt;
+    return rowMotion(*state_, p_IC(), samples_, frame, fromSeconds(half_s));
+  }
 
   InertialHomography start(CameraTime frame, InertialStatus status) {
     InertialHomography result = nothing(frame_.value_or(frame), frame, status);
@@ -184,7 +192,7 @@ class InertialFilter::Implementation {
       altitude_.correct(*state_, *altitude, 0);
     }
     integrateTo(time, end);
-    keepAboveGround();
+    keepAboveGround(*state_, p_IC());
     samples_.eraseBefore(frame);
     previous_frame_ = frame_;
     frame_ = frame;
@@ -198,13 +206,6 @@ class InertialFilter::Implementation {
     for (std::size_t i = 1; i < span.knots.size(); ++i) {
       propagate(*state_, span.knots[i - 1], span.knots[i], propagation_);
     }
-  }
-
-  void keepAboveGround() {
-    const double missing = kMinCameraHeight - cameraHeight(*state_, p_IC());
-    if (missing <= 0) return;
-    state_->p_GI.z() += missing;
-    state_->p_GI_clone.z() += missing;
   }
 
   InertialParameters parameters_;

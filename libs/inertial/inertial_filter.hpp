@@ -29,8 +29,11 @@ struct InertialParameters {
   InertialExtrinsics extrinsics;
   ImuNoise noise;
   ImuSampleLimits imu_limits;
-  double gravity = 9.81;                                 ///< m/s^2
-  double start_velocity_sigma = 3.0;                     ///< m/s: of the drone's velocity at the first frame
+  double gravity = 9.81;              ///< m/s^2
+  double start_velocity_sigma = 3.0;  ///< m/s: of the drone's velocity at the first frame
+  /// Turns measured rates into those of a gyro with axes of equal scale at right angles; biases are of its
+  /// result.
+  Eigen::Matrix3d gyro_correction = Eigen::Matrix3d::Identity();
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   ///< rad/s: prior mean
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  ///< m/s^2
   double gyro_bias_sigma = 0.01;                         ///< rad/s: turn-on bias of the gyro
@@ -93,7 +96,7 @@ class InertialFilter {
   /// Samples of a second IMU, which were not used, since the last call.
   int takeForeignSamples();
 
-  /// True if the samples reach the exposure of this frame.
+  /// True if the samples reach the exposure of this frame's last row.
   bool covers(CameraTime frame) const;
 
   /// Advances the filter to this frame and returns the motion since the last one. Invalid times are reported

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/rolling_shutter.hpp"
 #include "redbee/geometry/time.hpp"
 
 namespace redbee {
@@ -33,6 +35,9 @@ struct InertialHomography {
   Eigen::Vector3d direction_of_gravity = Eigen::Vector3d::Zero();  ///< unit, down, in camera frame b
   double height_m = 0;                                             ///< of camera b above the ground plane
   double height_sigma_m = 0;
+  /// During the read-out of frame b, whether `valid` or not; std::nullopt for a global shutter, without IMU
+  /// samples, and while vision contradicts the IMU.
+  std::optional<RowMotion> row_motion;
 };
 
 }  // namespace redbee

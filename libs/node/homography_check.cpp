@@ -51,6 +51,16 @@ const char* faultOf(const plane_motion_t& m) {
                      {m.distance > 0 && isFrom(0, m.distance, kMaxLength_m), "distance"}});
 }
 
+const char* faultOf(const row_motion_t& m) {
+  if (m.valid == 0) return nullptr;
+  return firstFault({{isFlag(m.valid), "flag"},
+                     {areFrom(-kMaxRotationRate, m.rate, kMaxRotationRate), "rotation rate of the rows"},
+                     {areFrom(-kMaxRotationAcceleration, m.acceleration, kMaxRotationAcceleration),
+                      "rotation acceleration of the rows"},
+                     {areFrom(-kMaxSpeed_m_s, m.velocity, kMaxSpeed_m_s), "velocity of the rows"},
+                     {isUnit(m.normal), "normal of the rows"}});
+}
+
 const char* faultOf(const tracks_t& m) {
   const auto n = static_cast<size_t>(std::max(0, m.n));
   const auto is_inside = [](const std::vector<float>& values) {
@@ -81,7 +91,7 @@ const char* faultOf(const inertial_homography_t& m) {
        {isFlag(m.valid), "flag"},
        {hasImageSize(m), "image size"},
        {isFrom(0, m.feedback_test_ratio, kMaxTestRatio), "test ratio"}});
-  fault = firstOf(fault, faultOf(m.earlier));
+  fault = firstOf(fault, firstOf(faultOf(m.row_motion), faultOf(m.earlier)));
   if (fault != nullptr || m.valid == 0) return fault;
   fault = firstFault({{isCovariance(m.rotation_covariance), "covariance"},
                       {isUnit(m.down), "direction of gravity"},
@@ -124,6 +134,7 @@ const char* faultOf(const fused_homography_t& m) {
              isFrom(0, m.test_ratio, kMaxTestRatio)),
         "innovation"}});
   fault = firstOf(fault, firstOf(faultOf(m.step), firstOf(faultOf(m.anchor), faultOf(m.tracks))));
+  fault = firstOf(fault, faultOf(m.row_motion));
   if (fault == nullptr && m.has_observation != 0) fault = faultOf(m.observed);
   if (fault == nullptr && m.has_motion != 0) fault = faultOf(m.motion);
   return fault;

@@ -35,6 +35,7 @@ const char* faultOf(const lens_t& message);
 const char* faultOf(const plane_motion_t& message);
 const char* faultOf(const pose_t& message);
 const char* faultOf(const process_health_t& message);
+const char* faultOf(const row_motion_t& message);
 const char* faultOf(const target_t& message);
 const char* faultOf(const targets_t& message);
 const char* faultOf(const tracks_t& message);

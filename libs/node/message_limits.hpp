@@ -13,16 +13,17 @@
 
 namespace redbee::message_limits {
 
-constexpr double kMaxLength_m = 1e5;        ///< heights, distances, steps
-constexpr double kMaxSpeed_m_s = 1e4;       ///< m/s
-constexpr double kMaxRotationRate = 300;    ///< rad/s; gyros end at 70
-constexpr double kMaxAcceleration = 1e4;    ///< m/s^2; accelerometers end at 4000
-constexpr double kMaxSigma = 1e6;           ///< of any quantity, in its unit
-constexpr double kMaxTestRatio = 1e24;      ///< of a test that a diverged filter fails
-constexpr double kMaxEntry = 1e9;           ///< of a homography in pixels
-constexpr double kMaxCoordinate_px = 1e5;   ///< no image is larger
-constexpr int32_t kMaxImageSide = 1 << 15;  ///< px
-constexpr int32_t kMaxPoints = 1 << 20;     ///< tracks, inliers
+constexpr double kMaxLength_m = 1e5;              ///< heights, distances, steps
+constexpr double kMaxSpeed_m_s = 1e4;             ///< m/s
+constexpr double kMaxRotationRate = 300;          ///< rad/s; gyros end at 70
+constexpr double kMaxRotationAcceleration = 1e6;  ///< rad/s^2
+constexpr double kMaxAcceleration = 1e4;          ///< m/s^2; accelerometers end at 4000
+constexpr double kMaxSigma = 1e6;                 ///< of any quantity, in its unit
+constexpr double kMaxTestRatio = 1e24;            ///< of a test that a diverged filter fails
+constexpr double kMaxEntry = 1e9;                 ///< of a homography in pixels
+constexpr double kMaxCoordinate_px = 1e5;         ///< no image is larger
+constexpr int32_t kMaxImageSide = 1 << 15;        ///< px
+constexpr int32_t kMaxPoints = 1 << 20;           ///< tracks, inliers
 constexpr int32_t kMaxDetections = 1 << 14;
 constexpr std::size_t kMaxText = 1024;
 constexpr double kUnitTolerance = 1e-6;   ///< of unit vectors and rotations

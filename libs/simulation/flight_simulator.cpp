@@ -42,12 +42,31 @@ double FlightSimulator::exposureTime(int k) const {
   return seconds(frameTime(k) - CameraTime(scenario_.start)) + scenario_.extrinsics.timeshift_s;
 }
 
-CameraPose FlightSimulator::pose(int k) const {
-  return cameraPose(scenario_.trajectory.at(exposureTime(k)), scenario_.extrinsics);
+CameraPose FlightSimulator::poseAt(double t_s) const {
+  return cameraPose(scenario_.trajectory.at(t_s), scenario_.extrinsics);
+}
+
+CameraPose FlightSimulator::pose(int k) const { return poseAt(exposureTime(k)); }
+
+RowMotion FlightSimulator::rowMotion(int k) const {
+  constexpr double kStep_s = 1e-4;
+  const double t_s = exposureTime(k);
+  const CameraPose at = pose(k);
+  const auto rateAt = [&](double when_s) -> Eigen::Vector3d {
+    return scenario_.extrinsics.R_CI * scenario_.trajectory.at(when_s).omega_I;
+  };
+  RowMotion motion;
+  motion.rate = rateAt(t_s);
+  motion.acceleration = (rateAt(t_s + kStep_s) - rateAt(t_s - kStep_s)) / (2 * kStep_s);
+  const Eigen::Vector3d velocity = (poseAt(t_s + kStep_s).p_GC - poseAt(t_s - kStep_s).p_GC) / (2 * kStep_s);
+  motion.velocity = at.R_CG * velocity / at.p_GC.z();
+  motion.normal = -at.R_CG.col(2);
+  return motion;
 }
 
 SimulatedFrame FlightSimulator::frame(int k) const {
-  return {frameTime(k), renderer_.render(pose(k), exposureTime(k), static_cast<unsigned>(k))};
+  return {frameTime(k), renderer_.render([this](double t_s) { return poseAt(t_s); }, exposureTime(k),
+                                         static_cast<unsigned>(k))};
 }
 
 Eigen::Matrix3d FlightSimulator::homography(int k) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/rolling_shutter.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/simulation/imu_simulator.hpp"
@@ -53,10 +54,14 @@ class FlightSimulator {
   /// Any k >= 0, in any order; frame k is always the same.
   SimulatedFrame frame(int k) const;
   CameraTime frameTime(int k) const;
-  double exposureTime(int k) const;  ///< trajectory time [s]
-  CameraPose pose(int k) const;
+  double exposureTime(int k) const;  ///< trajectory time [s]; with a rolling shutter of the middle row
+  CameraPose pose(int k) const;      ///< at that time
+  CameraPose poseAt(double t_s) const;
+  /// True motion during the read-out of frame k.
+  RowMotion rowMotion(int k) const;
 
-  /// Exact homography of the ground, ideal pixels of frame k-1 to those of frame k. Identity for k = 0.
+  /// Exact homography of the ground between exposureTime(k - 1) and exposureTime(k), ideal pixels. Identity
+  /// for k = 0.
   Eigen::Matrix3d homography(int k) const;
   /// The same for the plane of a static patch (index in scene.patches). Throws std::invalid_argument for a
   /// moving patch.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/rolling_shutter.hpp"
 #include "redbee/simulation/plane_view.hpp"
 #include "redbee/simulation/wave_field.hpp"
 
@@ -32,18 +33,50 @@ class Renderer::Implementation {
     for (const Patch& patch : scene_.patches) addSurface(patch.material);
   }
 
-  RenderedImage render(const CameraPose& pose, double t_s, unsigned index) const {
+  RenderedImage render(const PoseAt& pose_at, double t_s, unsigned index) const {
     RenderedImage image;
-    const std::vector<PlaneView> views = planeViews(pose, t_s);
-    image.surface = nearestSurfaces(views, pose, t_s);
+    const std::vector<SceneView> rows = viewsOfRows(pose_at, t_s);
+    image.surface = nearestSurfaces(rows);
     labelMovers(image, t_s);
-    const cv::Mat light = shade(views, image.surface, t_s);
+    const cv::Mat light = shade(rows, image.surface);
     image.grey = expose(light, t_s, index);
     if (sensor_.colour) image.bgr = expose(coloured(light, image.surface), t_s, index);
     return image;
   }
 
  private:
+  /// The scene at the time of one row, or of all of them.
+  struct SceneView {
+    double t_s;
+    CameraPose pose;
+    std::vector<PlaneView> planes;  ///< the ground's first, then the patches'
+    std::vector<std::optional<WaveField>> waves;
+  };
+
+  std::vector<SceneView> viewsOfRows(const PoseAt& pose_at, double t_s) const {
+    const CameraIntrinsics& camera = camera_.intrinsics();
+    const int rows = camera.line_delay_s == 0 ? 1 : camera.height;
+    std::vector<SceneView> views;
+    for (int row = 0; row < rows; ++row) {
+      const double at_s = t_s + (rows == 1 ? 0 : rowTime(camera, row));
+      const CameraPose pose = pose_at(at_s);
+      views.push_back({at_s, pose, planeViews(pose, at_s), wavesAt(at_s)});
+    }
+    return views;
+  }
+
+  static const SceneView& viewOf(const std::vector<SceneView>& rows, int row) {
+    return rows.size() == 1 ? rows.front() : rows[static_cast<size_t>(row)];
+  }
+
+  std::vector<std::optional<WaveField>> wavesAt(double t_s) const {
+    std::vector<std::optional<WaveField>> waves(scene_.patches.size() + 1);
+    for (size_t i = 0; i < scene_.patches.size(); ++i) {
+      if (scene_.patches[i].waving) waves[i + 1].emplace(*scene_.patches[i].waving, t_s);
+    }
+    return waves;
+  }
+
   void precomputeRays() {
     const CameraIntrinsics& size = camera_.intrinsics();
     const CameraIntrinsics& ideal = camera_.ideal();
@@ -64,26 +97,26 @@ class Renderer::Implementation {
   }
 
   std::vector<PlaneView> planeViews(const CameraPose& pose, double t_s) const {
-    std::vector<PlaneView> views{
-        viewOf(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), pose)};
+    std::vector<PlaneView> views{simulation::viewOf(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(),
+                                                    Eigen::Vector3d::UnitY(), pose)};
     for (const Patch& patch : scene_.patches) {
-      views.push_back(viewOf(centreAt(patch, t_s), patch.axis_u, patch.axis_v, pose));
+      views.push_back(simulation::viewOf(centreAt(patch, t_s), patch.axis_u, patch.axis_v, pose));
     }
     return views;
   }
 
-  cv::Mat nearestSurfaces(const std::vector<PlaneView>& views, const CameraPose& pose, double t_s) const {
+  cv::Mat nearestSurfaces(const std::vector<SceneView>& rows) const {
     cv::Mat_<uchar> surface(rays_.size());
     cv::Mat_<float> inverse_depth(rays_.size());
-    layGround(views.front(), surface, inverse_depth);
-    for (size_t i = 0; i < scene_.patches.size(); ++i) {
-      layPatch(i, views[i + 1], boxOf(scene_.patches[i], pose, t_s, camera_), surface, inverse_depth);
-    }
+    layGround(rows, surface, inverse_depth);
+    for (size_t i = 0; i < scene_.patches.size(); ++i) layPatch(i, rows, surface, inverse_depth);
     return surface;
   }
 
-  void layGround(const PlaneView& view, cv::Mat_<uchar>& surface, cv::Mat_<float>& inverse_depth) const {
+  void layGround(const std::vector<SceneView>& rows, cv::Mat_<uchar>& surface,
+                 cv::Mat_<float>& inverse_depth) const {
     for (int y = 0; y < rays_.rows; ++y) {
+      const PlaneView& view = viewOf(rows, y).planes.front();
       for (int x = 0; x < rays_.cols; ++x) {
         const cv::Vec2f& ray = rays_(y, x);
         const float q = view.Q.x() * ray[0] + view.Q.y() * ray[1] + view.Q.z();
@@ -93,12 +126,20 @@ class Renderer::Implementation {
     }
   }
 
-  void layPatch(size_t index, const PlaneView& view, const cv::Rect& box, cv::Mat_<uchar>& surface,
+  /// Box of a patch in the image: the whole image with a rolling shutter.
+  cv::Rect boxIn(const Patch& patch, const std::vector<SceneView>& rows) const {
+    if (rows.size() > 1) return {0, 0, rays_.cols, rays_.rows};
+    return boxOf(patch, rows.front().pose, rows.front().t_s, camera_);
+  }
+
+  void layPatch(size_t index, const std::vector<SceneView>& rows, cv::Mat_<uchar>& surface,
                 cv::Mat_<float>& inverse_depth) const {
     const Patch& patch = scene_.patches[index];
+    const cv::Rect box = boxIn(patch, rows);
     const auto half_width = static_cast<float>(patch.width_m / 2),
                half_height = static_cast<float>(patch.height_m / 2);
     for (int y = box.y; y < box.br().y; ++y) {
+      const PlaneView& view = viewOf(rows, y).planes[index + 1];
       for (int x = box.x; x < box.br().x; ++x) {
         const Eigen::Vector3f ray(rays_(y, x)[0], rays_(y, x)[1], 1);
         const float q = view.Q.dot(ray);
@@ -125,17 +166,14 @@ class Renderer::Implementation {
     cv::LUT(image.surface, id_of, image.id);
   }
 
-  cv::Mat shade(const std::vector<PlaneView>& views, const cv::Mat_<uchar>& surface, double t_s) const {
-    std::vector<std::optional<WaveField>> waves(views.size());
-    for (size_t i = 0; i < scene_.patches.size(); ++i) {
-      if (scene_.patches[i].waving) waves[i + 1].emplace(*scene_.patches[i].waving, t_s);
-    }
+  cv::Mat shade(const std::vector<SceneView>& rows, const cv::Mat_<uchar>& surface) const {
     cv::Mat_<float> light(surface.size());
     for (int y = 0; y < surface.rows; ++y) {
+      const SceneView& view = viewOf(rows, y);
       for (int x = 0; x < surface.cols; ++x) {
         const size_t i = surface(y, x);
         light(y, x) = i == kSurfaceSky ? static_cast<float>(scene_.sky_grey)
-                                       : shadePixel(views[i], waves[i], textures_[i], rays_(y, x));
+                                       : shadePixel(view.planes[i], view.waves[i], textures_[i], rays_(y, x));
       }
     }
     return light;
@@ -201,8 +239,8 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-RenderedImage Renderer::render(const CameraPose& pose, double t_s, unsigned index) const {
-  return implementation_->render(pose, t_s, index);
+RenderedImage Renderer::render(const PoseAt& pose_at, double t_s, unsigned index) const {
+  return implementation_->render(pose_at, t_s, index);
 }
 
 }  // namespace redbee::simulation

@@ -1,6 +1,7 @@
 // Renders images of a scene, with one ray through each raw pixel's centre.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 
@@ -40,8 +41,11 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Renders the scene at t_s. The same arguments give the same image; `index` seeds the noise.
-  RenderedImage render(const CameraPose& pose, double t_s, unsigned index) const;
+  /// Pose of the camera at a time of the trajectory [s].
+  using PoseAt = std::function<CameraPose(double t_s)>;
+  /// Renders the scene at t_s, with a rolling shutter each row at its own time (camera_intrinsics.hpp),
+  /// labels alike. The same arguments give the same image; `index` seeds the noise.
+  RenderedImage render(const PoseAt& pose_at, double t_s, unsigned index) const;
 
  private:
   class Implementation;

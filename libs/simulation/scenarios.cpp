@@ -119,4 +119,15 @@ Scenario walkers(unsigned seed) {
   return s;
 }
 
+Scenario briskWalkers(unsigned seed) {
+  Scenario s = walkers(seed);
+  s.trajectory = Trajectory::brisk(seed, 6);
+  return s;
+}
+
+Scenario withRollingShutter(Scenario scenario, double readout_s) {
+  scenario.intrinsics.line_delay_s = readout_s / scenario.intrinsics.height;
+  return scenario;
+}
+
 }  // namespace redbee::simulation

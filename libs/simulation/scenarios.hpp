@@ -24,5 +24,9 @@ inline constexpr size_t kPondPatch = 0;
 Scenario calibrationFlight(unsigned seed);
 /// Grass and five pedestrians; the first one pauses from 3 s to 5 s.
 Scenario walkers(unsigned seed);
+/// The same over a drone that turns briskly (Trajectory::brisk).
+Scenario briskWalkers(unsigned seed);
+/// The same flight with a rolling shutter of this read-out time [s].
+Scenario withRollingShutter(Scenario scenario, double readout_s);
 
 }  // namespace redbee::simulation

@@ -99,6 +99,15 @@ Trajectory Trajectory::ordinary(unsigned seed, double height_m) {
   return Trajectory(p);
 }
 
+Trajectory Trajectory::brisk(unsigned seed, double height_m) {
+  ChannelMaker make(seed);
+  TrajectoryParameters p = ordinary(seed, height_m).parameters_;
+  p.yaw_pitch_roll[0] = make.channel(0, 0, {radians(12), radians(6)}, 0.3, 1.0);
+  p.yaw_pitch_roll[1] = make.channel(0, 0, {radians(4), radians(2)}, 0.3, 1.0);
+  p.yaw_pitch_roll[2] = make.channel(0, 0, {radians(4), radians(2)}, 0.3, 1.0);
+  return Trajectory(p);
+}
+
 Trajectory Trajectory::calibration(unsigned seed, double height_m) {
   ChannelMaker make(seed);
   TrajectoryParameters p;

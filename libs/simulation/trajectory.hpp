@@ -44,6 +44,8 @@ class Trajectory {
   /// Ordinary flight along +x of G: one to three metres a second, turns within 10 degrees about all axes. The
   /// mean tilt of the camera is in its mounting (R_CI). The same seed gives the same flight.
   static Trajectory ordinary(unsigned seed, double height_m);
+  /// The same path with brisk turns, up to some 70 degrees a second.
+  static Trajectory brisk(unsigned seed, double height_m);
   /// Strong rotation about all axes (25 degrees, 0.3 to 1 Hz) over flat ground, for calibration.
   static Trajectory calibration(unsigned seed, double height_m);
 

@@ -115,6 +115,7 @@ void HomographyFusionNode::fuse(CameraTime time) {
   }
   if (inertial != nullptr) health().setCalibration(calibration_.status());
   fused_homography_t message = messageOf(fused);
+  if (inertial != nullptr) message.row_motion = inertial->row_motion;
   if (visual != nullptr) addTracked(message, *visual, fused);
   const bool has_motion = inertial_input && inertial->motion.distance > 0;  // a restored message has none
   if (has_motion && inertial_input->time_previous == fused.time_previous) {

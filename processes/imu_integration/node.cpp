@@ -159,6 +159,7 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
     fill(message.gyro_bias, state->gyro_bias);
     fill(message.accel_bias, state->accel_bias);
   }
+  fill(message.row_motion, result.row_motion);
   message.feedback_test_ratio = feedback_report_.test_ratio;
   message.earlier = earlier_;
   publish(configuration_.channels.inertial_homography, message);

@@ -152,12 +152,12 @@ void MotionSegmentationNode::work(const image_t& message) {
     noteResultReady();
     updateState(DetectorStatus::kNoHomography, false);
     return publishOutput(message, input,
-                         DetectorOutput::empty(input.time, input.size, DetectorStatus::kNoHomography));
+                         DetectorOutput::empty(input.time, input.size, DetectorStatus::kNoHomography), {});
   }
-  decodeInto(input, message);
+  const std::optional<RowMotion> row_motion = decodeInto(input, message);
   const DetectorOutput output = detector_->step(input);
   noteResultReady();
-  publishOutput(message, input, output);
+  publishOutput(message, input, output, row_motion);
   updateState(output.status, fused != nullptr);
   last_ = input.time;
   // This frame's messages link the next one; earlier ones do where some were lost.
@@ -166,20 +166,25 @@ void MotionSegmentationNode::work(const image_t& message) {
   visual_.eraseBefore(timeOf(message) - kLinking);
 }
 
-void MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {
+std::optional<RowMotion> MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {
   const bool is_colour = needs_.colour && message.pixelformat != image_t::GRAY;
-  const IdealImage image = camera_.ideal(message, is_colour, health());
+  const fused_homography_t* fused = companions().find(input.time);
+  const IdealImage image = camera_.ideal(message, is_colour, health(),
+                                         fused == nullptr ? std::nullopt : rowMotionOf(fused->row_motion));
   input.grey = image.grey;
   input.colour = image.colour;
   if (needs_.colour && !is_colour && !input.grey.empty()) {
     cv::cvtColor(input.grey, input.colour, cv::COLOR_GRAY2BGR);
   }
+  if (image.row_motion) input.own_parts = camera_.rectifier().ownParts(image.row_motion);
+  return image.row_motion;
 }
 
 void MotionSegmentationNode::publishOutput(const image_t& message, const FrameInput& input,
-                                           DetectorOutput output) {
+                                           DetectorOutput output,
+                                           const std::optional<RowMotion>& row_motion) {
   for (Detection& detection : output.detections) detection.id = identities_.globalId(detection.id);
-  foreground_.publish(message, input.time_previous, std::move(output));
+  foreground_.publish(message, input.time_previous, std::move(output), row_motion);
 }
 
 void MotionSegmentationNode::updateState(DetectorStatus status, bool has_fused) {

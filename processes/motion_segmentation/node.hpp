@@ -49,9 +49,11 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   /// The homography from the last processed frame, by the fused homographies alone: asked for again and again
   /// while a frame waits, computed once for what has arrived.
   std::optional<Eigen::Matrix3d> fusedPathTo(CameraTime frame);
-  /// Leaves the images empty if the message cannot be decoded to the camera's size.
-  void decodeInto(FrameInput& input, const image_t& message);
-  void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output);
+  /// Leaves the images empty if the message cannot be decoded to the camera's size. Returns the rows' motion
+  /// that was taken out.
+  std::optional<RowMotion> decodeInto(FrameInput& input, const image_t& message);
+  void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output,
+                     const std::optional<RowMotion>& row_motion);
   void updateState(DetectorStatus status, bool has_fused);
   void reset(CameraTime newest) override;
 

@@ -25,6 +25,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
 void VisualHomographyNode::reset(CameraTime) {
   estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unknown());
   earlier_ = {};
+  row_motion_.reset();
 }
 
 std::optional<HomographyPrediction> VisualHomographyNode::prediction(CameraTime time) const {
@@ -52,12 +53,18 @@ void VisualHomographyNode::work(const image_t& message) {
   }
   const CameraTime time = timeOf(message);
   const auto predicted = prediction(time);
-  const VisualHomography result = estimator_->step(time, rectifier_.toIdeal(*grey), predicted);
+  const VisualHomography result = estimator_->step(time, rectified(*grey, time), predicted);
   noteResultReady();
   publishResult(result);
   // After an image without tracks the next one is tracked from an earlier frame, so inertial messages since
   // then are still needed.
   companions().eraseThrough(estimator_->previousTime().value_or(time));
+}
+
+cv::Mat1b VisualHomographyNode::rectified(const cv::Mat1b& raw, CameraTime time) {
+  const inertial_homography_t* inertial = companions().find(time);
+  const auto measured = inertial == nullptr ? std::nullopt : rowMotionOf(inertial->row_motion);
+  return rectifier_.toIdeal(raw, row_motion_.of(raw, measured));
 }
 
 void VisualHomographyNode::publishNone(CameraTime frame, int8_t status) {

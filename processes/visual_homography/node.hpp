@@ -8,6 +8,7 @@
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/earlier_step_t.hpp"
 #include "redbee/image_t.hpp"
+#include "redbee/imaging/image_row_motion.hpp"
 #include "redbee/imaging/rectifier.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/node/image_stage.hpp"
@@ -29,6 +30,7 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
   /// So that nobody waits for the homography.
   void noteLeftOut(CameraTime frame) override;
   void noteMissing(CameraTime frame) override;
+  cv::Mat1b rectified(const cv::Mat1b& raw, CameraTime time);
   void publishNone(CameraTime frame, int8_t status);
   void publishResult(const VisualHomography& result);
   void reset(CameraTime newest) override;
@@ -36,6 +38,7 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
   Configuration configuration_;
   Camera camera_;
   Rectifier rectifier_;
+  ImageRowMotion row_motion_;
   std::unique_ptr<VisualHomographyEstimator> estimator_;
   earlier_step_t earlier_{};  ///< of the message before
 };

@@ -48,12 +48,12 @@ TEST(ConfigurationCoverage, EveryParameterHasAKey) {
 TEST(ConfigurationCoverage, EveryParameterBesideANestedStructHasAKey) {
   const size_t nested_visual = 2;  // tracker, ransac
   EXPECT_EQ(keysIn("visual"), fieldCount<VisualParameters>() - nested_visual);
-  // The biases stand with the IMU's noise; the extrinsics with camera and plane.
+  // The biases and the gyro's axes stand with the IMU's noise; the extrinsics with camera and plane.
   const size_t nested_inertial = 3;  // extrinsics, noise, limits
-  const size_t biases = 4;
-  EXPECT_EQ(keysIn("inertial") + biases, fieldCount<InertialParameters>() - nested_inertial);
+  const size_t errors = 5;
+  EXPECT_EQ(keysIn("inertial") + errors, fieldCount<InertialParameters>() - nested_inertial);
   const size_t presence = 1;
-  EXPECT_EQ(keysIn("imu"), presence + biases + fieldCount<ImuNoise>() + fieldCount<ImuSampleLimits>());
+  EXPECT_EQ(keysIn("imu"), presence + errors + fieldCount<ImuNoise>() + fieldCount<ImuSampleLimits>());
 }
 
 Configuration validConfiguration() {
@@ -94,7 +94,8 @@ const std::vector<std::string>& values() {
       "equidistant", "paper", "propagated", "two_planes", "parallax", "udp:127.0.0.1:14540", "/etc/redbee/key",
       "127.0.0.1:8080",
       "[0.125, 0.25, 0.375]", "[0.125, 0.25, 0.375, 0.5, 0.625]",
-      "[0, -1, 0, 1, 0, 0, 0, 0, 1]", "[1, 2, 3, 4, 5, 6, 7, 8]"};
+      "[0, -1, 0, 1, 0, 0, 0, 0, 1]", "[1, 2, 3, 4, 5, 6, 7, 8]",
+      "0.0009765625", "[1, 0.125, 0, 0.125, 1, 0, 0, 0, 1]"};
   // clang-format on
   return all;
 }

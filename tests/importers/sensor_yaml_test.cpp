@@ -99,6 +99,24 @@ TEST_F(CamchainTest, AnotherAspectRatioIsRefusedAndLeavesNoLog) {
   EXPECT_FALSE(fs::exists(log()));
 }
 
+TEST_F(CamchainTest, ARollingShuttersLineDelayReachesTheVehicleFile) {
+  const fs::path sensor = mav() / "cam0" / "sensor.yaml";
+  const std::string text = readText(sensor);
+  EXPECT_EQ(readCameraSensor(sensor).intrinsics.line_delay_s, 0);
+  writeText(sensor, text + "line_delay_s: 5.2e-05\n");
+  const CameraIntrinsics camera = readCameraSensor(sensor).intrinsics;
+  EXPECT_EQ(camera.line_delay_s, 5.2e-05);
+  VehicleDescription vehicle;
+  vehicle.name = "rolling";
+  vehicle.width = camera.width;
+  vehicle.height = camera.height;
+  vehicle.intrinsics = camera;
+  EXPECT_EQ(loadConfiguration(writeVehicleFile(vehicle, log())).camera.line_delay_s, 5.2e-05);
+  writeText(sensor, text + "line_delay_s: 25\n");
+  EXPECT_NE(errorMessageOf([&] { readCameraSensor(sensor); }).find("line_delay_s: must lie from"),
+            std::string::npos);
+}
+
 TEST_F(CamchainTest, AFisheyeOfTheAslLayout) {
   const fs::path sensor = mav() / "cam0" / "sensor.yaml";
   std::string text = readText(sensor);

@@ -4,11 +4,15 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <random>
+#include <utility>
 
 #include "redbee/calibration/calibration.hpp"
 #include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/so3.hpp"
+#include "redbee/simulation/camera_pose.hpp"
 #include "redbee/simulation/scenarios.hpp"
 #include "redbee/simulation/trajectory.hpp"
 #include "tests/support/consumer_imu.hpp"
@@ -33,6 +37,9 @@ struct RecordingOptions {
   bool altimeter = false;
   double height_m = 6;
   int grid_px = 32;
+  double readout_s = 0;  ///< of a rolling shutter
+  /// Measured rates are these times the true ones.
+  Eigen::Matrix3d gyro_axes = Eigen::Matrix3d::Identity();
 };
 
 inline Eigen::Vector3d randomDirection(std::mt19937& random) {
@@ -65,23 +72,51 @@ class PointNoise {
   std::array<Eigen::Vector2d, 4> common_{};
 };
 
-inline PointTracks simulatedPoints(const Eigen::Matrix3d& H, const CameraIntrinsics& camera, int grid_px,
-                                   PointNoise& noise) {
+/// `move`: from a pixel to where the next frame shows the same ground, std::nullopt if it does not.
+template <typename Move>
+PointTracks simulatedPoints(const Move& move, const CameraIntrinsics& camera, int grid_px,
+                            PointNoise& noise) {
   PointTracks tracks;
   noise.beginPair();
   for (int v = grid_px / 2; v < camera.height; v += grid_px) {
     for (int u = grid_px / 2; u < camera.width; u += grid_px) {
       ++tracks.sampled;
-      const Eigen::Vector3d y = H * Eigen::Vector3d(u, v, 1);
-      if (y.z() <= 0) continue;
-      const Eigen::Vector2d moved = y.hnormalized();
-      if (moved.x() < 0 || moved.y() < 0 || moved.x() >= camera.width || moved.y() >= camera.height) continue;
+      const std::optional<Eigen::Vector2d> moved = move({u, v});
+      if (!moved || moved->x() < 0 || moved->y() < 0 || moved->x() >= camera.width ||
+          moved->y() >= camera.height)
+        continue;
       tracks.previous.emplace_back(static_cast<float>(u), static_cast<float>(v));
-      tracks.current.push_back(noise.disturbed(moved, camera));
+      tracks.current.push_back(noise.disturbed(*moved, camera));
     }
   }
   return tracks;
 }
+
+/// The ground from one frame of a rolling shutter to another, by the camera's poses at the rows' times.
+class RollingGround {
+ public:
+  /// Pose of the camera at the time of one row of a frame.
+  using PoseOfRow = std::function<simulation::CameraPose(double row)>;
+  RollingGround(PoseOfRow a, PoseOfRow b) : a_(std::move(a)), b_(std::move(b)) {}
+
+  std::optional<Eigen::Vector2d> operator()(const Eigen::Vector2d& from) const {
+    const simulation::CameraPose a = a_(from.y());
+    const Eigen::Vector3d ray = a.R_CG.transpose() * camera().K_inverse() * from.homogeneous();
+    if (ray.z() >= 0) return std::nullopt;
+    const Eigen::Vector3d X = a.p_GC - ray * (a.p_GC.z() / ray.z());
+    Eigen::Vector2d to = from;
+    for (int i = 0; i < 8; ++i) {
+      const simulation::CameraPose b = b_(to.y());
+      const Eigen::Vector3d X_C = b.R_CG * (X - b.p_GC);
+      if (X_C.z() <= 0) return std::nullopt;
+      to = (camera().K() * X_C).hnormalized();
+    }
+    return to;
+  }
+
+ private:
+  PoseOfRow a_, b_;
+};
 
 /// Camera pitched 60 degrees down; the true mounting deviates by 1.5 to 3.5 degrees and 5 cm from nominal,
 /// time shift up to 8 ms, depending on the seed.
@@ -112,6 +147,14 @@ inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajec
   imu.gyro_bias = recording.gyro_bias;
   imu.accel_bias = recording.accel_bias;
   input.imu = flight.imu(imu, options.duration_s + 0.5);
+  for (ImuSample& sample : input.imu) sample.gyro = options.gyro_axes * sample.gyro;
+  const auto poseOfRow = [&](CameraTime frame) -> RollingGround::PoseOfRow {
+    return [&, frame](double row) {
+      const double row_s = (row - 0.5 * (kHeight - 1)) * options.readout_s / kHeight;
+      const double t_s = seconds(frame - kRecordingStart) + recording.truth.timeshift_s + row_s;
+      return simulation::cameraPose(trajectory.at(t_s), recording.truth);
+    };
+  };
   if (options.altimeter) input.altimeter = flight.altimeter(-0.5, options.duration_s + 0.5, seed);
   PointNoise noise(options, seed);
   const auto frames = static_cast<int>(options.duration_s * options.fps);
@@ -119,9 +162,9 @@ inline SimulatedRecording simulateRecording(const simulation::Trajectory& trajec
     input.frames.push_back(frameTime(k, kRecordingStart, options.fps));
     if (k == 0) continue;
     const CameraTime previous = input.frames[static_cast<size_t>(k - 1)];
-    const Eigen::Matrix3d H = flight.homography(previous, input.frames.back());
+    const RollingGround move(poseOfRow(previous), poseOfRow(input.frames.back()));
     input.ground.push_back(
-        {previous, input.frames.back(), simulatedPoints(H, input.camera, options.grid_px, noise)});
+        {previous, input.frames.back(), simulatedPoints(move, input.camera, options.grid_px, noise)});
   }
   recording.truth.start_height_m = flight.heightAt(kRecordingStart);
   return recording;

@@ -65,9 +65,19 @@ template <>
 inline filter_snapshot_t TrueMessages::get() const {
   return snapshot.value();
 }
+/// That of a rolling shutter.
+inline row_motion_t trueRowMotion() {
+  row_motion_t motion{};
+  motion.valid = 1;
+  motion.rate[0] = 0.5;
+  motion.normal[2] = 1;
+  return motion;
+}
 template <>
 inline inertial_homography_t TrueMessages::get() const {
-  return lastOf(output.inertial);
+  inertial_homography_t message = lastOf(output.inertial);
+  message.row_motion = trueRowMotion();
+  return message;
 }
 template <>
 inline visual_homography_t TrueMessages::get() const {
@@ -77,6 +87,7 @@ template <>
 inline fused_homography_t TrueMessages::get() const {
   fused_homography_t message = lastOf(output.fused);
   message.has_front = 1;
+  message.row_motion = trueRowMotion();
   std::copy(std::begin(message.step.H), std::end(message.step.H), std::begin(message.H_front));
   return message;
 }

@@ -93,6 +93,15 @@ void setExtrinsics(const CalibrationResult& result, FoundKeys& found) {
   }
 }
 
+void setSensorErrors(const CalibrationResult& result, FoundKeys& found) {
+  if (isKept(result, "camera.line_delay_s"))
+    found.set("camera.line_delay_s", found.configuration.camera.line_delay_s, result.values.line_delay_s);
+  if (isKept(result, "imu.gyro_correction")) {
+    found.set("imu.gyro_correction", found.configuration.inertial.gyro_correction,
+              result.values.gyro_correction);
+  }
+}
+
 /// The turn-on bias that the online filter expects, where the estimated one is far beyond it.
 void setBiasSigmas(const CalibrationInput& input, const CalibrationResult& result, FoundKeys& found) {
   InertialParameters& inertial = found.configuration.inertial;
@@ -113,6 +122,7 @@ std::string kalibrCamchain(const CalibrationInput& input, const CalibrationResul
   kalibrs.resize(findCameraModel(camera.model)->fewest);
   const InertialExtrinsics& kept = result.values.kept;
   const Eigen::Matrix3d R_IC = kept.R_CI.transpose();
+  const double delay_s = result.values.line_delay_s;
   std::ostringstream text;
   text << origin(subject) << verdictComment(result, "camera.R_CI") << verdictComment(result, "camera.p_IC")
        << verdictComment(result, "camera.timeshift_s") << "cam0:\n"
@@ -124,7 +134,7 @@ std::string kalibrCamchain(const CalibrationInput& input, const CalibrationResul
          << exact(camera.distortion.back()) << "\n";
   text << "  intrinsics: " << list(std::vector<double>{camera.fx, camera.fy, camera.cx, camera.cy}) << "\n"
        << "  resolution: [" << camera.width << ", " << camera.height << "]\n"
-       << "  rostopic: /cam0/image_raw\n"
+       << (delay_s == 0 ? "" : "  line_delay_s: " + exact(delay_s) + "\n") << "  rostopic: /cam0/image_raw\n"
        << "  # x_cam = T_cam_imu x_imu\n  T_cam_imu:\n"
        << transformRows(kept.R_CI, -kept.R_CI * kept.p_IC, "  ")
        << "  # The other way, x_imu = T_imu_cam x_cam:\n"
@@ -160,6 +170,7 @@ std::string onlineCalibration(const CalibrationInput& input, const CalibrationRe
     text << "# plane: of the first frame of this recording; remove it for flights that start elsewhere.\n";
   FoundKeys found;
   setExtrinsics(result, found);
+  setSensorErrors(result, found);
   setBiasSigmas(input, result, found);
   // Vibration and the model leave an error that no estimate removes.
   constexpr double kRotationFloor_deg = 0.02;

@@ -23,7 +23,7 @@ const std::map<std::string, ScenarioMaker>& scenarios() {
   static const std::map<std::string, ScenarioMaker> makers = {
       {"ground_only", simulation::groundOnly},   {"two_planes", simulation::twoPlanes},
       {"waving_water", simulation::wavingWater}, {"calibration", simulation::calibrationFlight},
-      {"walkers", simulation::walkers},
+      {"walkers", simulation::walkers},          {"brisk_walkers", simulation::briskWalkers},
   };
   return makers;
 }
@@ -80,6 +80,7 @@ void runSimulate(const SimulateOptions& options) {
     throw InputError("--scenario " + options.scenario + ": unknown; known are " + scenarioNames());
   }
   simulation::Scenario scenario = maker->second(options.seed);
+  scenario = simulation::withRollingShutter(std::move(scenario), 1e-3 * options.readout_ms);
   scenario.frames = std::max(1, static_cast<int>(options.seconds * scenario.fps));
   const simulation::FlightSimulator simulator(scenario);
 

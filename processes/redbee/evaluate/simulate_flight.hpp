@@ -10,6 +10,7 @@ struct SimulateOptions {
   std::string scenario = "two_planes";
   unsigned seed = 1;
   double seconds = 5;
+  double readout_ms = 0;        ///< of a rolling shutter; 0: global shutter
   std::filesystem::path log;    ///< its configuration goes beside it
   std::filesystem::path truth;  ///< masks and homography.csv; empty: none
 };

@@ -64,6 +64,7 @@ void runStack(LogReader& log, const std::filesystem::path& file, const Configura
 }  // namespace
 
 void GroundObserver::onFused(const fused_homography_t& fused) {
+  if (const auto motion = rowMotionOf(fused.row_motion)) row_motions_[fused.utime] = *motion;
   if (fused.source == fused_homography_t::NONE) return;
   chain_.addStep(fused.utime_previous, fused.utime, matrix3(fused.step.H));
   if (fused.has_motion == 0) return;
@@ -83,6 +84,11 @@ const std::vector<uint8_t>* GroundObserver::mask(int64_t utime) const {
 const detections_t* GroundObserver::detections(int64_t utime) const {
   const auto it = detections_.find(utime);
   return it == detections_.end() ? nullptr : &it->second;
+}
+
+std::optional<RowMotion> GroundObserver::rowMotion(int64_t utime) const {
+  const auto it = row_motions_.find(utime);
+  return it == row_motions_.end() ? std::nullopt : std::optional(it->second);
 }
 
 GroundObserver observeGround(const std::filesystem::path& file, const Configuration& configuration) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "redbee/bus/bus.hpp"
@@ -29,6 +30,8 @@ class GroundObserver {
   const std::vector<uint8_t>* mask(int64_t utime) const;
   /// Null where there are none.
   const detections_t* detections(int64_t utime) const;
+  /// Of a rolling shutter's image at this time.
+  std::optional<RowMotion> rowMotion(int64_t utime) const;
   const std::map<int64_t, detections_t>& detections() const { return detections_; }
   /// Messages that cannot be decoded or are implausible.
   int64_t damaged() const { return damaged_; }
@@ -38,6 +41,7 @@ class GroundObserver {
   std::map<int64_t, std::vector<uint8_t>> masks_;
   std::map<int64_t, detections_t> detections_;
   int64_t damaged_ = 0;
+  std::map<int64_t, RowMotion> row_motions_;
 };
 
 /// From the log's own FUSED_HOMOGRAPHY, FOREGROUND and DETECTIONS; where it has none, from those of the stack

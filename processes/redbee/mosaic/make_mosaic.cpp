@@ -30,7 +30,8 @@ constexpr int kMargin_px = 6;  ///< around masks, whose edges are not sharp
 
 /// On the ideal grid: not 0 where no ground is: movers by the mask and by the boxes, which cover what a mask
 /// misses, and what the camera does not show.
-cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, int64_t utime) {
+cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, int64_t utime,
+                  const std::optional<RowMotion>& row_motion) {
   const CameraIntrinsics& raw_camera = camera.camera().intrinsics();
   cv::Mat1b raw = cv::Mat1b::zeros(raw_camera.height, raw_camera.width);
   if (const auto* png = ground.mask(utime)) {
@@ -41,7 +42,7 @@ cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, i
     for (const detection_t& d : detections->detections)
       cv::rectangle(raw, cv::Rect(d.x, d.y, d.width, d.height), cv::Scalar(255), cv::FILLED);
   }
-  cv::Mat1b ideal = camera.rectifier().toIdeal(raw);
+  cv::Mat1b ideal = camera.rectifier().toIdeal(raw, row_motion);
   const int side = 2 * kMargin_px + 1;
   cv::dilate(ideal, ideal, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
   if (!camera.rectifier().unknown().empty()) ideal |= camera.rectifier().unknown();
@@ -55,7 +56,7 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, G
              const GroundFrames& frames, Mosaic& mosaic) {
   std::map<int64_t, const MappedFrame*> by_time;
   for (const MappedFrame& frame : frames.frames) by_time[frame.utime] = &frame;
-  const RectifiedCamera camera(configuration.camera);
+  RectifiedCamera camera(configuration.camera);
   HealthMonitor health("redbee-mosaic", "");
   LogReader log(options.log);
   Progress progress("drawing " + options.log.filename().string(), "MB");
@@ -71,9 +72,9 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, G
     }
     const auto frame = by_time.find(message.utime);
     if (frame == by_time.end() || !isDrawn(ground, message.utime) || seen++ % options.every != 0) continue;
-    const IdealImage image = camera.ideal(message, true, health);
+    const IdealImage image = camera.ideal(message, true, health, ground.rowMotion(message.utime));
     if (image.colour.empty()) continue;
-    mosaic.add(image.colour, leftOut(camera, ground, message.utime), frame->second->to_map);
+    mosaic.add(image.colour, leftOut(camera, ground, message.utime, image.row_motion), frame->second->to_map);
     ++drawn;
   }
   progress.finish();

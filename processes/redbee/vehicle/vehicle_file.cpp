@@ -19,6 +19,7 @@ void setCamera(const VehicleDescription& vehicle, Configuration& configuration, 
     configuration.camera = *vehicle.intrinsics;
     append(keys, {"camera.fx", "camera.fy", "camera.cx", "camera.cy", "camera.model", "camera.distortion"});
   }
+  if (configuration.camera.line_delay_s != 0) append(keys, {"camera.line_delay_s"});
   configuration.camera.width = vehicle.width;
   configuration.camera.height = vehicle.height;
   InertialExtrinsics& extrinsics = configuration.inertial.extrinsics;
