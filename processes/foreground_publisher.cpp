@@ -4,6 +4,7 @@
 #include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
+#include "redbee/image_codec/png.hpp"
 #include "redbee/node/frame_time.hpp"
 #include "redbee/results/overlay.hpp"
 

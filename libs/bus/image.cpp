@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "redbee/bus/raw_format.hpp"
+#include "redbee/image_codec/jpeg.hpp"
 
 namespace redbee {
 namespace {
@@ -20,20 +20,6 @@ bool plausibleSize(const image_t& message) {
 bool canShrink(const image_t& message, int downscale) {
   return (downscale == 1 || downscale == 2 || downscale == 4) && message.width % downscale == 0 &&
          message.height % downscale == 0;
-}
-
-/// The camera's matrix and mounting are those of the sensor, whatever orientation the JPEG states.
-int jpegFlags(bool colour, int downscale) {
-  switch (downscale) {
-    case 2:
-      return cv::IMREAD_IGNORE_ORIENTATION |
-             (colour ? cv::IMREAD_REDUCED_COLOR_2 : cv::IMREAD_REDUCED_GRAYSCALE_2);
-    case 4:
-      return cv::IMREAD_IGNORE_ORIENTATION |
-             (colour ? cv::IMREAD_REDUCED_COLOR_4 : cv::IMREAD_REDUCED_GRAYSCALE_4);
-    default:
-      return cv::IMREAD_IGNORE_ORIENTATION | (colour ? cv::IMREAD_COLOR : cv::IMREAD_GRAYSCALE);
-  }
 }
 
 int big16(const uint8_t* data) { return data[0] << 8 | data[1]; }
@@ -62,18 +48,19 @@ bool isWholeJpeg(const std::vector<uint8_t>& data) {
   return std::find_end(first, data.end(), end_of_image.begin(), end_of_image.end()) != data.end();
 }
 
-std::optional<cv::Mat> decodeJpeg(const image_t& message, bool colour, int downscale) {
+std::optional<cv::Mat> decodeWholeJpeg(const image_t& message, bool colour, int downscale) {
   const auto declared = jpegSize(message.data.data(), message.data.size());
   if (!declared || *declared != cv::Size(message.width, message.height)) return std::nullopt;
   if (!isWholeJpeg(message.data)) return std::nullopt;
-  cv::Mat decoded = cv::imdecode(message.data, jpegFlags(colour, downscale));
+  // The camera's matrix and mounting are those of the sensor, whatever orientation the JPEG states.
+  cv::Mat decoded = decodeJpeg(message.data, colour, downscale);
   if (decoded.size() != *declared / downscale) return std::nullopt;
   return decoded;
 }
 
 std::optional<cv::Mat> decode(const image_t& message, bool colour, int downscale) {
   if (!plausibleSize(message) || !canShrink(message, downscale)) return std::nullopt;
-  if (message.pixelformat == image_t::MJPEG) return decodeJpeg(message, colour, downscale);
+  if (message.pixelformat == image_t::MJPEG) return decodeWholeJpeg(message, colour, downscale);
   auto image = decodeRaw(message, colour);
   if (image && downscale > 1) cv::resize(*image, *image, image->size() / downscale, 0, 0, cv::INTER_AREA);
   return image;
@@ -135,23 +122,10 @@ image_t jpegMessage(int64_t utime, const cv::Mat& image, int quality) {
   message.height = image.rows;
   message.row_stride = 0;
   message.pixelformat = image_t::MJPEG;
-  cv::imencode(".jpg", image, message.data, {cv::IMWRITE_JPEG_QUALITY, quality});
+  message.data = encodeJpeg(image, quality);
   message.size = static_cast<int32_t>(message.data.size());
   message.nmetadata = 0;
   return message;
-}
-
-std::vector<uint8_t> encodePng(const cv::Mat1b& map) {
-  std::vector<uint8_t> bytes;
-  // By default OpenCV compresses for speed; setting any level makes libpng try every filter on every row.
-  cv::imencode(".png", map, bytes);
-  return bytes;
-}
-
-std::vector<uint8_t> encodeBilevelPng(const cv::Mat1b& map) {
-  std::vector<uint8_t> bytes;
-  cv::imencode(".png", map, bytes, {cv::IMWRITE_PNG_BILEVEL, 1});
-  return bytes;
 }
 
 }  // namespace redbee

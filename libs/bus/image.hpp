@@ -35,9 +35,4 @@ image_t rawGreyMessage(int64_t utime, const cv::Mat1b& grey);
 /// `image`: grey or BGR.
 image_t jpegMessage(int64_t utime, const cv::Mat& image, int quality);
 
-/// 8-bit single-channel PNG, compressed for speed; maps with few distinct values take a few hundred bytes.
-std::vector<uint8_t> encodePng(const cv::Mat1b& map);
-/// PNG with one bit per pixel, for a map of 0 and 255.
-std::vector<uint8_t> encodeBilevelPng(const cv::Mat1b& map);
-
 }  // namespace redbee

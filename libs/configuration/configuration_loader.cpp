@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "redbee/configuration/configuration_preset.hpp"
@@ -11,6 +10,7 @@
 #include "redbee/configuration/renamed_keys.hpp"
 #include "redbee/configuration/wait_order.hpp"
 #include "redbee/files/input_file.hpp"
+#include "redbee/image_codec/image_codec.hpp"
 
 namespace redbee::configuration {
 namespace {
@@ -145,13 +145,8 @@ void Loader::loadMask() {
   files_.emplace_back(name);
   const Place& place = places_.at(key);
   if (const std::string fault = faultOfFile(name); !fault.empty()) fail(place, key, name + " " + fault);
-  cv::Mat1b image;
-  try {
-    image = cv::imread(name, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {  // of a size that OpenCV refuses
-    image.release();
-  }
-  if (image.empty()) fail(place, key, name + " is no image");
+  const cv::Mat1b image = decodeGreyImage(readWhole(name));
+  if (image.empty()) fail(place, key, name + " is neither a PNG nor a JPEG image, or damaged");
   const auto size = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
   };

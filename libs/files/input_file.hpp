@@ -1,7 +1,9 @@
 // What may be read as a file.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -36,6 +38,16 @@ inline std::string faultOfFile(const std::filesystem::path& file) {
 /// Throws InputError unless it is a regular file. To be called before any file of the user's is opened.
 inline void requireFile(const std::filesystem::path& file) {
   if (const std::string fault = faultOfFile(file); !fault.empty()) throw InputError(file, fault);
+}
+
+/// All bytes of a regular file.
+inline std::vector<uint8_t> readWhole(const std::filesystem::path& file) {
+  requireFile(file);
+  std::ifstream in(file, std::ios::binary);
+  std::vector<uint8_t> bytes(static_cast<size_t>(std::filesystem::file_size(file)));
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!in) throw InputError(file, "cannot be read");
+  return bytes;
 }
 
 /// Throws InputError unless it is a regular file that its owner and group alone may read. `what`: "key".

@@ -48,17 +48,22 @@ cv::Mat1f fillHoles(const cv::Mat1f& map, int gap_px) {
   cv::Mat1d centroids;
   const int components = cv::connectedComponentsWithStats(closed > kOutline, labels, boxes, centroids);
   cv::Mat1f filled = map.clone();
+  const cv::Mat1f open = 1 - closed;
+  cv::Mat1f outside(map.size());
   for (int i = 1; i < components; ++i) {
     const int* box = boxes[i];
     const cv::Rect inside(box[cv::CC_STAT_LEFT], box[cv::CC_STAT_TOP], box[cv::CC_STAT_WIDTH],
                           box[cv::CC_STAT_HEIGHT]);
     if (std::min(inside.width, inside.height) < 3) continue;
-    const cv::Mat1f open = 1 - closed(inside);
-    cv::Mat1f outside = cv::Mat1f::zeros(open.size());
-    copyBorder(open, outside);
-    reconstruct(open, outside);
-    cv::Mat1f here = filled(inside);
-    cv::max(here, 1 - outside, here);
+    cv::Mat1f level = outside(inside);
+    level.setTo(0);
+    copyBorder(open(inside), level);
+    reconstruct(open(inside), level);
+    for (int y = 0; y < level.rows; ++y) {
+      float* here = filled[inside.y + y] + inside.x;
+      const float* reached = level[y];
+      for (int x = 0; x < level.cols; ++x) here[x] = std::max(here[x], 1 - reached[x]);
+    }
   }
   return filled;
 }

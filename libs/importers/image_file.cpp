@@ -1,33 +1,19 @@
 #include "redbee/importers/image_file.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
 #include "redbee/bus/image.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
+#include "redbee/image_codec/image_codec.hpp"
+#include "redbee/image_codec/jpeg.hpp"
+#include "redbee/image_codec/png.hpp"
 
 namespace redbee {
 namespace {
-
-std::vector<uint8_t> readWhole(const std::filesystem::path& file) {
-  requireFile(file);
-  std::ifstream in(file, std::ios::binary);
-  std::vector<uint8_t> bytes(static_cast<size_t>(std::filesystem::file_size(file)));
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throw InputError(file, "cannot be read");
-  if (bytes.empty()) throw InputError(file, "is an empty file");
-  return bytes;
-}
-
-bool startsWith(const std::vector<uint8_t>& bytes, std::initializer_list<uint8_t> magic) {
-  return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-}
 
 /// A JPEG ends with FF D9; some cameras pad with zeros behind it.
 bool hasEndOfImage(const std::vector<uint8_t>& bytes) {
@@ -49,48 +35,28 @@ image_t untouchedJpeg(const std::filesystem::path& file, int64_t utime, std::vec
   return message;
 }
 
-/// Only a JPEG with EXIF data can state an orientation.
-bool holdsExif(const std::vector<uint8_t>& bytes) {
-  const std::string marker = "Exif";
-  const auto end = bytes.begin() + static_cast<long>(std::min<size_t>(bytes.size(), 64 << 10));
-  return std::search(bytes.begin(), end, marker.begin(), marker.end()) != end;
-}
-
-/// OpenCV applies the orientation, but does not say it: a small image shows whether it is one.
-bool isTurnedByExif(const std::vector<uint8_t>& bytes) {
-  if (!holdsExif(bytes)) return false;
-  const cv::Mat shown = cv::imdecode(bytes, cv::IMREAD_REDUCED_GRAYSCALE_8);
-  const cv::Mat stored = cv::imdecode(bytes, cv::IMREAD_REDUCED_GRAYSCALE_8 | cv::IMREAD_IGNORE_ORIENTATION);
-  if (shown.empty() || stored.empty()) return false;
-  return shown.size() != stored.size() || cv::norm(shown, stored, cv::NORM_INF) > 0;
-}
-
 LoadedImage loadJpeg(const std::filesystem::path& file, int64_t utime, std::vector<uint8_t> bytes,
                      const ImageOptions& options) {
-  const bool is_turned = isTurnedByExif(bytes);
+  const int orientation = jpegOrientation(bytes);
+  const bool is_turned = orientation != 1;
   LoadedImage loaded{untouchedJpeg(file, utime, std::move(bytes)), is_turned};
   if (!is_turned) return loaded;
-  const cv::Mat image = cv::imdecode(loaded.message.data, cv::IMREAD_COLOR);
+  const cv::Mat image = decodeJpeg(loaded.message.data, true);
   if (image.empty()) throw InputError(file, "JPEG cannot be decoded");
-  loaded.message = jpegMessage(utime, image, options.jpeg_quality);
+  loaded.message = jpegMessage(utime, upright(image, orientation), options.jpeg_quality);
   return loaded;
 }
 
-cv::Mat decodePng(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
-  // The decoder silently fills the rest of a truncated file with grey; the end chunk shows that it is
-  // complete.
+cv::Mat decodeWholePng(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   const std::string end_chunk = "IEND";
   const auto tail = bytes.end() - static_cast<long>(std::min<size_t>(bytes.size(), 12));
   if (std::search(tail, bytes.end(), end_chunk.begin(), end_chunk.end()) == bytes.end()) {
     throw InputError(file, "PNG is cut short: no end chunk");
   }
-  cv::Mat image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  cv::Mat image = decodePng(bytes);
   if (image.empty()) throw InputError(file, "PNG cannot be decoded");
-  if (image.channels() == 4) cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
   return image;
 }
-
-bool isPng(const std::vector<uint8_t>& bytes) { return startsWith(bytes, {0x89, 'P', 'N', 'G'}); }
 
 /// By the header, without decoding.
 bool isPng16(const std::vector<uint8_t>& bytes) {
@@ -102,22 +68,24 @@ bool isPng16(const std::vector<uint8_t>& bytes) {
 
 LoadedImage imageOf(const std::filesystem::path& source, std::vector<uint8_t> bytes, int64_t utime,
                     const ImageOptions& options) {
-  if (startsWith(bytes, {0xFF, 0xD8})) return loadJpeg(source, utime, std::move(bytes), options);
+  if (isJpeg(bytes)) return loadJpeg(source, utime, std::move(bytes), options);
   if (!isPng(bytes)) throw InputError(source, "is neither JPEG nor PNG");
-  cv::Mat image = decodePng(source, bytes);
+  cv::Mat image = decodeWholePng(source, bytes);
   if (image.depth() == CV_16U) image = scaledTo8Bits(image, options.range.value_or(GreyRange{}));
   if (image.channels() == 1 && options.lossless_grey) return {rawGreyMessage(utime, image), false};
   return {jpegMessage(utime, image, options.jpeg_quality), false};
 }
 
 LoadedImage loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options) {
-  return imageOf(file, readWhole(file), utime, options);
+  std::vector<uint8_t> bytes = readWhole(file);
+  if (bytes.empty()) throw InputError(file, "is an empty file");
+  return imageOf(file, std::move(bytes), utime, options);
 }
 
 std::optional<cv::Mat> valuesOf16BitPng(const std::filesystem::path& source,
                                         const std::vector<uint8_t>& bytes) {
   if (!isPng16(bytes)) return std::nullopt;
-  return decodePng(source, bytes);
+  return decodeWholePng(source, bytes);
 }
 
 cv::Mat scaledTo8Bits(const cv::Mat& values, const GreyRange& range) {

@@ -1,26 +1,23 @@
 #include "redbee/results/png_file.hpp"
 
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
+#include "redbee/image_codec/image_codec.hpp"
+#include "redbee/image_codec/png.hpp"
 
 namespace redbee {
 
 void writePng(const std::filesystem::path& file, const cv::Mat& image) {
-  std::vector<uint8_t> bytes;
-  // Masks compress well at the lowest level already, and a run writes two images a frame.
-  if (image.empty() || !cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    throw InputError(file, "the image cannot be encoded as PNG");
-  }
+  if (image.empty()) throw InputError(file, "the image cannot be encoded as PNG");
+  const std::vector<uint8_t> bytes = encodePng(image);
   writeAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 cv::Mat1b readGreyPng(const std::filesystem::path& file) {
-  requireFile(file);  // OpenCV would write a warning of its own
-  cv::Mat image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  const cv::Mat1b image = decodeGreyImage(readWhole(file));
   if (image.empty()) throw InputError(file, "not a readable image");
   return image;
 }

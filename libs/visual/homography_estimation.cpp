@@ -30,6 +30,7 @@ void requireValid(int width, int height, const RansacParameters& parameters) {
 
 ScaledPairs chosenOf(const ScaledPairs& pairs, const std::vector<uint8_t>& chosen) {
   ScaledPairs some;
+  some.reserve(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (chosen[i]) some.append(pairs.ax[i], pairs.ay[i], pairs.bx[i], pairs.by[i]);
   }

@@ -15,6 +15,9 @@ struct ScaledPairs {
   ScaledPairs() = default;
   ScaledPairs(const PointTracks& tracks, const ImageScaling& scaling);
 
+  void reserve(std::size_t pairs) {
+    for (auto* values : {&ax, &ay, &bx, &by}) values->reserve(pairs);
+  }
   void append(float a_x, float a_y, float b_x, float b_y) {
     ax.push_back(a_x);
     ay.push_back(a_y);

@@ -1,11 +1,11 @@
 #include "processes/serve/frame_view.hpp"
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "processes/serve/map_json.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/foreground_t.hpp"
+#include "redbee/image_codec/jpeg.hpp"
 
 namespace redbee {
 namespace {
@@ -55,9 +55,7 @@ std::vector<uint8_t> jpegOf(const image_t& image) {
     return {};
   }
   const auto colour = decodeColour(image);
-  std::vector<uint8_t> jpeg;
-  if (colour) cv::imencode(".jpg", *colour, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  return jpeg;
+  return colour ? encodeJpeg(*colour, kJpegQuality) : std::vector<uint8_t>();
 }
 
 }  // namespace

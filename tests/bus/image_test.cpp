@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace redbee {
@@ -96,13 +95,6 @@ TEST(Image, ASizeThatDoesNotDivideIsRefused) {
   EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()(cv::Rect(0, 0, 63, 48))), 2));
   EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()(cv::Rect(0, 0, 64, 46))), 4));
   EXPECT_FALSE(decodeGrey(rawGreyMessage(7, ramp()), 3));
-}
-
-TEST(Image, OneBitAPixelIsEnoughForAMask) {
-  const cv::Mat mask = ramp() > 90;
-  const std::vector<uint8_t> png = encodeBilevelPng(mask);
-  EXPECT_EQ(cv::norm(cv::imdecode(png, cv::IMREAD_GRAYSCALE), mask, cv::NORM_INF), 0);
-  EXPECT_LT(png.size(), encodePng(mask).size());
 }
 
 TEST(Image, HeaderOfAJpegHasItsSize) {

@@ -42,7 +42,7 @@ TEST_F(OwnPartsMask, AnUnusableOneIsRefusedWithItsPlace) {
   EXPECT_THAT(errorMessage(kMasked), HasSubstr("vehicle.yaml:1: camera.mask: "));
   EXPECT_THAT(errorMessage(kMasked), HasSubstr("parts.png no such file"));
   write("parts.png", "no image");
-  EXPECT_THAT(errorMessage(kMasked), HasSubstr("is no image"));
+  EXPECT_THAT(errorMessage(kMasked), HasSubstr("is neither a PNG nor a JPEG image"));
   writeMask(cv::Mat1b(20, 30, uchar{255}));
   EXPECT_THAT(errorMessage(kMasked), HasSubstr("has 30x20 px, the camera 64x48"));
   writeMask(cv::Mat1b(48, 64, uchar{255}));

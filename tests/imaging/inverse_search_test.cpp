@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
+#include <string>
 
 #include "tests/support/instruction_sets.hpp"
 
@@ -37,11 +38,25 @@ cv::Mat1b moved(const cv::Mat1b& image, double x, double y, double turn) {
   return to * 0.9 + 10;
 }
 
+/// To the bit on x86-64. Elsewhere OpenCV's library was compiled with fused multiplications, which our
+/// kernels avoid: there the mean of the differences [px] is bounded, as in noise a pixel may follow another
+/// neighbour.
+void expectSameFlow(const cv::Mat2f& ours, const cv::Mat2f& opencvs) {
+#ifdef __x86_64__
+  EXPECT_EQ(cv::norm(ours, opencvs, cv::NORM_INF), 0);
+#else
+  constexpr double kRounding_px = 0.01;
+  const double mean_px = cv::norm(ours, opencvs, cv::NORM_L1) / (2 * static_cast<double>(ours.total()));
+  EXPECT_LT(mean_px, kRounding_px) << "at most " << cv::norm(ours, opencvs, cv::NORM_INF);
+  testing::Test::RecordProperty("mean_px", std::to_string(mean_px));
+#endif
+}
+
 void expectSame(const InverseSearchParameters& parameters, const cv::Mat1b& from, const cv::Mat1b& to) {
   InverseSearch search(parameters);
-  EXPECT_EQ(cv::norm(search.flow(from, to), opencvFlow(parameters, from, to), cv::NORM_INF), 0);
-  EXPECT_EQ(cv::norm(search.flow(to, from), opencvFlow(parameters, to, from), cv::NORM_INF), 0)
-      << "buffers are used again";
+  expectSameFlow(search.flow(from, to), opencvFlow(parameters, from, to));
+  SCOPED_TRACE("buffers are used again");
+  expectSameFlow(search.flow(to, from), opencvFlow(parameters, to, from));
 }
 
 class InverseSearchWith : public test::WithInstructions {};

@@ -6,6 +6,7 @@
 #include "redbee/detections_t.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/foreground_t.hpp"
+#include "redbee/image_codec/png.hpp"
 #include "redbee/process_health_t.hpp"
 
 namespace redbee {

@@ -5,11 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "redbee/bus/image.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/foreground_t.hpp"
+#include "redbee/image_codec/image_codec.hpp"
+#include "redbee/image_codec/png.hpp"
 #include "redbee/results/run_folder.hpp"
 #include "redbee/targets_t.hpp"
 #include "tests/support/camera.hpp"
@@ -48,9 +49,7 @@ Bundle parse(const std::string& bytes) {
   const size_t mask_bytes = bundle.head["mask_bytes"];
   EXPECT_EQ(bytes.size(), 4 + length + image_bytes + mask_bytes);
   const uint8_t* at = data + 4 + length;
-  const auto decode = [](const uint8_t* from, size_t n) {
-    return n == 0 ? cv::Mat() : cv::imdecode(std::vector<uint8_t>(from, from + n), cv::IMREAD_GRAYSCALE);
-  };
+  const auto decode = [](const uint8_t* from, size_t n) { return decodeGreyImage({from, from + n}); };
   bundle.image = decode(at, image_bytes);
   bundle.mask = decode(at + image_bytes, mask_bytes);
   return bundle;

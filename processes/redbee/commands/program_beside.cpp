@@ -44,8 +44,10 @@ std::string firstFileOf(const Words& arguments) {
 void replaceBy(const std::filesystem::path& program, Words arguments) {
   arguments.insert(arguments.begin(), program.string());
   execv(program.c_str(), argumentsOf(arguments).data());
-  std::fprintf(stderr, "%s: cannot be started: %s (build it with scripts/build release %s)\n",
-               program.c_str(), std::strerror(errno), program.filename().c_str());
+  std::fprintf(
+      stderr,
+      "%s: cannot be started: %s (a package of its own, see config/README.md; or scripts/build release %s)\n",
+      program.c_str(), std::strerror(errno), program.filename().c_str());
   throw CLI::RuntimeError(2);
 }
 

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "processes/redbee/evaluate/flight_images.hpp"
 #include "processes/redbee/pages/page.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/files/atomic_file.hpp"
+#include "redbee/image_codec/jpeg.hpp"
 
 namespace redbee {
 namespace {
@@ -67,8 +67,7 @@ void writeJpeg(const std::filesystem::path& file, const cv::Mat& image) {
   if (image.cols > kWidth) {
     cv::resize(image, small, {kWidth, image.rows * kWidth / image.cols}, 0, 0, cv::INTER_AREA);
   }
-  std::vector<uint8_t> jpeg;
-  cv::imencode(".jpg", small, jpeg, {cv::IMWRITE_JPEG_QUALITY, 80});
+  const std::vector<uint8_t> jpeg = encodeJpeg(small, 80);
   writeAtomically(file, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <sstream>
 
@@ -17,6 +16,7 @@
 #include "redbee/files/atomic_file.hpp"
 #include "redbee/files/input_file.hpp"
 #include "redbee/geometry/time.hpp"
+#include "redbee/image_codec/jpeg.hpp"
 #include "redbee/results/run_folder.hpp"
 
 namespace redbee {
@@ -68,8 +68,7 @@ std::vector<std::string> overlays(const ReportOptions& options, int64_t frames) 
       options.log, options.configuration, options.results, [&](int64_t utime, const cv::Mat& drawn) {
         if (number == 0) first_utime = utime;
         if (number++ % period != period / 2) return;
-        std::vector<uint8_t> jpeg;
-        cv::imencode(".jpg", drawn, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
+        const std::vector<uint8_t> jpeg = encodeJpeg(drawn, 85);
         figures.push_back(
             jpegFigure({reinterpret_cast<const char*>(jpeg.data()), jpeg.size()},
                        fmt::format("frame {}, {:.2f} s", number, seconds(fromUtime(utime - first_utime)))));

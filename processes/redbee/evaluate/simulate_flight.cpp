@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "redbee/bus/image.hpp"

@@ -4,12 +4,12 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
+#include "redbee/image_codec/image_codec.hpp"
 
 namespace redbee {
 namespace {
@@ -20,15 +20,13 @@ constexpr uint8_t kUnknownLabel = 128;
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-bool isJpeg(const fs::path& file) { return file.extension() == ".jpg" || file.extension() == ".jpeg"; }
+bool isNamedJpeg(const fs::path& file) { return file.extension() == ".jpg" || file.extension() == ".jpeg"; }
 
 /// One channel if the image is grey, also where it is stored in colour; otherwise BGR.
 cv::Mat readImage(const fs::path& file) {
-  requireFile(file);  // OpenCV would write a warning of its own
-  cv::Mat image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  cv::Mat image = decodeImage(readWhole(file));
   if (image.empty()) throw InputError(file, "not a readable image");
   if (image.depth() != CV_8U) throw InputError(file, "has 16 bits a pixel; masks have 8");
-  if (image.channels() == 4) cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
   if (image.channels() == 1) return image;
   std::array<cv::Mat, 3> bgr;
   cv::split(image, bgr);
@@ -84,7 +82,7 @@ std::vector<fs::path> masksIn(const fs::path& folder) {
   if (!fs::is_directory(folder)) return pngs;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".png") pngs.push_back(entry.path());
-    if (isJpeg(entry.path())) jpegs.push_back(entry.path());
+    if (isNamedJpeg(entry.path())) jpegs.push_back(entry.path());
   }
   std::vector<fs::path>& masks = pngs.empty() ? jpegs : pngs;
   std::sort(masks.begin(), masks.end());
@@ -117,7 +115,7 @@ TruthMasks::TruthMasks(const std::vector<fs::path>& files) {
   fs::path with_number;
   int number = 0;
   for (const fs::path& file : files) {
-    if (isJpeg(file)) return;
+    if (isNamedJpeg(file)) return;
     const cv::Mat image = readImage(file);
     if (image.channels() == 3) continue;
     double most = 0;
@@ -140,7 +138,7 @@ TruthMasks::TruthMasks(const std::vector<fs::path>& files) {
 
 cv::Mat1b TruthMasks::read(const fs::path& file) const {
   cv::Mat image = readImage(file);
-  if (isJpeg(file)) return fromJpeg(file, image);
+  if (isNamedJpeg(file)) return fromJpeg(file, image);
   if (image.channels() == 3) return fromColours(file, image);
   if (moving_ == 255) return image;
   return image * 255;

@@ -4,7 +4,6 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -19,6 +18,7 @@
 #include "redbee/files/json_file.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/files/progress.hpp"
+#include "redbee/image_codec/image_codec.hpp"
 #include "redbee/mosaic/mosaic.hpp"
 #include "redbee/node/message_check.hpp"
 #include "redbee/results/png_file.hpp"
@@ -35,7 +35,7 @@ cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, i
   const CameraIntrinsics& raw_camera = camera.camera().intrinsics();
   cv::Mat1b raw = cv::Mat1b::zeros(raw_camera.height, raw_camera.width);
   if (const auto* png = ground.mask(utime)) {
-    const cv::Mat1b mask = cv::imdecode(*png, cv::IMREAD_GRAYSCALE);
+    const cv::Mat1b mask = decodeGreyImage(*png);
     if (mask.size() == raw.size()) raw = mask.clone();
   }
   if (const detections_t* detections = ground.detections(utime)) {

@@ -5,6 +5,7 @@
 #include "processes/redbee/vehicle/vehicle_file.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/files/log.hpp"
+#include "redbee/image_codec/png.hpp"
 #include "redbee/importers/video_reader.hpp"
 #include "redbee/results/run_folder.hpp"
 #include "tests/support/log_events.hpp"

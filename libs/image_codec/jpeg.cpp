@@ -1,0 +1,125 @@
+#include "redbee/image_codec/jpeg.hpp"
+
+#include <libexif/exif-data.h>
+#include <turbojpeg.h>
+
+#include <algorithm>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace redbee {
+namespace {
+
+constexpr int kMaxJpegSide = 16384;
+
+struct CloseTurbo {
+  void operator()(void* handle) const { tjDestroy(handle); }
+};
+using Turbo = std::unique_ptr<void, CloseTurbo>;
+
+/// One for all images of a thread: making it costs as much as a small image.
+void* decompressor() {
+  thread_local const Turbo handle(tjInitDecompress());
+  return handle.get();
+}
+
+struct Header {
+  cv::Size size;
+  int colour_space = -1;
+};
+
+/// Of no size if there is none.
+Header headerOf(const std::vector<uint8_t>& bytes) {
+  Header header;
+  int subsampling = 0;
+  if (tjDecompressHeader3(decompressor(), bytes.data(), static_cast<unsigned long>(bytes.size()),
+                          &header.size.width, &header.size.height, &subsampling, &header.colour_space) != 0)
+    return {};
+  return header;
+}
+
+}  // namespace
+
+bool isGreyJpeg(const std::vector<uint8_t>& bytes) { return headerOf(bytes).colour_space == TJCS_GRAY; }
+
+cv::Mat decodeJpeg(const std::vector<uint8_t>& bytes, bool colour, int downscale) {
+  const Header header = headerOf(bytes);
+  const cv::Size size = header.size;
+  if (size.empty() || size.width > kMaxJpegSide || size.height > kMaxJpegSide) return {};
+  if (colour && header.colour_space == TJCS_GRAY) {
+    // TurboJPEG would copy pixel by pixel.
+    cv::Mat image = decodeJpeg(bytes, false, downscale);
+    if (!image.empty()) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
+    return image;
+  }
+  void* turbo = decompressor();
+  const auto length = static_cast<unsigned long>(bytes.size());
+  const tjscalingfactor factor{1, downscale};
+  cv::Mat image(TJSCALED(size.height, factor), TJSCALED(size.width, factor), colour ? CV_8UC3 : CV_8UC1);
+  const int flags = TJFLAG_LIMITSCANS;  // many empty scans make a small file slow
+  const int status =
+      tjDecompress2(turbo, bytes.data(), length, image.data, image.cols, static_cast<int>(image.step),
+                    image.rows, colour ? TJPF_BGR : TJPF_GRAY, flags);
+  if (status != 0 && tjGetErrorCode(turbo) != TJERR_WARNING) return {};
+  return image;
+}
+
+int jpegOrientation(const std::vector<uint8_t>& bytes) {
+  const std::unique_ptr<ExifData, void (*)(ExifData*)> exif(
+      exif_data_new_from_data(bytes.data(), static_cast<unsigned>(bytes.size())), exif_data_unref);
+  if (!exif) return 1;
+  const ExifEntry* entry = exif_content_get_entry(exif->ifd[EXIF_IFD_0], EXIF_TAG_ORIENTATION);
+  if (!entry || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 1;
+  const int orientation = exif_get_short(entry->data, exif_data_get_byte_order(exif.get()));
+  return orientation >= 1 && orientation <= 8 ? orientation : 1;
+}
+
+cv::Mat upright(const cv::Mat& image, int orientation) {
+  constexpr int kVertically = 0;
+  constexpr int kHorizontally = 1;
+  constexpr int kBoth = -1;
+  cv::Mat turned;
+  if (orientation >= 5) {
+    cv::transpose(image, turned);
+  } else {
+    turned = image.clone();
+  }
+  switch (orientation) {
+    case 2:
+    case 6:
+      cv::flip(turned, turned, kHorizontally);
+      break;
+    case 3:
+    case 7:
+      cv::flip(turned, turned, kBoth);
+      break;
+    case 4:
+    case 8:
+      cv::flip(turned, turned, kVertically);
+      break;
+    default:
+      break;
+  }
+  return turned;
+}
+
+std::vector<uint8_t> encodeJpeg(const cv::Mat& image, int quality) {
+  if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3))
+    throw std::invalid_argument("encodeJpeg: an image that is neither grey nor BGR of 8 bits");
+  const bool grey = image.channels() == 1;
+  const int subsampling = grey ? TJSAMP_GRAY : TJSAMP_420;
+  const Turbo turbo(tjInitCompress());
+  std::vector<uint8_t> bytes(tjBufSize(image.cols, image.rows, subsampling));
+  unsigned char* data = bytes.data();
+  unsigned long size = bytes.size();
+  if (tjCompress2(turbo.get(), image.data, image.cols, static_cast<int>(image.step), image.rows,
+                  grey ? TJPF_GRAY : TJPF_BGR, &data, &size, subsampling, std::clamp(quality, 1, 100),
+                  TJFLAG_ACCURATEDCT | TJFLAG_NOREALLOC) != 0)
+    throw std::invalid_argument(std::string("encodeJpeg: ") + tjGetErrorStr2(turbo.get()));
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace redbee
