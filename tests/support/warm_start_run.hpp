@@ -77,7 +77,7 @@ class WarmStartRun {
       : flight_(flight), faults_(std::move(faults)) {
     subscriptions_.push_back(bus_->subscribe<inertial_homography_t>(
         "INERTIAL_HOMOGRAPHY", 64,
-        [&](const inertial_homography_t& m) { result_.homographies[frame_] = m; }));
+        [&](const inertial_homography_t& m) { result_.homographies[frameAt(m.utime)] = m; }));
     subscriptions_.push_back(bus_->subscribe<filter_snapshot_t>(
         "FILTER_SNAPSHOT", 64, [&](const filter_snapshot_t& m) { result_.snapshots.push_back(m); }));
     subscriptions_.push_back(bus_->subscribe<filter_snapshot_t>(
@@ -133,6 +133,13 @@ class WarmStartRun {
     settle();
     bus_->publish("VISUAL_HOMOGRAPHY", vision());
     settle();
+  }
+
+  /// The frame of this time; it may be answered while a later one is being worked on.
+  int frameAt(int64_t utime) const {
+    int k = frame_;
+    while (k > 0 && toUtime(frameTime(k)) > utime) --k;
+    return k;
   }
 
   void settle() {
