@@ -38,7 +38,7 @@ cv::Mat1b moved(const cv::Mat1b& image, double x, double y, double turn) {
   return to * 0.9 + 10;
 }
 
-/// To the bit on x86-64. Elsewhere OpenCV's library was compiled with fused multiplications, which our
+/// To the bit on x86-64. Elsewhere OpenCV rounds otherwise, probably by fused multiplications, which our
 /// kernels avoid: there the mean of the differences [px] is bounded, as in noise a pixel may follow another
 /// neighbour.
 void expectSameFlow(const cv::Mat2f& ours, const cv::Mat2f& opencvs) {
