@@ -202,9 +202,9 @@ ImuFindings checkImu(const std::vector<ImuSample>& imu, CameraTime first_frame, 
   ImuFindings findings;
   if (imu.empty()) return findings;
   if (imu.size() < kFewSamples) {
-    findings.faults.push_back(
-        fmt::format("the IMU has {} sample{}: that is no recording; import without the IMU", imu.size(),
-                    imu.size() == 1 ? "" : "s"));
+    findings.warnings.push_back(
+        fmt::format("the IMU has {} sample{}, too few to be checked or flown with: import without the IMU",
+                    imu.size(), imu.size() == 1 ? "" : "s"));
   } else {
     checkRate(imu, seconds(last_frame - first_frame), read_as, findings);
     checkGravity(imu, read_as, findings);
