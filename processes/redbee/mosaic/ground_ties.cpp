@@ -60,8 +60,9 @@ class TieFinder {
     if (!estimate.view || !views_.frame().isGlobal()) return;
     const cv::Size image(ideal_.width, ideal_.height);
     for (int i = 0; i < kSamples * kSamples; ++i) {
-      const Eigen::Vector2d pixel((0.5 + i % kSamples) * image.width / kSamples - 0.5,
-                                  (0.5 + i / kSamples) * image.height / kSamples - 0.5);
+      const int column = i % kSamples, row = i / kSamples;
+      const Eigen::Vector2d pixel((0.5 + column) * image.width / kSamples - 0.5,
+                                  (0.5 + row) * image.height / kSamples - 0.5);
       if (areaOnMap(frame.to_map, pixel, image) > grid_.coarsest_area) continue;
       const auto point = groundPointOf(*model_, pixel, *estimate.view,
                                        configuration_.geolocation.min_depression_deg * kDegree);
