@@ -30,7 +30,7 @@ endmacro()
 set(same_release "redbee (= ${PROJECT_VERSION})")
 redbee_package(runtime redbee "The stack's processes, drivers of an autopilot and of a ground link, the tool redbee, and the systemd unit."
   "supervisor, iproute2, util-linux, systemd | systemd-standalone-sysusers" "liblcm-bin, gnuplot-nox, nftables")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/postinst ${PROJECT_SOURCE_DIR}/packaging/prerm)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/config/packaging/postinst ${PROJECT_SOURCE_DIR}/config/packaging/prerm)
 redbee_package(calibration redbee-calibrate "Calibration of REDBEE's camera and IMU from a flight." "${same_release}" "")
 if(GSTREAMER_FOUND)
   redbee_package(camera redbee-camera "Camera driver of REDBEE: any GStreamer pipeline."
