@@ -3,7 +3,6 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
-#include <algorithm>
 #include <memory>
 #include <new>
 
@@ -71,9 +70,7 @@ Decompressed decompress(const std::string& method, ByteView compressed, size_t s
   if (method == "zstd") return decompressZstd(compressed, size);
   if (method == "lz4") return decompressLz4(compressed, size);
   if (!method.empty()) return {{}, "compression '" + method + "' is not read"};
-  const size_t count = std::min(size, compressed.size);
-  return {{compressed.data, compressed.data + compressed.size},
-          count == compressed.size && count == size ? "" : kOtherSize};
+  return {{compressed.data, compressed.data + compressed.size}, compressed.size == size ? "" : kOtherSize};
 }
 
 }  // namespace redbee

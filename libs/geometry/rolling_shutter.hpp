@@ -25,6 +25,11 @@ struct RowMotion {
   Eigen::Vector3d later(const Eigen::Vector3d& ray, double tau_s) const;
   /// The inverse of later().
   Eigen::Vector3d earlier(const Eigen::Vector3d& ray, double tau_s) const;
+
+  bool operator==(const RowMotion& other) const {
+    return rate == other.rate && acceleration == other.acceleration && velocity == other.velocity &&
+           normal == other.normal;
+  }
 };
 
 /// s, of a raw row's exposure after the image's time.

@@ -81,16 +81,29 @@ bool Rectifier::moves(const std::optional<RowMotion>& motion) const {
   return motion && camera_.intrinsics().line_delay_s != 0;
 }
 
-cv::Mat2f Rectifier::sourcesInRaw(const RowMotion& motion) const {
-  return shifted(
-      raw_sources_, [&](const Eigen::Vector2d& ideal) { return rawPixel(camera_, ideal, motion); },
-      [&](const Eigen::Vector2d& ideal) { return camera_.distort(ideal); });
+Rectifier::Moved& Rectifier::movedBy(const RowMotion& motion) const {
+  if (!(moved_.motion == motion)) moved_ = {motion, {}, {}, {}};
+  return moved_;
 }
 
-cv::Mat2f Rectifier::sourcesInIdeal(const RowMotion& motion) const {
-  return shifted(
-      ideal_sources_, [&](const Eigen::Vector2d& raw) { return idealPixel(camera_, raw, motion); },
-      [&](const Eigen::Vector2d& raw) { return camera_.undistort(raw); });
+const cv::Mat2f& Rectifier::sourcesInRaw(const RowMotion& motion) const {
+  cv::Mat2f& sources = movedBy(motion).sources_in_raw;
+  if (sources.empty()) {
+    sources = shifted(
+        raw_sources_, [&](const Eigen::Vector2d& ideal) { return rawPixel(camera_, ideal, motion); },
+        [&](const Eigen::Vector2d& ideal) { return camera_.distort(ideal); });
+  }
+  return sources;
+}
+
+const cv::Mat2f& Rectifier::sourcesInIdeal(const RowMotion& motion) const {
+  cv::Mat2f& sources = movedBy(motion).sources_in_ideal;
+  if (sources.empty()) {
+    sources = shifted(
+        ideal_sources_, [&](const Eigen::Vector2d& raw) { return idealPixel(camera_, raw, motion); },
+        [&](const Eigen::Vector2d& raw) { return camera_.undistort(raw); });
+  }
+  return sources;
 }
 
 cv::Mat Rectifier::toIdeal(const cv::Mat& raw, const std::optional<RowMotion>& motion) const {
@@ -122,9 +135,10 @@ cv::Mat1b Rectifier::toRaw(const cv::Mat1b& ideal, uchar outside,
 
 cv::Mat1b Rectifier::ownParts(const std::optional<RowMotion>& motion) const {
   if (!moves(motion)) return own_parts_;
+  cv::Mat1b& moved = movedBy(*motion).own_parts;
+  if (!moved.empty()) return moved;
   cv::Mat1b parts = raw_own_parts_;
   if (parts.empty()) parts = cv::Mat1b::zeros(camera_.intrinsics().height, camera_.intrinsics().width);
-  cv::Mat1b moved;
   cv::remap(parts, moved, sourcesInRaw(*motion), cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
   return moved;
 }

@@ -11,7 +11,8 @@ namespace redbee {
 
 /// Look-up tables for one camera. If raw and ideal pixels are the same, images are returned without a copy.
 /// `motion`: of a rolling shutter's image, its rows' motion; without it, or with a global shutter, only the
-/// lens is rectified.
+/// lens is rectified. What it takes to follow the rows of one image is computed once: a Rectifier is not for
+/// several threads at once.
 class Rectifier {
  public:
   /// `own_parts`: 255 where raw images show the vehicle itself, which is unknown, too; of the raw images'
@@ -35,8 +36,16 @@ class Rectifier {
  private:
   bool moves(const std::optional<RowMotion>& motion) const;
   /// Source pixels of the ideal image's and of the raw image's.
-  cv::Mat2f sourcesInRaw(const RowMotion& motion) const;
-  cv::Mat2f sourcesInIdeal(const RowMotion& motion) const;
+  const cv::Mat2f& sourcesInRaw(const RowMotion& motion) const;
+  const cv::Mat2f& sourcesInIdeal(const RowMotion& motion) const;
+
+  /// Of the image that was asked for last.
+  struct Moved {
+    std::optional<RowMotion> motion;
+    cv::Mat2f sources_in_raw, sources_in_ideal;  ///< empty until they are asked for
+    cv::Mat1b own_parts;
+  };
+  Moved& movedBy(const RowMotion& motion) const;
 
   Camera camera_;
   cv::Mat2f raw_sources_, ideal_sources_;  ///< without motion; only of a rolling shutter
@@ -44,6 +53,7 @@ class Rectifier {
   cv::Mat to_raw_1_, to_raw_2_;
   cv::Mat1b unknown_;
   cv::Mat1b raw_own_parts_, own_parts_;
+  mutable Moved moved_;
 };
 
 }  // namespace redbee

@@ -4,12 +4,9 @@
 #include <GeographicLib/UTMUPS.hpp>
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <optional>
 #include <utility>
 
 #include "processes/geolocation/target_messages.hpp"
-#include "redbee/files/log.hpp"
 #include "redbee/geolocation/ground_point.hpp"
 #include "redbee/geometry/angle.hpp"
 #include "redbee/node/message_check.hpp"
@@ -29,126 +26,96 @@ double sigmaOf(const GroundPoint& point, const GroundView& view) {
   return std::max(kLeast_m, std::sqrt(0.5 * covariance.trace()));
 }
 
-class TieFinder {
- public:
-  TieFinder(const Configuration& configuration, const Camera& camera, const MosaicGrid& grid)
-      : configuration_(configuration),
-        ideal_(camera.ideal()),
-        model_(makeCameraModel(ideal_)),
-        grid_(grid),
-        views_(configuration.geolocation, configuration.inertial.extrinsics.R_CI,
-               configuration.inertial.extrinsics.p_IC) {}
-
-  void note(const LogEvent& event) {
-    const Channels& channels = configuration_.channels;
-    if (event.channel == channels.pose) {
-      if (pose_t m; decodePlausible(event.data, m)) views_.note(vehiclePoseOf(m));
-    } else if (event.channel == channels.gimbal) {
-      if (gimbal_t m; decodePlausible(event.data, m)) views_.note(mountAttitudeOf(m));
-    } else if (event.channel == channels.altimeter && configuration_.has_altimeter) {
-      if (altimeter_t m; decodePlausible(event.data, m)) views_.note(heightOf(m));
-    }
-  }
-
-  /// Whether all that the frame needs has come.
-  bool isReadyFor(const MappedFrame& frame) const { return views_.hasPoseAt(timeOf(frame)); }
-
-  void add(const MappedFrame& frame) {
-    const ViewEstimate estimate = views_.at(timeOf(frame));
-    if (views_.frame().takeRestart()) found_.ties.clear();
-    fault_ = estimate.fault;
-    if (!estimate.view || !views_.frame().isGlobal()) return;
-    const cv::Size image(ideal_.width, ideal_.height);
-    for (int i = 0; i < kSamples * kSamples; ++i) {
-      const int column = i % kSamples, row = i / kSamples;
-      const Eigen::Vector2d pixel((0.5 + column) * image.width / kSamples - 0.5,
-                                  (0.5 + row) * image.height / kSamples - 0.5);
-      if (areaOnMap(frame.to_map, pixel, image) > grid_.coarsest_area) continue;
-      const auto point = groundPointOf(*model_, pixel, *estimate.view,
-                                       configuration_.geolocation.min_depression_deg * kDegree);
-      if (!point) continue;
-      if (const auto place = onGrid(point->position))
-        found_.ties.push_back({(frame.to_map * pixel.homogeneous()).eval().hnormalized(), *place,
-                               sigmaOf(*point, *estimate.view)});
-    }
-  }
-
-  GroundTies result() {
-    if (found_.ties.empty()) found_.why_empty = whyEmpty();
-    if (zone_) found_.epsg = UTMUPS::EncodeEPSG(zone_->number, zone_->is_north);
-    return std::move(found_);
-  }
-
- private:
-  struct Zone {
-    int number = 0;
-    bool is_north = true;
-  };
-
-  ImuTime timeOf(const MappedFrame& frame) const {
-    return toImu(CameraTime(fromUtime(frame.utime)),
-                 fromSeconds(configuration_.inertial.extrinsics.timeshift_s));
-  }
-
-  /// The first place's zone is that of all; std::nullopt so far off that the zone does not reach there.
-  std::optional<Eigen::Vector2d> onGrid(const Eigen::Vector2d& position) {
-    const Geodetic place = views_.frame().geodeticOf(position);
-    Zone zone;
-    Eigen::Vector2d on_grid;
-    try {
-      UTMUPS::Forward(place.latitude_deg, place.longitude_deg, zone.number, zone.is_north, on_grid.x(),
-                      on_grid.y(), zone_ ? zone_->number : int{UTMUPS::STANDARD});
-    } catch (const GeographicLib::GeographicErr&) {
-      return std::nullopt;
-    }
-    if (!zone_) zone_ = zone;
-    if (zone.is_north != zone_->is_north && zone_->number != UTMUPS::UPS)
-      on_grid.y() += zone_->is_north ? -UTMUPS::UTMShift() : UTMUPS::UTMShift();
-    return on_grid;
-  }
-
-  std::string whyEmpty() const {
-    const Channels& channels = configuration_.channels;
-    switch (fault_) {
-      case ViewFault::kNoPose:
-        return "no " + channels.pose + " in the log";
-      case ViewFault::kStalePose:
-        return channels.pose + " does not come at the times of the frames";
-      case ViewFault::kNoMount:
-        return "no " + channels.gimbal + " at the times of the frames (geolocation.mount is gimbal)";
-      case ViewFault::kNoHeight:
-        return "no height above the ground, neither by " + channels.altimeter + " nor by " + channels.pose;
-      case ViewFault::kNone:
-        if (views_.frame().isGlobal()) return "by " + channels.pose + " the camera does not see the ground";
-        [[fallthrough]];
-      default:
-        return channels.pose + " has no latitude and longitude";
-    }
-  }
-
-  const Configuration& configuration_;
-  CameraIntrinsics ideal_;
-  std::unique_ptr<const CameraModel> model_;
-  MosaicGrid grid_;
-  ViewEstimator views_;
-  GroundTies found_;
-  std::optional<Zone> zone_;
-  ViewFault fault_ = ViewFault::kNoPose;
-};
-
 }  // namespace
 
-GroundTies readGroundTies(const std::filesystem::path& file, const Configuration& configuration,
-                          const Camera& camera, const GroundFrames& frames, const MosaicGrid& grid) {
-  TieFinder finder(configuration, camera, grid);
-  LogReader log(file);
-  auto frame = frames.frames.begin();
-  while (const auto event = log.next()) {
-    finder.note(*event);
-    for (; frame != frames.frames.end() && finder.isReadyFor(*frame); ++frame) finder.add(*frame);
+GroundTieFinder::GroundTieFinder(const Configuration& configuration, const Camera& camera,
+                                 const GroundFrames& frames, const MosaicGrid& grid)
+    : configuration_(configuration),
+      ideal_(camera.ideal()),
+      model_(makeCameraModel(ideal_)),
+      frames_(frames.frames),
+      grid_(grid),
+      views_(configuration.geolocation, configuration.inertial.extrinsics.R_CI,
+             configuration.inertial.extrinsics.p_IC) {}
+
+void GroundTieFinder::note(const LogEvent& event) {
+  const Channels& channels = configuration_.channels;
+  if (event.channel == channels.pose) {
+    if (pose_t m; decodePlausible(event.data, m)) views_.note(vehiclePoseOf(m));
+  } else if (event.channel == channels.gimbal) {
+    if (gimbal_t m; decodePlausible(event.data, m)) views_.note(mountAttitudeOf(m));
+  } else if (event.channel == channels.altimeter && configuration_.has_altimeter) {
+    if (altimeter_t m; decodePlausible(event.data, m)) views_.note(heightOf(m));
   }
-  for (; frame != frames.frames.end(); ++frame) finder.add(*frame);
-  return finder.result();
+  while (next_ < frames_.size() && views_.hasPoseAt(timeOf(frames_[next_]))) add(frames_[next_++]);
+}
+
+GroundTies GroundTieFinder::result() {
+  while (next_ < frames_.size()) add(frames_[next_++]);
+  if (found_.ties.empty()) found_.why_empty = whyEmpty();
+  if (zone_) found_.epsg = UTMUPS::EncodeEPSG(zone_->number, zone_->is_north);
+  return std::move(found_);
+}
+
+void GroundTieFinder::add(const MappedFrame& frame) {
+  const ViewEstimate estimate = views_.at(timeOf(frame));
+  if (views_.frame().takeRestart()) found_.ties.clear();
+  fault_ = estimate.fault;
+  if (!estimate.view || !views_.frame().isGlobal()) return;
+  const cv::Size image(ideal_.width, ideal_.height);
+  for (int i = 0; i < kSamples * kSamples; ++i) {
+    const int column = i % kSamples, row = i / kSamples;
+    const Eigen::Vector2d pixel((0.5 + column) * image.width / kSamples - 0.5,
+                                (0.5 + row) * image.height / kSamples - 0.5);
+    if (areaOnMap(frame.to_map, pixel, image) > grid_.coarsest_area) continue;
+    const auto point = groundPointOf(*model_, pixel, *estimate.view,
+                                     configuration_.geolocation.min_depression_deg * kDegree);
+    if (!point) continue;
+    if (const auto place = onGrid(point->position))
+      found_.ties.push_back({(frame.to_map * pixel.homogeneous()).eval().hnormalized(), *place,
+                             sigmaOf(*point, *estimate.view)});
+  }
+}
+
+ImuTime GroundTieFinder::timeOf(const MappedFrame& frame) const {
+  return toImu(CameraTime(fromUtime(frame.utime)),
+               fromSeconds(configuration_.inertial.extrinsics.timeshift_s));
+}
+
+/// The first place's zone is that of all; std::nullopt so far off that the zone does not reach there.
+std::optional<Eigen::Vector2d> GroundTieFinder::onGrid(const Eigen::Vector2d& position) {
+  const Geodetic place = views_.frame().geodeticOf(position);
+  Zone zone;
+  Eigen::Vector2d on_grid;
+  try {
+    UTMUPS::Forward(place.latitude_deg, place.longitude_deg, zone.number, zone.is_north, on_grid.x(),
+                    on_grid.y(), zone_ ? zone_->number : int{UTMUPS::STANDARD});
+  } catch (const GeographicLib::GeographicErr&) {
+    return std::nullopt;
+  }
+  if (!zone_) zone_ = zone;
+  if (zone.is_north != zone_->is_north && zone_->number != UTMUPS::UPS)
+    on_grid.y() += zone_->is_north ? -UTMUPS::UTMShift() : UTMUPS::UTMShift();
+  return on_grid;
+}
+
+std::string GroundTieFinder::whyEmpty() const {
+  const Channels& channels = configuration_.channels;
+  switch (fault_) {
+    case ViewFault::kNoPose:
+      return "no " + channels.pose + " in the log";
+    case ViewFault::kStalePose:
+      return channels.pose + " does not come at the times of the frames";
+    case ViewFault::kNoMount:
+      return "no " + channels.gimbal + " at the times of the frames (geolocation.mount is gimbal)";
+    case ViewFault::kNoHeight:
+      return "no height above the ground, neither by " + channels.altimeter + " nor by " + channels.pose;
+    case ViewFault::kNone:
+      if (views_.frame().isGlobal()) return "by " + channels.pose + " the camera does not see the ground";
+      [[fallthrough]];
+    default:
+      return channels.pose + " has no latitude and longitude";
+  }
 }
 
 }  // namespace redbee

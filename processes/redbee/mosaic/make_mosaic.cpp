@@ -53,7 +53,7 @@ cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, i
 bool isDrawn(const GroundObserver& ground, int64_t utime) { return ground.mask(utime) != nullptr; }
 
 int64_t draw(const MosaicOptions& options, const Configuration& configuration, GroundObserver& ground,
-             const GroundFrames& frames, Mosaic& mosaic) {
+             const GroundFrames& frames, Mosaic& mosaic, GroundTieFinder& ties) {
   std::map<int64_t, const MappedFrame*> by_time;
   for (const MappedFrame& frame : frames.frames) by_time[frame.utime] = &frame;
   RectifiedCamera camera(configuration.camera);
@@ -63,6 +63,7 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, G
   int64_t drawn = 0;
   int64_t seen = 0;
   while (const auto event = log.next()) {
+    ties.note(*event);
     if (event->channel != configuration.channels.camera) continue;
     progress.update(log.position() >> 20, log.size() >> 20);
     image_t message;
@@ -100,17 +101,15 @@ void checkFolder(const std::filesystem::path& out) {
 }
 
 /// Returns the place on the earth as summary.json says it; without one, why.
-nlohmann::json writeOnEarth(const MosaicOptions& options, const Configuration& configuration,
-                            const Camera& camera, const GroundFrames& frames, const MosaicGrid& grid,
+nlohmann::json writeOnEarth(const std::filesystem::path& file, const GroundTies& ties, const MosaicGrid& grid,
                             const cv::Mat4b& image, MosaicSummary& summary) {
-  std::filesystem::remove(options.out / "mosaic.tif");  // of an earlier run
-  const GroundTies ties = readGroundTies(options.log, configuration, camera, frames, grid);
+  std::filesystem::remove(file);  // of an earlier run
   const auto reference = georeference(ties.ties);
   if (!reference) {
     summary.why_no_place = ties.why_empty.empty() ? "all poses are of one place" : ties.why_empty;
     return nullptr;
   }
-  writeGeoTiff(options.out / "mosaic.tif", image, grid, *reference, ties.epsg);
+  writeGeoTiff(file, image, grid, *reference, ties.epsg);
   summary.epsg = ties.epsg;
   summary.residual_m = reference->residual_m;
   return {{"epsg", ties.epsg}, {"m_per_unit", reference->scale}, {"residual_m", reference->residual_m}};
@@ -143,7 +142,8 @@ MosaicSummary makeMosaic(const MosaicOptions& options) {
     throw InputError(options.log, "no homography of the ground leads from one frame to another: no mosaic");
   Mosaic mosaic(*grid);
   MosaicSummary summary;
-  summary.drawn = draw(options, configuration, ground, frames, mosaic);
+  GroundTieFinder ties(configuration, camera, frames, *grid);
+  summary.drawn = draw(options, configuration, ground, frames, mosaic, ties);
   if (summary.drawn == 0)
     throw InputError(options.log, "no frame on the map has an image and a valid mask: no mosaic");
   summary.frames = static_cast<int64_t>(frames.frames.size());
@@ -160,7 +160,7 @@ MosaicSummary makeMosaic(const MosaicOptions& options) {
   const cv::Mat4b transparent_image = transparent(image, mosaic.known());
   writePng(options.out / "mosaic.png", transparent_image);
   const nlohmann::json on_earth =
-      writeOnEarth(options, configuration, camera, frames, *grid, transparent_image, summary);
+      writeOnEarth(options.out / "mosaic.tif", ties.result(), *grid, transparent_image, summary);
   drawTracks(image, tracks, *grid, frames.frames.front().utime);
   writePng(options.out / "tracks.png", image);
   writeTracks(options.out / "tracks.csv", tracks);
