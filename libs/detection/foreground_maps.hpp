@@ -16,6 +16,9 @@ struct ForegroundMaps {
   cv::Mat1f gain{};
   /// Squared length of the flow's normalized residual. Of any size; empty if there is no flow.
   cv::Mat1f residual{};
+  /// movingRegion(): around points whose path no static surface explains, 0..1. Of any size; empty if there
+  /// are none.
+  cv::Mat1f moving{};
 };
 
 }  // namespace redbee

@@ -113,7 +113,7 @@ void GroundDetector::findObjects(cv::Mat1b probability, const ForegroundMaps& ma
   probability.setTo(0, maps.unknown);
   cv::threshold(probability, output.probability, kNoise, 0, cv::THRESH_TOZERO);
   ForegroundComponents found =
-      findComponents(output.probability, maps.unknown, objects_, {maps.gain, maps.residual});
+      findComponents(output.probability, maps.unknown, objects_, {maps.gain, maps.residual, maps.moving});
   TrackedObjects objects = tracker_.update(found);
   output.mask = found.mask(objects.components);
   output.detections = std::move(objects.detections);

@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "redbee/detection/foreground_maps.hpp"
+#include "redbee/detection/objects/moving_components.hpp"
+#include "redbee/detection/objects/regions.hpp"
 
 namespace redbee {
 namespace {
@@ -14,8 +16,6 @@ constexpr double kFull = 255;  // P_FG of 1
 // is lower.
 constexpr double kExtentOfPeak = 0.3;
 constexpr double kExtentOfThreshold = 0.5;
-
-cv::Mat1b disc(int diameter) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {diameter, diameter}); }
 
 /// Pixels above extent_threshold, after opening and closing. Only the bounding box of the foreground is
 /// processed; it is returned in `part`.
@@ -36,21 +36,6 @@ cv::Mat1b foregroundPart(const cv::Mat1b& probability, const cv::Mat1b& unknown,
   return mask;
 }
 
-/// Calls work(box, area, pixels of the region in the box) for each connected region that is large enough.
-template <typename Work>
-void forEachRegion(const cv::Mat1b& mask, double min_area_px, const Work& work) {
-  cv::Mat1i labels, statistics;
-  cv::Mat1d centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8, CV_32S);
-  for (int label = 1; label < count; ++label) {
-    const int* row = statistics[label];
-    if (row[cv::CC_STAT_AREA] < min_area_px) continue;
-    const cv::Rect box(row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
-                       row[cv::CC_STAT_HEIGHT]);
-    work(box, row[cv::CC_STAT_AREA], cv::Mat1b(labels(box) == label));
-  }
-}
-
 double peakOf(const cv::Mat1b& probability, const cv::Mat1b& pixels) {
   double peak = 0;
   cv::minMaxLoc(probability, nullptr, &peak, nullptr, nullptr, pixels);
@@ -67,31 +52,6 @@ double meanGain(const cv::Mat1f& map, cv::Size image, const cv::Rect& box, const
       const float gain = row[(box.x + x) * map.cols / image.width];
       if (pixels(y, x) == 0 || gain == kNotCompared) continue;
       sum += gain;
-      ++count;
-    }
-  }
-  return count > 0 ? sum / count : 1;
-}
-
-/// Mean of a map, of any size, around a box of an image of size `image`: as far as the box's longer side,
-/// beyond what the object's own flow reaches. 1 if nothing is known there.
-double meanAround(const cv::Mat1f& map, cv::Size image, const cv::Rect& box) {
-  constexpr double kPatch_px = 8;  // half a patch of the flow
-  constexpr double kLeastReach_px = 16;
-  const double scale = static_cast<double>(map.cols) / image.width;
-  const auto grown = [&](double by) {
-    const cv::Point low(cvRound(scale * (box.x - by)), cvRound(scale * (box.y - by)));
-    const cv::Point high(cvRound(scale * (box.br().x + by)), cvRound(scale * (box.br().y + by)));
-    return cv::Rect(low, high) & cv::Rect({}, map.size());
-  };
-  const cv::Rect inner = grown(kPatch_px);
-  const cv::Rect outer = grown(kPatch_px + std::max<double>(kLeastReach_px, std::max(box.width, box.height)));
-  double sum = 0;
-  int count = 0;
-  for (int y = outer.y; y < outer.br().y; ++y) {
-    for (int x = outer.x; x < outer.br().x; ++x) {
-      if (inner.contains({x, y}) || map(y, x) == kNotCompared) continue;
-      sum += map(y, x);
       ++count;
     }
   }
@@ -129,14 +89,10 @@ size_t nearestBox(const std::vector<cv::Rect2d>& boxes, int x, int y) {
   return nearest;
 }
 
-}  // namespace
-
-ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
-                                    const ObjectParameters& parameters, const ComponentMaps& maps) {
-  ForegroundComponents found;
-  found.image = probability.size();
+void addForeground(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Mat1b& unknown,
+                   const ObjectParameters& parameters, const ComponentMaps& maps) {
   const cv::Mat1b foreground = foregroundPart(probability, unknown, parameters, found.part);
-  if (foreground.empty()) return found;
+  if (foreground.empty()) return;
   found.labels = cv::Mat1i::zeros(foreground.size());
   const double min_area_px = parameters.min_area_px;
   forEachRegion(foreground, min_area_px, [&](const cv::Rect& region, int, const cv::Mat1b& own) {
@@ -149,6 +105,16 @@ ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1
       add(found, probability, box + region.tl(), area, pixels, parameters.weak_threshold, maps);
     });
   });
+}
+
+}  // namespace
+
+ForegroundComponents findComponents(const cv::Mat1b& probability, const cv::Mat1b& unknown,
+                                    const ObjectParameters& parameters, const ComponentMaps& maps) {
+  ForegroundComponents found;
+  found.image = probability.size();
+  addForeground(found, probability, unknown, parameters, maps);
+  if (!maps.moving.empty()) addMovingComponents(found, unknown, parameters, maps);
   return found;
 }
 

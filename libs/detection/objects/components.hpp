@@ -35,6 +35,7 @@ struct ForegroundComponents {
 struct ComponentMaps {
   cv::Mat1f gain{};
   cv::Mat1f residual{};
+  cv::Mat1f moving{};
 };
 
 /// Components that exceed `weak_threshold` somewhere. Each reaches as far as P_FG exceeds `extent_threshold`

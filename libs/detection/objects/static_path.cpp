@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <vector>
 
 #include "redbee/geometry/compose_motion.hpp"
 
@@ -22,11 +21,12 @@ class LeastSquares {
   using Vector = Eigen::Matrix<double, Unknowns, 1>;
   using Rows = Eigen::Matrix<double, 2, Unknowns>;
 
-  void add(const Rows& A, const Eigen::Vector2d& b, const Eigen::Vector2d& weights) {
-    const Eigen::Matrix<double, Unknowns, 2> weighted = A.transpose() * weights.asDiagonal();
-    normal_ += weighted * A;
-    right_ += weighted * b;
-    total_ += b.dot(weights.cwiseProduct(b));
+  void add(const Rows& A, const Eigen::Vector2d& b, const Eigen::Matrix2d& whitening) {
+    const Rows white = whitening * A;
+    const Eigen::Vector2d measured = whitening * b;
+    normal_.noalias() += white.transpose() * white;
+    right_.noalias() += white.transpose() * measured;
+    total_ += measured.squaredNorm();
   }
   void addPrior(int unknown, double weight) { normal_(unknown, unknown) += weight; }
   Vector solve() const { return normal_.ldlt().solve(right_); }
@@ -40,42 +40,37 @@ class LeastSquares {
   double total_ = 0;
 };
 
-struct Observation {
-  CameraPath::Sighting seen;
-  Eigen::Vector2d weights;  ///< inverse variances [px^-2]
-};
-
 /// The base of a moving point lies behind by its velocity times the age.
-double chiSquareOfMoving(const std::vector<Observation>& observations) {
+double chiSquareOfMoving(const std::vector<PathObservation>& observations) {
   LeastSquares<4> fit;
-  for (const auto& [seen, weights] : observations) {
+  for (const auto& [seen, whitening] : observations) {
     Eigen::Matrix<double, 2, 4> A;
     A << Eigen::Matrix2d::Identity(), -seen.age_s * Eigen::Matrix2d::Identity();
-    fit.add(A, seen.base, weights);
+    fit.add(A, seen.base, whitening);
   }
   return fit.chiSquare();
 }
 
 /// Depth, 0 (ground) to 1 (nearest), of the static point that fits best.
-double bestDepth(const std::vector<Observation>& observations) {
+double bestDepth(const std::vector<PathObservation>& observations) {
   LeastSquares<3> fit;
-  for (const auto& [seen, weights] : observations) {
+  for (const auto& [seen, whitening] : observations) {
     Eigen::Matrix<double, 2, 3> A;
     A << Eigen::Matrix2d::Identity(), -seen.parallax;
-    fit.add(A, seen.base, weights);
+    fit.add(A, seen.base, whitening);
   }
   return std::clamp(fit.solve()(2), 0.0, 1.0);
 }
 
 /// The direction of the parallax may be off by a small angle, the same for all frames.
-double chiSquareOfStatic(const std::vector<Observation>& observations, double direction_error) {
+double chiSquareOfStatic(const std::vector<PathObservation>& observations, double direction_error) {
   const double depth = bestDepth(observations);
   LeastSquares<3> fit;
-  for (const auto& [seen, weights] : observations) {
+  for (const auto& [seen, whitening] : observations) {
     const Eigen::Vector2d parallax = depth * seen.parallax;
     Eigen::Matrix<double, 2, 3> A;
     A << Eigen::Matrix2d::Identity(), Eigen::Vector2d(parallax.y(), -parallax.x());
-    fit.add(A, seen.base + parallax, weights);
+    fit.add(A, seen.base + parallax, whitening);
   }
   fit.addPrior(2, 1 / (direction_error * direction_error));
   return fit.chiSquare();
@@ -117,22 +112,25 @@ CameraPath::Sighting CameraPath::project(int64_t frame, const Eigen::Vector2d& p
   return seen;
 }
 
+PathFit fitPath(const std::vector<PathObservation>& observations, double direction_error) {
+  return {chiSquareOfStatic(observations, direction_error), chiSquareOfMoving(observations)};
+}
+
 std::optional<double> movingLogLikelihood(const std::deque<PathPoint>& points, const CameraPath& camera,
                                           double direction_error) {
-  std::vector<Observation> observations;
+  std::vector<PathObservation> observations;
   for (const PathPoint& point : points) {
     if (!camera.remembers(point.frame)) continue;
     CameraPath::Sighting seen = camera.project(point.frame, point.centre_px);
     seen.base -= points.back().centre_px;  // small numbers
-    observations.push_back({seen, point.variance_px2.cwiseInverse()});
+    observations.push_back({seen, point.variance_px2.cwiseInverse().cwiseSqrt().asDiagonal()});
   }
   if (observations.size() < kFewestPoints) return std::nullopt;
   const double span_s = observations.front().seen.age_s - observations.back().seen.age_s;
   const auto gaps = static_cast<double>(observations.size() - 1);
   const double correlated = std::max(1.0, kCorrelation_s * gaps / span_s);
-  const double difference =
-      chiSquareOfStatic(observations, direction_error) - chiSquareOfMoving(observations);
-  return 0.5 * difference / correlated;
+  const PathFit fit = fitPath(observations, direction_error);
+  return 0.5 * (fit.static_chi2 - fit.moving_chi2) / correlated;
 }
 
 }  // namespace redbee

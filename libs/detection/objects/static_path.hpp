@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "redbee/geometry/homography.hpp"
 #include "redbee/imaging/warping.hpp"
@@ -58,6 +59,22 @@ class CameraPath {
   int64_t current_ = 0;
   std::deque<Frame> frames_;  ///< before the current one, oldest first
 };
+
+/// One sighting of a path.
+struct PathObservation {
+  CameraPath::Sighting seen;
+  Eigen::Matrix2d whitening;  ///< inverse root of the position's covariance [1/px]
+};
+
+/// Two explanations of a path by weighted least squares. A path that both explain says nothing.
+struct PathFit {
+  double
+      static_chi2;  ///< of the best static point, at any depth from the ground to the nearest plausible one
+  double moving_chi2;  ///< of the best point that moves over the ground at a constant velocity
+};
+/// `observations`: two or more; positions relative to one near them, so that the numbers are small.
+/// `direction_error`: rad, sigma of the direction of travel.
+PathFit fitPath(const std::vector<PathObservation>& observations, double direction_error);
 
 /// Where a track was found in one frame.
 struct PathPoint {

@@ -1,5 +1,5 @@
 // Rows of the parallax evidence, as vector code. What they compute is stated by the scalar code:
-// HomographyFlow::at(), ParallaxSegment::residual() and largestVariance(); equation (28) of libs/README.md.
+// HomographyFlow::at(), ParallaxSegment::residual() and largestEigenvalue(); equation (28) of libs/README.md.
 #pragma once
 
 #include <cstddef>

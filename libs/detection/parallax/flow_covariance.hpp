@@ -4,13 +4,9 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "redbee/detection/parallax/structure_tensor.hpp"
+
 namespace redbee {
-
-/// A symmetric 2x2 matrix: xx, xy, yy.
-using Symmetric2f = cv::Vec3f;
-
-/// The variance along the direction in which it is the largest.
-float largestVariance(const Symmetric2f& covariance);
 
 /// Covariances of all pixels of an image, interpolated from a smaller map.
 class FlowCovariance {
@@ -21,7 +17,7 @@ class FlowCovariance {
 
   cv::Size size() const { return size_; }
   Symmetric2f operator()(int y, int x) const;
-  float largest(int y, int x) const { return largestVariance((*this)(y, x)); }
+  float largest(int y, int x) const { return largestEigenvalue((*this)(y, x)); }
 
   /// A row of pixels lies between two rows of the map; these are interpolated along the row, xx, xy and yy
   /// apart.
@@ -63,8 +59,7 @@ class FlowTexture {
   /// the flow's own grid.
   FlowTexture(const cv::Mat1b& grey, double scale);
 
-  /// Covariance [px^2], of grey's size: sigma^2 (I + min_gradient^2 S^-1), S the gradient matrix (structure
-  /// tensor; Foerstner and Guelch 1987) around each pixel.
+  /// Covariance [px^2], of grey's size: sigma^2 (I + min_gradient^2 S^-1), S the structure tensor.
   FlowCovariance covariance(const FlowNoise& noise) const;
 
  private:

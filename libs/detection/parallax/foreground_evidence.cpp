@@ -84,7 +84,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   const double elapsed_s = seconds(time - last_time_);
   last_time_ = time;
   const cv::Mat1f motion = motion_.learn(time, grey, K, full, own_parts);
-  cv::Mat1f foreground;
+  cv::Mat1f foreground, around_points;
   if (!motion.empty()) foreground = motion / (motion + parallax_.motion_half);
   if (appearance_.enabled) {
     const cv::Mat4f image = imageToCompare(grey, colour, full);
@@ -95,7 +95,9 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
       speed = SurfaceSpeed(image.size(), cv::Vec2f(0, kUnknownVariance));
     } else {
       resizeToBackground(foreground, speed, image.size());
-      cv::Mat1f foreign = foreground.mul(background_.appearanceDifference(image, speed));
+      const cv::Mat1f difference = background_.appearanceDifference(image, speed);
+      around_points = motion_.movingRegion(difference);
+      cv::Mat1f foreign = foreground.mul(difference);
       if (parallax_.use_hole_filling) {
         const double gap_px = parallax_.outline_gap_px / downscale_;
         foreign = cv::min(fillHoles(foreign, static_cast<int>(std::lround(gap_px))), foreground);
@@ -104,6 +106,11 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
       if (parallax_.region_radius_px > 0) fillRegions(image, foreground);
       // Half is enough: an object learned as background would be missed for the model's whole span.
       moving = cv::min(2 * foreground, 1);
+      if (!around_points.empty()) {
+        cv::Mat1f small_movers;
+        cv::resize(around_points, small_movers, moving.size(), 0, 0, cv::INTER_LINEAR);
+        moving = cv::max(moving, cv::min(2 * small_movers, 1));
+      }
     }
     if (!own_parts.empty()) {  // the background behind them stays what it was
       cv::Mat1b covered;
@@ -116,6 +123,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   if (motion.empty()) return maps;
   maps.gain = motion_.photometricGain(foreground);
   maps.residual = motion_.residual();
+  maps.moving = around_points;
   cv::resize(motion_.unknown(), maps.unknown, full, 0, 0, cv::INTER_NEAREST);
   foreground.convertTo(maps.foreground, CV_8U, 255);
   cv::resize(maps.foreground, maps.foreground, full, 0, 0, cv::INTER_LINEAR);

@@ -8,6 +8,7 @@
 #include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parallax/border_structure.hpp"
 #include "redbee/detection/parallax/evidence_kernels.hpp"
+#include "redbee/detection/parallax/moving_points.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
 #include "redbee/imaging/guided_filter.hpp"
 #include "redbee/imaging/warping.hpp"
@@ -52,7 +53,7 @@ void residualRowAlong(const ParallaxSegment& segment, const HomographyFlow& erro
       row.nearest[2 * i + static_cast<size_t>(k)] = found.nearest[k];
     }
     row.speed[2 * i] = std::sqrt(forth.dot(forth));
-    row.speed[2 * i + 1] = largestVariance(noise);
+    row.speed[2 * i + 1] = largestEigenvalue(noise);
   }
 }
 
@@ -69,12 +70,14 @@ ParallaxEvidence::ParallaxEvidence(const ParallaxParameters& parameters)
       scale_(std::max(parameters.work_downscale, 1)),
       work_(downscaling(scale_)),
       search_(makeMotionFlow(parameters)),
-      propagated_(parameters) {}
+      propagated_(parameters),
+      paths_(parameters) {}
 
 void ParallaxEvidence::reset() {
   frames_.reset();
   epipole_.reset();
   propagated_.reset();
+  paths_.reset();
   fast_ = false;
   unknown_.release();
   speed_.release();
@@ -88,6 +91,7 @@ void ParallaxEvidence::propagate(const Eigen::Matrix3d& ground, const std::optio
     return normaliseHomography(work_ * H * work_.inverse());
   };
   last_step_ = at_work(ground);
+  paths_.propagate(last_step_, motion);
   frames_.propagate(last_step_, motion, front ? std::optional(at_work(*front)) : std::nullopt);
 }
 
@@ -108,7 +112,16 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
     found = evidence(*frame, small, work_ * K, frames);
   }
   frames_.store(time, small, parameters_.baseline_s);
+  if (parameters_.use_point_paths) paths_.update(time, small, work_ * K, own_parts_);
   return found;
+}
+
+cv::Mat1f ParallaxEvidence::movingRegion(const cv::Mat1f& difference) const {
+  const std::vector<cv::Point> points = movingPoints(paths_.paths(), scale_);
+  if (points.empty()) return {};
+  cv::Mat1f at_work;
+  cv::resize(difference, at_work, unknown_.size(), 0, 0, cv::INTER_LINEAR);
+  return redbee::movingRegion(points, at_work, scale_);
 }
 
 /// Neither image shows the scene there.

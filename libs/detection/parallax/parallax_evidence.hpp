@@ -16,6 +16,7 @@
 #include "redbee/detection/parallax/epipole.hpp"
 #include "redbee/detection/parallax/parallax_segment.hpp"
 #include "redbee/detection/parallax/photometric_gain.hpp"
+#include "redbee/detection/parallax/point_paths.hpp"
 #include "redbee/detection/parallax/propagated_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/homography.hpp"
@@ -44,6 +45,9 @@ class ParallaxEvidence {
 
   /// 255 where the reference frame of the last learn() does not show the scene; at work_downscale.
   const cv::Mat1b& unknown() const { return unknown_; }
+  /// movingRegion() of the last learn(), at work_downscale; empty where no point moves. `difference`: of
+  /// appearance, 0..1, of any size.
+  cv::Mat1f movingRegion(const cv::Mat1f& difference) const;
   /// SurfaceSpeed of the last learn(), at work_downscale; empty if there was no earlier frame.
   const cv::Mat2f& speed() const { return speed_; }
   /// ForegroundMaps::residual of the last learn(), at work_downscale; empty if there was no earlier frame.
@@ -78,6 +82,7 @@ class ParallaxEvidence {
   EarlierFrames frames_;
   EpipoleEstimator epipole_;
   PropagatedEvidence propagated_;
+  PointPaths paths_;
   Eigen::Matrix3d last_step_ = Eigen::Matrix3d::Identity();  ///< pixels at work_downscale
   double elapsed_s_ = 0;                                     ///< between the last two frames
   bool fast_ = false;                                        ///< the last frame had fast movers

@@ -12,24 +12,6 @@ namespace {
 constexpr double kPlanesError = 3;  // times the direction's error with an IMU
 constexpr float kNoDirection = 1e-6F;
 
-/// C^-1/2, symmetric, of a positive definite C: the root is (C + r I) / t with r = sqrt(det C) and t =
-/// sqrt(tr C + 2 r).
-class InverseRoot {
- public:
-  explicit InverseRoot(const Symmetric2f& C) {
-    const float r = std::sqrt(C[0] * C[2] - C[1] * C[1]);
-    const float xx = C[0] + r, yy = C[2] + r;
-    const float factor = std::sqrt(C[0] + C[2] + 2 * r) / (xx * yy - C[1] * C[1]);
-    entries_ = {factor * yy, -factor * C[1], factor * xx};
-  }
-  cv::Vec2f operator*(const cv::Vec2f& v) const {
-    return {entries_[0] * v[0] + entries_[1] * v[1], entries_[1] * v[0] + entries_[2] * v[1]};
-  }
-
- private:
-  Symmetric2f entries_;
-};
-
 }  // namespace
 
 ParallaxSegment::ParallaxSegment(const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K,
@@ -76,7 +58,7 @@ ParallaxSegment::Residual ParallaxSegment::residual(const cv::Vec2f& ground, con
   const float along = flow.dot(direction);
   const cv::Vec2f across(-direction[1], direction[0]);
   const Symmetric2f outer(across[0] * across[0], across[0] * across[1], across[1] * across[1]);
-  const InverseRoot root(noise + direction_variance_ * along * along * outer);
+  const Symmetric2f root = inverseRoot(noise + direction_variance_ * along * along * outer);
   const cv::Vec2f whitened = root * flow;
   if (length == 0) return {{0, 0}, whitened};
   const cv::Vec2f step = root * direction;

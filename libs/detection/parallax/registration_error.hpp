@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "redbee/detection/parallax/flow_covariance.hpp"
 #include "redbee/detection/parallax/parallax_segment.hpp"
@@ -28,6 +29,27 @@ struct HomographyFlow {
   float unit;
   Eigen::Matrix<float, 2, 3> affine = Eigen::Matrix<float, 2, 3>::Zero();
   cv::Vec2f perspective{0, 0};
+};
+
+/// Robust fit of a homography's flow to single components of flow at single pixels.
+class HomographyFlowFit {
+ public:
+  explicit HomographyFlowFit(cv::Size image) : units_(image) {}
+
+  void clear() { constraints_.clear(); }
+  /// `measured_px`: component of the flow along the unit vector `normal` at `pixel`.
+  void add(const cv::Vec2f& pixel, const cv::Vec2f& normal, float measured_px, float variance_px2);
+  /// `expected_px`: sigma of a weak prior on the flow; `iterations`: of the reweighting.
+  HomographyFlow solve(float expected_px, int iterations) const;
+
+ private:
+  struct Constraint {
+    Eigen::Matrix<float, 8, 1> jacobian;
+    float measured;  ///< px
+    float variance;  ///< px^2
+  };
+  HomographyFlow units_;
+  std::vector<Constraint> constraints_;
 };
 
 /// Robust fit of a homography's flow to the flow component perpendicular to the parallax (to both components

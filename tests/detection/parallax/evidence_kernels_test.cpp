@@ -79,7 +79,7 @@ void expectScalarResiduals(const cv::Vec3f& epipole) {
     ASSERT_EQ(squared(0, x),
               is_known ? std::min(found.squaredMahalanobis(), kMostSquaredResidual) : kNotCompared);
     ASSERT_EQ(nearest(0, x), found.nearest);
-    ASSERT_EQ(speed(0, x), cv::Vec2f(std::sqrt(forth.dot(forth)), largestVariance(noise)));
+    ASSERT_EQ(speed(0, x), cv::Vec2f(std::sqrt(forth.dot(forth)), largestEigenvalue(noise)));
   }
 }
 

@@ -1,0 +1,69 @@
+#include "redbee/detection/objects/moving_components.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "redbee/detection/objects/regions.hpp"
+
+namespace redbee {
+namespace {
+
+constexpr double kRegion = 0.4;      // on the map: of the point's own difference from the background
+constexpr double kCovered = 0.2;     // of its box, by a component's box: the component stands for it
+constexpr double kConfirmed = 0.15;  // of a component's pixels that raise its gain
+// P_FG of such a component is not known. Alone it says little; it is its track's path that confirms it.
+constexpr double kPeak = 0.6;
+constexpr double kGain = 1.5;
+
+/// Grows the part of the image in which components are labelled.
+void growPart(ForegroundComponents& found, const cv::Rect& by) {
+  const cv::Rect grown = found.part | by;
+  cv::Mat1i labels = cv::Mat1i::zeros(grown.size());
+  if (!found.labels.empty()) found.labels.copyTo(labels(found.part - grown.tl()));
+  found.part = grown;
+  found.labels = labels;
+}
+
+cv::Mat1b pixelsOf(const ForegroundComponents& found, size_t index) {
+  return found.labels(found.components[index].box - found.part.tl()) == static_cast<int>(index) + 1;
+}
+
+bool isCovered(const ForegroundComponents& found, size_t count, const cv::Rect& box) {
+  return std::any_of(
+      found.components.begin(), found.components.begin() + static_cast<std::ptrdiff_t>(count),
+      [&](const Component& component) { return (component.box & box).area() > kCovered * box.area(); });
+}
+
+}  // namespace
+
+void addMovingComponents(ForegroundComponents& found, const cv::Mat1b& unknown,
+                         const ObjectParameters& parameters, const ComponentMaps& maps) {
+  cv::Mat1f moving;
+  cv::resize(maps.moving, moving, found.image, 0, 0, cv::INTER_LINEAR);
+  cv::Mat1b mask = moving > kRegion;
+  mask.setTo(0, unknown);
+  if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
+  const cv::Rect part = cv::boundingRect(mask);
+  if (part.empty()) return;
+  growPart(found, part);
+  const size_t count = found.components.size();
+  for (size_t i = 0; i < count; ++i) {
+    Component& component = found.components[i];
+    if (cv::countNonZero(pixelsOf(found, i) & mask(component.box)) > kConfirmed * component.area_px)
+      component.gain = std::max(component.gain, kGain);
+  }
+  forEachRegion(
+      mask(part), parameters.min_area_px, [&](const cv::Rect& in_part, int area, const cv::Mat1b& pixels) {
+        const cv::Rect box = in_part + part.tl();
+        if (isCovered(found, count, box)) return;
+        Component component;
+        component.box = box;
+        component.area_px = area;
+        component.score = component.peak = kPeak;
+        if (!maps.residual.empty()) component.residual_around = meanAround(maps.residual, found.image, box);
+        found.components.push_back(component);
+        found.labels(box - found.part.tl()).setTo(static_cast<double>(found.components.size()), pixels);
+      });
+}
+
+}  // namespace redbee
