@@ -13,10 +13,10 @@ namespace redbee {
 namespace {
 
 constexpr size_t kMaxPendingFrames = 256;
-/// Consecutive frames with an accepted correction by vision before a snapshot is published: a state that
-/// vision contradicts should not be restored, and a process that crashes immediately must not overwrite the
-/// last good snapshot.
-constexpr int kAgreedFrames = 12;
+/// Time of uninterrupted corrections by vision before a snapshot is published: a state that vision
+/// contradicts should not be restored, and a process that crashes immediately must not overwrite the last
+/// good snapshot.
+constexpr Duration kAgreed = std::chrono::milliseconds(500);
 constexpr double kClearOffset_s = 0.1;  // more than two frames' distance
 
 }  // namespace
@@ -138,7 +138,7 @@ bool ImuIntegrationNode::processNext() {
 void ImuIntegrationNode::integrate(CameraTime frame) {
   warmStart();
   applyFeedback();
-  agreed_in_a_row_ = feedback_report_.applied ? agreed_in_a_row_ + 1 : 0;
+  agreed_ = feedback_report_.applied ? agreed_ + (frame - *last_frame_) : Duration(0);
   if (last_frame_) feedback_.eraseThrough(*last_frame_);
   const InertialHomography result = filter_.advanceTo(frame);
   last_frame_ = frame;
@@ -164,7 +164,7 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   message.earlier = earlier_;
   publish(configuration_.channels.inertial_homography, message);
   earlier_ = stepOf(message, frame, result.valid);
-  if (result.valid && agreed_in_a_row_ >= kAgreedFrames) publishSnapshot();
+  if (result.valid && agreed_ >= kAgreed) publishSnapshot();
   if (result.valid && result.status == InertialStatus::kGood) {
     health().setState(HealthState::kGood, "");
   } else {

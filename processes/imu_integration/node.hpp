@@ -55,7 +55,7 @@ class ImuIntegrationNode : public Stage {
   std::optional<CameraTime> last_frame_;
   std::optional<filter_snapshot_t> warm_start_;  ///< the latest one received
   CorrectionReport feedback_report_;             ///< of the last frame
-  int agreed_in_a_row_ = 0;                      ///< consecutive frames with an accepted correction by vision
+  Duration agreed_{0};                           ///< for which each frame's correction by vision was accepted
   bool imu_alive_ = true;
   std::optional<ImuTime> last_sample_;    ///< since the newest frame arrived
   std::optional<double> clock_offset_s_;  ///< of that frame's exposure to the newest sample then
