@@ -15,10 +15,12 @@ namespace {
 /// A step with a larger transfer sigma is useless at pixel level. An inertial filter whose velocity vision
 /// has not yet observed is off by ten pixels, one that lost vision a second ago by tenths.
 constexpr double kMaxStepSigma_px = 2;
-/// Frames by which those that agree must outweigh those that do not, threefold, before the IMU has precedence
-/// where the two contradict each other: one second.
-constexpr int kProvenFrames = 24;
+/// Time by which the steps that agree must outweigh those that do not, threefold, before the IMU has
+/// precedence where the two contradict each other.
+constexpr Duration kProven = std::chrono::seconds(1);
 constexpr int kContradictionWeight = 3;
+constexpr Duration kMostOfOneStep =
+    std::chrono::milliseconds(250);       ///< a step across lost frames is one test
 constexpr double kUnknownVariance = 1.0;  // scaled units: half the image's width
 
 /// The paper's filter works in pixels: its Q and P_0 are diagonal in these units only.
@@ -158,7 +160,7 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
   out.innovation_covariance = toScaled({inertial.H, S});
 
   const bool agrees = factors.isPositive() && out.test_ratio <= 1;
-  proveInertial(agrees);
+  proveInertial(agrees, out.time - out.time_previous);
   if (!agrees && inertial_is_proven_ && ++gated_in_a_row_ <= parameters_.max_gated_in_a_row) {
     out.source = FusionSource::kInertial;
     return follow(inertial);
@@ -183,9 +185,10 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
                       : Matrix8d(propagated + step_noise));
 }
 
-void HomographyFusion::proveInertial(bool agrees) {
-  agreed_ = std::max(0, agreed_ + (agrees ? 1 : -kContradictionWeight));
-  inertial_is_proven_ = inertial_is_proven_ || agreed_ >= kProvenFrames;
+void HomographyFusion::proveInertial(bool agrees, Duration step) {
+  const Duration counted = std::min(step, kMostOfOneStep);
+  agreed_ = std::max(Duration(0), agreed_ + (agrees ? counted : -kContradictionWeight * counted));
+  inertial_is_proven_ = inertial_is_proven_ || agreed_ >= kProven;
 }
 
 Estimate HomographyFusion::accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,

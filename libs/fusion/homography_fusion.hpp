@@ -52,8 +52,9 @@ class HomographyFusion {
   Estimate follow(const Estimate& source);
   Estimate fuse(const Estimate& inertial, const Estimate& visual, FusedHomography& out);
   /// An IMU that has just started may have another clock or mounting than configured: until it has agreed
-  /// with vision for a while, vision is followed where they contradict each other.
-  void proveInertial(bool agrees);
+  /// with vision for a second, vision is followed where they contradict each other. `step`: the time
+  /// compared.
+  void proveInertial(bool agrees, Duration step);
   Estimate accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,
                   const Matrix8d& covariance_anchor);
   void anchorAt(CameraTime time);
@@ -73,7 +74,7 @@ class HomographyFusion {
   Estimate anchor_ = identityEstimate();  ///< anchor frame to the newest frame
   StepChain chain_;
   int gated_in_a_row_ = 0;
-  int agreed_ = 0;
+  Duration agreed_{0};  ///< by how long agreement has outweighed contradiction
   bool inertial_is_proven_ = false;
 };
 

@@ -1,226 +1,77 @@
 #include "redbee/inertial/inertial_filter.hpp"
 
-#include "redbee/inertial/corrections.hpp"
-#include "redbee/inertial/error_state.hpp"
-#include "redbee/inertial/frame_samples.hpp"
-#include "redbee/inertial/homography_measurement.hpp"
-#include "redbee/inertial/initial_state.hpp"
-#include "redbee/inertial/row_motion.hpp"
-#include "redbee/inertial/vision_agreement.hpp"
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "redbee/inertial/inertial_filter_core.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr double kMaxOutage = 0.5;  // s without IMU after which the state is discarded
-
-InertialHomography nothing(CameraTime frame_before, CameraTime frame, InertialStatus status) {
-  InertialHomography result;
-  result.time_previous = frame_before;
-  result.time = frame;
-  result.status = status;
-  return result;
-}
+/// An observation may come this long after its frame; the samples since then are kept for a second.
+constexpr Duration kLatest = std::chrono::milliseconds(750);
 
 }  // namespace
 
-class InertialFilter::Implementation {
+/// Where an observation of an earlier frame arrives, the filter returns to that frame, is corrected, and
+/// passes the frames since then once more: its state is the one that it would have, had nothing been late.
+class InertialFilter::Implementation : public InertialFilterCore {
  public:
-  Implementation(const Camera& camera, const InertialParameters& parameters)
-      : parameters_(parameters),
-        propagation_{parameters.noise, parameters.gravity, parameters.max_imu_gap_s},
-        camera_(camera),
-        samples_(parameters),
-        altitude_(parameters),
-        vision_(parameters) {}
+  using InertialFilterCore::InertialFilterCore;
 
-  bool addImu(const ImuSample& sample) { return samples_.add(sample); }
-  int takeForeignSamples() { return samples_.takeForeign(); }
-
-  bool addAltitude(const AltitudeSample& sample) { return altitude_.add(sample); }
-
-  bool covers(CameraTime frame) const {
-    return samples_.cover(frame + fromSeconds(halfReadout(camera_.intrinsics())));
+  bool addAltitude(const AltitudeSample& sample) {
+    for (Passed& passed : passed_) passed.checkpoint.altitude.add(sample);
+    return InertialFilterCore::addAltitude(sample);
   }
 
   InertialHomography advanceTo(CameraTime frame) {
-    InertialHomography result = stepTo(frame);
-    result.row_motion = rowMotionAt(frame);
+    const InertialHomography result = InertialFilterCore::advanceTo(frame);
+    remember();
     return result;
   }
 
   CorrectionReport correct(const HomographyObservation& observation) {
-    const bool belongs = state_ && previous_frame_ && !corrected_ && observation.time == *frame_ &&
-                         observation.time_previous == *previous_frame_;
-    if (!belongs) return {};
-    compare(observation);
-    const NavigationState before = *state_;
-    const CorrectionReport report = vision_.correct(*state_, observation, camera_, p_IC());
-    corrected_ = report.applied;
-    keepAboveGround(*state_, p_IC());
-    if (!isValid(*state_)) {
-      state_ = before;
-      return {};
+    const auto at = std::find_if(passed_.begin(), passed_.end(), [&](const Passed& passed) {
+      return passed.checkpoint.frame == observation.time;
+    });
+    if (at == passed_.end() || std::next(at) == passed_.end()) return correctNow(observation);
+    if (at->observation || at->checkpoint.previous_frame != observation.time_previous) return {};
+    const std::vector<Passed> again(std::next(at), passed_.end());
+    returnTo(at->checkpoint);
+    passed_.erase(std::next(at), passed_.end());
+    const CorrectionReport report = correctNow(observation);
+    for (const Passed& passed : again) {
+      advanceTo(passed.checkpoint.frame);
+      if (passed.observation) correctNow(*passed.observation);
     }
     return report;
   }
 
-  std::optional<NominalState> state() const {
-    if (!state_) return std::nullopt;
-    return NominalState{*frame_,           state_->R_GI,       state_->v_GI, cameraHeight(*state_, p_IC()),
-                        state_->gyro_bias, state_->accel_bias, state_->R_CI};
-  }
-
-  const std::optional<FilterSnapshot>& snapshot() const { return known_; }
-  const VisionAgreement& agreement() const { return agreement_; }
-  bool isAtFirstFrame() const { return state_ && !has_moved_; }
-
-  SnapshotCheck warmStart(const FilterSnapshot& known) {
-    if (!isAtFirstFrame()) return SnapshotCheck::kNotWanted;
-    const SnapshotCheck check = validate(known, *frame_, parameters_);
-    if (check == SnapshotCheck::kAccepted) {
-      known_ = known;
-      state_ = initialState(*frame_, samples_.forVertical(*frame_), parameters_, known_);
-    }
-    return check;
-  }
-
  private:
-  const Eigen::Vector3d& p_IC() const { return parameters_.extrinsics.p_IC; }
+  struct Passed {
+    FilterCheckpoint checkpoint;
+    std::optional<HomographyObservation> observation;  ///< that it was given
+  };
 
-  InertialHomography stepTo(CameraTime frame) {
-    if (!isPlausibleTime(frame) || (frame_ && frame == *frame_)) {
-      return nothing(frame_.value_or(frame), frame, InertialStatus::kClockJump);
-    }
-    if (samples_.takeWereMixed()) {
-      agreement_ = VisionAgreement();
-      return startAfresh(frame);
-    }
-    if (!frame_) return start(frame, InertialStatus::kInitialising);
-    const double interval = seconds(frame - *frame_);
-    if (interval < 0 || interval > parameters_.max_frame_gap_s) {
-      return start(frame, InertialStatus::kClockJump);
-    }
-    if (samples_.empty()) return coast(frame);
-    const ImuSpan span = samples_.span(samples_.imuTime(*frame_), samples_.imuTime(frame));
-    return FrameSamples::isMissing(span) ? coast(frame) : move(frame, span);
+  void remember() {
+    std::optional<FilterCheckpoint> now = checkpoint();
+    if (!now) return passed_.clear();  // it has begun again
+    if (!passed_.empty() && now->previous_frame != passed_.back().checkpoint.frame) passed_.clear();
+    passed_.push_back({*std::move(now), std::nullopt});
+    while (passed_.back().checkpoint.frame - passed_.front().checkpoint.frame > kLatest) passed_.pop_front();
   }
 
-  std::optional<RowMotion> rowMotionAt(CameraTime frame) const {
-    const double half_s = halfReadout(camera_.intrinsics());
-    if (half_s == 0 || !state_ || frame_ != frame || !agreement_.agrees()) return std::nullopt;
-    return rowMotion(*state_, p_IC(), samples_, frame, fromSeconds(half_s));
+  CorrectionReport correctNow(const HomographyObservation& observation) {
+    const CorrectionReport report = InertialFilterCore::correct(observation);
+    const bool was_tried = report.applied || report.test_ratio > 0;
+    if (was_tried && !passed_.empty()) passed_.back().observation = observation;
+    return report;
   }
 
-  InertialHomography start(CameraTime frame, InertialStatus status) {
-    InertialHomography result = nothing(frame_.value_or(frame), frame, status);
-    const std::vector<ImuSample> before = samples_.forVertical(frame);
-    forgetFrames();
-    if (before.empty()) {
-      state_.reset();
-      return nothing(frame, frame, status == InertialStatus::kClockJump ? status : InertialStatus::kNoImu);
-    }
-    state_ = initialState(frame, before, parameters_, known_);
-    frame_ = frame;
-    altitude_.eraseBefore(samples_.imuTime(frame));
-    vision_.restart();
-    return result;
-  }
-
-  void forgetFrames() {
-    frame_.reset();
-    previous_frame_.reset();
-    corrected_ = false;
-  }
-
-  /// No sample in the interval: the last one is held for a while, then the state is discarded.
-  InertialHomography coast(CameraTime frame) {
-    InertialHomography result = nothing(*frame_, frame, statusOf(frame, InertialStatus::kNoImu));
-    if (samples_.outageAt(frame) > kMaxOutage) {
-      forgetFrames();
-      state_.reset();
-      return result;
-    }
-    integrate(frame);
-    return isValid(*state_) ? result : startAfresh(frame);
-  }
-
-  InertialHomography move(CameraTime frame, const ImuSpan& span) {
-    const bool gap = samples_.hasGap(span);
-    InertialHomography result =
-        nothing(*frame_, frame, statusOf(frame, gap ? InertialStatus::kImuGap : InertialStatus::kGood));
-    correctByGravity(*state_, span, parameters_, vision_.secondsSinceApplied(*frame_));
-    integrate(frame);
-    if (!isValid(*state_)) return startAfresh(frame);
-    describe(*state_, camera_, p_IC(), result);
-    if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
-    if (!agreement_.agrees()) {
-      result.status = InertialStatus::kDisagreement;
-      return result;
-    }
-    result.valid = true;
-    known_ = snapshotOf(*state_, frame, p_IC());
-    return result;
-  }
-
-  /// Compares the rotation between the last two frames with vision's, before vision corrects it.
-  void compare(const HomographyObservation& observation) {
-    const auto difference =
-        rotationDifference(*state_, camera_, p_IC(), observation.H, observation.covariance);
-    const Eigen::Matrix3d R_ba = cameraMotion(*state_, p_IC()).R_ba;
-    if (difference) agreement_.note({observation.time_previous, observation.time, R_ba, *difference});
-  }
-
-  /// Refused samples take precedence over missing ones.
-  InertialStatus statusOf(CameraTime frame, InertialStatus otherwise) const {
-    return samples_.wereRefused(*frame_, frame) ? InertialStatus::kBadSamples : otherwise;
-  }
-
-  InertialHomography startAfresh(CameraTime frame) {
-    known_.reset();
-    return start(frame, InertialStatus::kInitialising);
-  }
-
-  /// Moves the state to the frame, stopping at each altitude on the way.
-  void integrate(CameraTime frame) {
-    ImuTime time = samples_.imuTime(*frame_);
-    const ImuTime end = samples_.imuTime(frame);
-    altitude_.correctLate(*state_, time);
-    clonePose(*state_);
-    while (const std::optional<AltitudeSample> altitude = altitude_.next(end)) {
-      integrateTo(time, altitude->time);
-      time = altitude->time;
-      altitude_.correct(*state_, *altitude, 0);
-    }
-    integrateTo(time, end);
-    keepAboveGround(*state_, p_IC());
-    samples_.eraseBefore(frame);
-    previous_frame_ = frame_;
-    frame_ = frame;
-    corrected_ = false;
-    has_moved_ = true;
-  }
-
-  void integrateTo(ImuTime begin, ImuTime end) {
-    if (end <= begin) return;
-    const ImuSpan span = samples_.span(begin, end);
-    for (std::size_t i = 1; i < span.knots.size(); ++i) {
-      propagate(*state_, span.knots[i - 1], span.knots[i], propagation_);
-    }
-  }
-
-  InertialParameters parameters_;
-  PropagationParameters propagation_;
-  Camera camera_;
-  FrameSamples samples_;
-  AltitudeCorrection altitude_;
-  VisionCorrection vision_;
-  VisionAgreement agreement_;  ///< survives a restart
-  std::optional<NavigationState> state_;
-  std::optional<FilterSnapshot> known_;  ///< of the last valid state: survives a restart
-  std::optional<CameraTime> frame_;
-  std::optional<CameraTime> previous_frame_;
-  bool corrected_ = false;  ///< by vision, for the last two frames
-  bool has_moved_ = false;  ///< past the first frame
+  std::deque<Passed> passed_;  ///< in order of time; the last is the newest frame
 };
 
 InertialFilter::InertialFilter(const Camera& camera, const InertialParameters& parameters)

@@ -103,7 +103,7 @@ class InertialFilter {
   /// in the status.
   InertialHomography advanceTo(CameraTime frame);
 
-  /// Corrects the state at the last frame. Rejected if it is not for the last two frames or fails its gate.
+  /// Corrects the state at the last frame; of an earlier one within 0.75 s, as if it had come in time. Once.
   CorrectionReport correct(const HomographyObservation& observation);
 
   std::optional<NominalState> state() const;

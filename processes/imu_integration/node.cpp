@@ -13,10 +13,10 @@ namespace redbee {
 namespace {
 
 constexpr size_t kMaxPendingFrames = 256;
-/// Consecutive frames with an accepted correction by vision before a snapshot is published: a state that
+/// Time of corrections by vision, of which none was rejected, before a snapshot is published: a state that
 /// vision contradicts should not be restored, and a process that crashes immediately must not overwrite the
 /// last good snapshot.
-constexpr int kAgreedFrames = 12;
+constexpr Duration kAgreed = std::chrono::milliseconds(500);
 constexpr double kClearOffset_s = 0.1;  // more than two frames' distance
 
 }  // namespace
@@ -86,6 +86,7 @@ void ImuIntegrationNode::restart(CameraTime newest) {
   filter_ = InertialFilter(camera_, configuration_.inertial);
   clock_.restart();
   last_frame_.reset();
+  agreed_until_.reset();
   earlier_ = {};
 }
 
@@ -118,10 +119,21 @@ void ImuIntegrationNode::warmStart() {
 void ImuIntegrationNode::applyFeedback() {
   feedback_report_ = {};
   if (!last_frame_) return;
-  const fused_homography_t* fused = feedback_.find(*last_frame_);
-  if (fused == nullptr || fused->has_observation == 0) return;
-  feedback_report_ = filter_.correct({previousTimeOf(*fused), timeOf(*fused), matrix3(fused->observed.H),
-                                      matrix8(fused->observed.covariance)});
+  feedback_.forEach([this](CameraTime time, const fused_homography_t& fused) {
+    if (time < *last_frame_) correct(fused);  // a late one
+  });
+  if (const fused_homography_t* fused = feedback_.find(*last_frame_)) correct(*fused);
+}
+
+void ImuIntegrationNode::correct(const fused_homography_t& fused) {
+  if (fused.has_observation == 0) return;
+  const CameraTime previous = previousTimeOf(fused), time = timeOf(fused);
+  const CorrectionReport report =
+      filter_.correct({previous, time, matrix3(fused.observed.H), matrix8(fused.observed.covariance)});
+  if (!report.applied && report.test_ratio == 0) return;  // of frames that the filter does not know
+  feedback_report_ = report;
+  agreed_ = report.applied ? agreed_ + (time - previous) : Duration(0);
+  agreed_until_ = time;
 }
 
 void ImuIntegrationNode::publishSnapshot() {
@@ -138,7 +150,7 @@ bool ImuIntegrationNode::processNext() {
 void ImuIntegrationNode::integrate(CameraTime frame) {
   warmStart();
   applyFeedback();
-  agreed_in_a_row_ = feedback_report_.applied ? agreed_in_a_row_ + 1 : 0;
+  if (!agreed_until_ || frame - *agreed_until_ > kAgreed) agreed_ = Duration(0);
   if (last_frame_) feedback_.eraseThrough(*last_frame_);
   const InertialHomography result = filter_.advanceTo(frame);
   last_frame_ = frame;
@@ -164,7 +176,7 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   message.earlier = earlier_;
   publish(configuration_.channels.inertial_homography, message);
   earlier_ = stepOf(message, frame, result.valid);
-  if (result.valid && agreed_in_a_row_ >= kAgreedFrames) publishSnapshot();
+  if (result.valid && agreed_ >= kAgreed) publishSnapshot();
   if (result.valid && result.status == InertialStatus::kGood) {
     health().setState(HealthState::kGood, "");
   } else {

@@ -40,6 +40,7 @@ class ImuIntegrationNode : public Stage {
   std::string reasonOf(InertialStatus status) const;
   void warmStart();
   void applyFeedback();
+  void correct(const fused_homography_t& fused);
   void publishSnapshot();
   void integrate(CameraTime frame);
   void restart(CameraTime newest) override;
@@ -54,8 +55,9 @@ class ImuIntegrationNode : public Stage {
   MessageClock clock_;
   std::optional<CameraTime> last_frame_;
   std::optional<filter_snapshot_t> warm_start_;  ///< the latest one received
-  CorrectionReport feedback_report_;             ///< of the last frame
-  int agreed_in_a_row_ = 0;                      ///< consecutive frames with an accepted correction by vision
+  CorrectionReport feedback_report_;             ///< the last one since the frame before
+  Duration agreed_{0};                           ///< measured by the corrections since one was rejected
+  std::optional<CameraTime> agreed_until_;       ///< the last of them
   bool imu_alive_ = true;
   std::optional<ImuTime> last_sample_;    ///< since the newest frame arrived
   std::optional<double> clock_offset_s_;  ///< of that frame's exposure to the newest sample then

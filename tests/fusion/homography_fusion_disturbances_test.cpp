@@ -53,6 +53,33 @@ TEST(HomographyFusion, AnImuThatContradictsFromTheStartHasNoPrecedence) {
   }
 }
 
+/// The first frame from which on vision that contradicts the IMU is rejected, where they agreed until then.
+int framesUntilProven(double frame_rate) {
+  const auto at = [&](int k) { return frameTime(k, kStart, frame_rate); };
+  for (int agreed = 1;; ++agreed) {
+    FusionInputs inputs(2);
+    HomographyFusion fusion = makeFusion();
+    FusedHomography out;
+    for (int k = 1; k <= agreed + 1; ++k) {
+      VisualInput visual = inputs.visual(k - 1, k);
+      InertialInput inertial = inputs.inertial(k - 1, k);
+      visual.time_previous = inertial.time_previous = at(k - 1);
+      if (k > agreed) visual.H = translation(60) * visual.H;
+      out = fusion.step(at(k), inertial, visual);
+    }
+    if (out.source == FusionSource::kInertial) return agreed;
+  }
+}
+
+TEST(HomographyFusion, AnImuIsProvenByASecondNotByANumberOfFrames) {
+  for (const int frame_rate : {10, 24, 60}) {
+    const int agreed = framesUntilProven(frame_rate);
+    EXPECT_GE(agreed, frame_rate) << frame_rate << " Hz";
+    EXPECT_LE(agreed, frame_rate + 1)
+        << frame_rate << " Hz";  // the contradiction itself weighs, rounding of times
+  }
+}
+
 TEST(HomographyFusion, EitherSourceMayBeLostForASecondAndComeBack) {
   for (const bool vision_lost : {true, false}) {
     FusionInputs inputs(4);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "processes/imu_integration/node.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/filter_snapshot_t.hpp"
+#include "redbee/fused_homography_t.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/visual_homography_t.hpp"
 #include "tests/support/consumer_imu.hpp"
@@ -62,6 +64,8 @@ struct FaultInjection {
   bool drop_warm_start = false;                              ///< the restarted process receives no warm start
   std::function<void(filter_snapshot_t&)> corrupt_snapshot;  ///< of the last snapshot, before it is offered
   std::function<void(int, visual_homography_t&)> corrupt_vision;
+  Duration feedback_delay{0};  ///< on the fused homographies' way to the inertial process
+  double feedback_lost = 0;    ///< probability, on the same way
 };
 
 struct RunResult {
@@ -82,6 +86,8 @@ class WarmStartRun {
         "FILTER_SNAPSHOT", 64, [&](const filter_snapshot_t& m) { result_.snapshots.push_back(m); }));
     subscriptions_.push_back(bus_->subscribe<filter_snapshot_t>(
         "WARM_START", 64, [&](const filter_snapshot_t&) { ++result_.offers; }));
+    subscriptions_.push_back(bus_->subscribe<fused_homography_t>(
+        "FUSED_HOMOGRAPHY", 64, [&](const fused_homography_t& m) { feedBack(m); }));
   }
 
   RunResult run() {
@@ -99,7 +105,9 @@ class WarmStartRun {
 
  private:
   void start(const Configuration& configuration) {
-    inertial_ = std::make_unique<ImuIntegrationNode>(*bus_, configuration);
+    Configuration hears = configuration;
+    if (isFeedbackDisturbed()) hears.channels.fused_homography = "FEEDBACK";
+    inertial_ = std::make_unique<ImuIntegrationNode>(*bus_, hears);
   }
   void kill() { inertial_.reset(); }
   void restart() {
@@ -112,7 +120,21 @@ class WarmStartRun {
     bus_->publish("FILTER_SNAPSHOT", snapshot);
   }
 
+  bool isFeedbackDisturbed() const { return faults_.feedback_delay.count() > 0 || faults_.feedback_lost > 0; }
+
+  void feedBack(const fused_homography_t& m) {
+    if (!isFeedbackDisturbed() || std::bernoulli_distribution(faults_.feedback_lost)(losses_)) return;
+    late_.emplace_back(frameTime(frame_) + faults_.feedback_delay, m);
+    deliverFeedback();
+  }
+  void deliverFeedback() {
+    for (; !late_.empty() && late_.front().first <= frameTime(frame_); late_.pop_front()) {
+      bus_->publish("FEEDBACK", late_.front().second);
+    }
+  }
+
   void publishFrame() {
+    deliverFeedback();
     const CameraTime time = frameTime(frame_);
     const ImuTime altitudes_until = toImu(time, Duration(0));
     const ImuTime samples_until = toImu(time, std::chrono::milliseconds(15));
@@ -172,6 +194,8 @@ class WarmStartRun {
   std::unique_ptr<HomographyFusionNode> fusion_;
   std::unique_ptr<ImuIntegrationNode> inertial_;
   std::mt19937 random_{7};
+  std::mt19937 losses_{3};
+  std::deque<std::pair<CameraTime, fused_homography_t>> late_;  ///< when it is due
   int frame_ = 0;
   size_t next_sample_ = 0;
   size_t next_altitude_ = 0;
