@@ -87,7 +87,7 @@ const char* faultOf(const inertial_homography_t& m) {
   const char* fault = firstFault(
       {{hasFrameTimes(m), "time"},
        {m.sequence >= 0, "sequence"},
-       {isFrom(inertial_homography_t::GOOD, m.status, inertial_homography_t::VISION_DISAGREES), "status"},
+       {isFrom(inertial_homography_t::GOOD, m.status, inertial_homography_t::NO_GIMBAL), "status"},
        {isFlag(m.valid), "flag"},
        {hasImageSize(m), "image size"},
        {isFrom(0, m.feedback_test_ratio, kMaxTestRatio), "test ratio"}});

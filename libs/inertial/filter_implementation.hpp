@@ -1,0 +1,241 @@
+// What the inertial filter does; internal to it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "redbee/inertial/corrections.hpp"
+#include "redbee/inertial/error_state.hpp"
+#include "redbee/inertial/frame_samples.hpp"
+#include "redbee/inertial/homography_measurement.hpp"
+#include "redbee/inertial/initial_state.hpp"
+#include "redbee/inertial/row_motion.hpp"
+#include "redbee/inertial/vision_agreement.hpp"
+
+namespace redbee {
+
+inline constexpr double kMaxOutage = 0.5;  // s without IMU after which the state is discarded
+
+inline InertialHomography nothing(CameraTime frame_before, CameraTime frame, InertialStatus status) {
+  InertialHomography result;
+  result.time_previous = frame_before;
+  result.time = frame;
+  result.status = status;
+  return result;
+}
+
+class InertialFilter::Implementation {
+ public:
+  Implementation(const Camera& camera, const InertialParameters& parameters)
+      : parameters_(parameters),
+        propagation_{parameters.noise, parameters.gravity, parameters.max_imu_gap_s},
+        camera_(camera),
+        samples_(parameters),
+        altitude_(parameters),
+        vision_(parameters) {}
+
+  bool addImu(const ImuSample& sample) { return samples_.add(sample); }
+  int takeForeignSamples() { return samples_.takeForeign(); }
+
+  bool addAltitude(const AltitudeSample& sample) { return altitude_.add(sample); }
+
+  bool addMount(const MountSample& sample) { return samples_.addMount(sample); }
+  bool coversMount(CameraTime frame) const { return samples_.coverMount(frame); }
+
+  bool covers(CameraTime frame) const {
+    return samples_.cover(frame + fromSeconds(halfReadout(camera_.intrinsics())));
+  }
+
+  InertialHomography advanceTo(CameraTime frame) {
+    InertialHomography result = stepTo(frame);
+    result.row_motion = rowMotionAt(frame);
+    return result;
+  }
+
+  CorrectionReport correct(const HomographyObservation& observation) {
+    const bool belongs = state_ && state_->isMountKnown() && previous_frame_ && !corrected_ &&
+                         observation.time == *frame_ && observation.time_previous == *previous_frame_;
+    if (!belongs) return {};
+    compare(observation);
+    const NavigationState before = *state_;
+    const CorrectionReport report = vision_.correct(*state_, observation, camera_, p_IC());
+    corrected_ = report.applied;
+    keepAboveGround(*state_, p_IC());
+    if (!isValid(*state_)) {
+      state_ = before;
+      return {};
+    }
+    return report;
+  }
+
+  std::optional<NominalState> state() const {
+    if (!state_) return std::nullopt;
+    return NominalState{*frame_,           state_->R_GI,       state_->v_GI, cameraHeight(*state_, p_IC()),
+                        state_->gyro_bias, state_->accel_bias, state_->R_CI};
+  }
+
+  const std::optional<FilterSnapshot>& snapshot() const { return known_; }
+  const VisionAgreement& agreement() const { return agreement_; }
+  bool isAtFirstFrame() const { return state_ && !has_moved_; }
+
+  SnapshotCheck warmStart(const FilterSnapshot& known) {
+    if (!isAtFirstFrame()) return SnapshotCheck::kNotWanted;
+    const SnapshotCheck check = validate(known, *frame_, parameters_);
+    if (check == SnapshotCheck::kAccepted) {
+      known_ = known;
+      begin(*frame_, samples_.forVertical(*frame_));
+    }
+    return check;
+  }
+
+ private:
+  const Eigen::Vector3d& p_IC() const { return parameters_.extrinsics.p_IC; }
+
+  InertialHomography stepTo(CameraTime frame) {
+    if (!isPlausibleTime(frame) || (frame_ && frame == *frame_)) {
+      return nothing(frame_.value_or(frame), frame, InertialStatus::kClockJump);
+    }
+    if (samples_.takeWereMixed()) {
+      agreement_ = VisionAgreement();
+      return startAfresh(frame);
+    }
+    if (!frame_) return start(frame, InertialStatus::kInitialising);
+    const double interval = seconds(frame - *frame_);
+    if (interval < 0 || interval > parameters_.max_frame_gap_s) {
+      return start(frame, InertialStatus::kClockJump);
+    }
+    if (samples_.empty()) return coast(frame);
+    const ImuSpan span = samples_.span(samples_.imuTime(*frame_), samples_.imuTime(frame));
+    return FrameSamples::isMissing(span) ? coast(frame) : move(frame, span);
+  }
+
+  std::optional<RowMotion> rowMotionAt(CameraTime frame) const {
+    const double half_s = halfReadout(camera_.intrinsics());
+    if (half_s == 0 || !state_ || frame_ != frame || !agreement_.agrees()) return std::nullopt;
+    if (!state_->mount.is_known) return std::nullopt;
+    return rowMotion(*state_, p_IC(), samples_, frame, fromSeconds(half_s));
+  }
+
+  InertialHomography start(CameraTime frame, InertialStatus status) {
+    InertialHomography result = nothing(frame_.value_or(frame), frame, status);
+    const std::vector<ImuSample> before = samples_.forVertical(frame);
+    forgetFrames();
+    if (before.empty()) {
+      state_.reset();
+      return nothing(frame, frame, status == InertialStatus::kClockJump ? status : InertialStatus::kNoImu);
+    }
+    begin(frame, before);
+    frame_ = frame;
+    altitude_.eraseBefore(samples_.imuTime(frame));
+    vision_.restart();
+    return result;
+  }
+
+  void begin(CameraTime frame, const std::vector<ImuSample>& before) {
+    state_ = initialState(frame, before, parameters_, known_);
+    state_->mount = state_->mount_clone = samples_.mountAt(frame);
+  }
+
+  void forgetFrames() {
+    frame_.reset();
+    previous_frame_.reset();
+    corrected_ = false;
+  }
+
+  /// No sample in the interval: the last one is held for a while, then the state is discarded.
+  InertialHomography coast(CameraTime frame) {
+    InertialHomography result = nothing(*frame_, frame, statusOf(frame, InertialStatus::kNoImu));
+    if (samples_.outageAt(frame) > kMaxOutage) {
+      forgetFrames();
+      state_.reset();
+      return result;
+    }
+    integrate(frame);
+    return isValid(*state_) ? result : startAfresh(frame);
+  }
+
+  InertialHomography move(CameraTime frame, const ImuSpan& span) {
+    const bool gap = samples_.hasGap(span);
+    InertialHomography result =
+        nothing(*frame_, frame, statusOf(frame, gap ? InertialStatus::kImuGap : InertialStatus::kGood));
+    correctByGravity(*state_, span, parameters_, vision_.secondsSinceApplied(*frame_));
+    integrate(frame);
+    if (!isValid(*state_)) return startAfresh(frame);
+    if (!state_->isMountKnown()) {
+      result.status = InertialStatus::kNoMount;
+      return result;
+    }
+    describe(*state_, camera_, p_IC(), result);
+    if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
+    if (!agreement_.agrees()) {
+      result.status = InertialStatus::kDisagreement;
+      return result;
+    }
+    result.valid = true;
+    known_ = snapshotOf(*state_, frame, p_IC());
+    return result;
+  }
+
+  /// Compares the rotation between the last two frames with vision's, before vision corrects it.
+  void compare(const HomographyObservation& observation) {
+    const auto difference =
+        rotationDifference(*state_, camera_, p_IC(), observation.H, observation.covariance);
+    const Eigen::Matrix3d R_ba = cameraMotion(*state_, p_IC()).R_ba;
+    if (difference) agreement_.note({observation.time_previous, observation.time, R_ba, *difference});
+  }
+
+  /// Refused samples take precedence over missing ones.
+  InertialStatus statusOf(CameraTime frame, InertialStatus otherwise) const {
+    return samples_.wereRefused(*frame_, frame) ? InertialStatus::kBadSamples : otherwise;
+  }
+
+  InertialHomography startAfresh(CameraTime frame) {
+    known_.reset();
+    return start(frame, InertialStatus::kInitialising);
+  }
+
+  /// Moves the state to the frame, stopping at each altitude on the way.
+  void integrate(CameraTime frame) {
+    ImuTime time = samples_.imuTime(*frame_);
+    const ImuTime end = samples_.imuTime(frame);
+    altitude_.correctLate(*state_, time);
+    clonePose(*state_);
+    while (const std::optional<AltitudeSample> altitude = altitude_.next(end)) {
+      integrateTo(time, altitude->time);
+      time = altitude->time;
+      altitude_.correct(*state_, *altitude, 0);
+    }
+    integrateTo(time, end);
+    keepAboveGround(*state_, p_IC());
+    samples_.eraseBefore(frame);
+    previous_frame_ = frame_;
+    frame_ = frame;
+    state_->mount = samples_.mountAt(frame);
+    corrected_ = false;
+    has_moved_ = true;
+  }
+
+  void integrateTo(ImuTime begin, ImuTime end) {
+    if (end <= begin) return;
+    const ImuSpan span = samples_.span(begin, end);
+    for (std::size_t i = 1; i < span.knots.size(); ++i) {
+      propagate(*state_, span.knots[i - 1], span.knots[i], propagation_);
+    }
+  }
+
+  InertialParameters parameters_;
+  PropagationParameters propagation_;
+  Camera camera_;
+  FrameSamples samples_;
+  AltitudeCorrection altitude_;
+  VisionCorrection vision_;
+  VisionAgreement agreement_;  ///< survives a restart
+  std::optional<NavigationState> state_;
+  std::optional<FilterSnapshot> known_;  ///< of the last valid state: survives a restart
+  std::optional<CameraTime> frame_;
+  std::optional<CameraTime> previous_frame_;
+  bool corrected_ = false;  ///< by vision, for the last two frames
+  bool has_moved_ = false;  ///< past the first frame
+};
+
+}  // namespace redbee
