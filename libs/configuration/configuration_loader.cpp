@@ -222,7 +222,8 @@ void Loader::checkMount() const {
   const GeolocationParameters& geolocation = configuration_.geolocation;
   if (!configuration_.inertial.gimbal.enabled || !geolocation.enabled || geolocation.mount == "gimbal")
     return;
-  const std::string& key = changed("geolocation.mount", "gimbal.enabled");
+  const std::string mount = "geolocation.mount", gimbal = "gimbal.enabled";
+  const std::string& key = changed(mount, gimbal);
   fail(places_.at(key), key, "gimbal.enabled is true, so geolocation.mount must be gimbal");
 }
 
