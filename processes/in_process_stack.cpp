@@ -25,6 +25,11 @@ Nodes motionNodes(Bus& bus, const Configuration& configuration) {
   return nodesBefore(&kMotionSegmentation, bus, configuration);
 }
 
+bool isInput(const Channels& channels, const std::string& channel) {
+  return channel == channels.camera || channel == channels.imu || channel == channels.altimeter ||
+         channel == channels.gimbal;
+}
+
 InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration)
     : InProcessStack(bus, configuration.channels.health, nodesBefore(nullptr, bus, configuration)) {}
 

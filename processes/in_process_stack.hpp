@@ -18,6 +18,9 @@ using Nodes = std::vector<std::unique_ptr<Node>>;
 /// fusion.
 Nodes motionNodes(Bus& bus, const Configuration& configuration);
 
+/// Whether messages of this channel go into the stack: what a replay feeds it of a log.
+bool isInput(const Channels& channels, const std::string& channel);
+
 class InProcessStack {
  public:
   /// All stages of the process table.

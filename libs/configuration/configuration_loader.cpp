@@ -183,6 +183,7 @@ void Loader::checkWhole(const std::filesystem::path& file) const {
   }
   checkWaits();
   checkThresholds();
+  checkMount();
 }
 
 /// Of two keys that contradict each other, the one to report: that of the command line, else the first that a
@@ -214,6 +215,16 @@ void Loader::checkCamera() const {
   if (fault.empty()) return;
   const bool stated = places_.count("camera.distortion") > 0;
   fail(places_.at(stated ? "camera.distortion" : "camera.model"), "camera.distortion", fault);
+}
+
+/// Targets would be placed by a camera that is fixed.
+void Loader::checkMount() const {
+  const GeolocationParameters& geolocation = configuration_.geolocation;
+  if (!configuration_.inertial.gimbal.enabled || !geolocation.enabled || geolocation.mount == "gimbal")
+    return;
+  const std::string mount = "geolocation.mount", gimbal = "gimbal.enabled";
+  const std::string& key = changed(mount, gimbal);
+  fail(places_.at(key), key, "gimbal.enabled is true, so geolocation.mount must be gimbal");
 }
 
 void Loader::checkThresholds() const {

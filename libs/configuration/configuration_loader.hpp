@@ -46,6 +46,7 @@ class Loader {
   const std::string& changed(const std::string& first, const std::string& second) const;
   void checkWaits() const;
   void checkThresholds() const;
+  void checkMount() const;
 
   Configuration configuration_;
   std::map<std::string, Place> places_;

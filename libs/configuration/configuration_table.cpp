@@ -48,6 +48,10 @@ Settings vehicleSettings() {
       setting("imu.gyro_bias_sigma", MEMBER(inertial.gyro_bias_sigma), positive),
       setting("imu.accel_bias_sigma", MEMBER(inertial.accel_bias_sigma), positive),
       setting("altimeter.present", MEMBER(has_altimeter), anything),
+      setting("gimbal.enabled", MEMBER(inertial.gimbal.enabled), anything),
+      setting("gimbal.angle_sigma_deg", MEMBER(inertial.gimbal.angle_sigma_deg), angleSigma),
+      setting("gimbal.timeshift_s", MEMBER(inertial.gimbal.timeshift_s), anything),
+      setting("gimbal.max_gap_s", MEMBER(inertial.gimbal.max_gap_s), positive),
   };
 }
 

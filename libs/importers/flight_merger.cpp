@@ -1,9 +1,11 @@
 #include "redbee/importers/flight_merger.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "redbee/altimeter_t.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/gimbal_t.hpp"
 #include "redbee/importers/imu_check.hpp"
 #include "redbee/ins_t.hpp"
 
@@ -25,6 +27,15 @@ altimeter_t toMessage(const AltitudeSample& sample) {
   message.utime = toUtime(sample.time);
   message.height = sample.height_m;
   message.sigma = sample.sigma_m;
+  return message;
+}
+
+gimbal_t toMessage(const MountSample& sample) {
+  gimbal_t message{};
+  message.utime = toUtime(sample.time);
+  message.has_body = 1;
+  const double ordered[] = {sample.q_IM.w(), sample.q_IM.x(), sample.q_IM.y(), sample.q_IM.z()};
+  std::copy(std::begin(ordered), std::end(ordered), std::begin(message.quat_body));
   return message;
 }
 
@@ -71,6 +82,7 @@ void FlightMerger::writeUpTo(Duration time) {
   const auto due = [limit = ImuTime(time)](const auto& samples, size_t next) {
     return next < samples.size() && samples[next].time <= limit;
   };
+  while (due(mount_, next_mount_)) log_.write(channels_.gimbal, toMessage(mount_[next_mount_++]));
   while (due(imu_, next_imu_) || due(altitudes_, next_altitude_)) {
     const bool imu_first = due(imu_, next_imu_) && (!due(altitudes_, next_altitude_) ||
                                                     imu_[next_imu_].time <= altitudes_[next_altitude_].time);

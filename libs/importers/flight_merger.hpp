@@ -1,12 +1,14 @@
-// Merges frames, IMU samples and altitudes into one log in the order of their times.
+// Merges frames, IMU samples, altitudes and a mount's rotations into one log in the order of their times.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "redbee/image_t.hpp"
 #include "redbee/importers/import.hpp"
+#include "redbee/inertial/mount_track.hpp"
 
 namespace redbee {
 
@@ -20,6 +22,8 @@ class FlightMerger {
   /// is then an InputError of close(), and a warning of the summary otherwise.
   void requirePlausibleImu(const std::filesystem::path& file, const ImuUnits& units);
 
+  /// In order of time.
+  void addMount(std::vector<MountSample> mount) { mount_ = std::move(mount); }
   void addFrame(const image_t& frame);
   /// Writes the remaining samples, closes the log and fills counts, times and the IMU's warnings of the
   /// summary.
@@ -33,10 +37,12 @@ class FlightMerger {
   ImportChannels channels_;
   std::vector<ImuSample> imu_;
   std::vector<AltitudeSample> altitudes_;
+  std::vector<MountSample> mount_;
   std::optional<std::filesystem::path> imu_file_;
   ImuUnits units_;
   size_t next_imu_ = 0;
   size_t next_altitude_ = 0;
+  size_t next_mount_ = 0;
   int64_t frames_ = 0;
   int64_t first_utime_ = 0;
   int64_t last_utime_ = 0;

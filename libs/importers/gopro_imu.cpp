@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -131,21 +130,6 @@ double recorderSpeed(const std::vector<Batch>& all) {
   return std::isfinite(speed) ? speed : 1;
 }
 
-/// The largest rotation of an image against the first one's, both against the camera. 0 without IORI.
-double imageTurn_deg(const std::vector<DataPacket>& packets) {
-  std::optional<Eigen::Quaterniond> first;
-  double largest = 0;
-  for (const DataPacket& packet : packets) {
-    for (const auto& [w, x, y, z] : gpmfQuaternions(packet.bytes, "IORI")) {
-      const Eigen::Quaterniond image = Eigen::Quaterniond(w, x, y, z).normalized();
-      if (!first) first = image;
-      const double angle = image.angularDistance(*first);
-      if (std::isfinite(angle)) largest = std::max(largest, angle);
-    }
-  }
-  return largest * 180 / M_PI;
-}
-
 std::vector<TimedVector> timed(const std::vector<Batch>& all, const std::string& key,
                                const std::optional<double>& stamp_offset) {
   const Line clock = sampleClock(all, stamp_offset);
@@ -174,14 +158,6 @@ GoproStreams readGoproStreams(const std::vector<DataPacket>& packets) {
 }
 
 std::optional<std::string> reasonToLeaveOut(const std::vector<DataPacket>& packets) {
-  const double turned = imageTurn_deg(packets);
-  // Half a degree of the mounting already shows (config/README.md).
-  if (turned > 0.5) {
-    return fmt::format(
-        "the IMU is left out: the camera stabilised the video and turned its images by up to {:.1f} "
-        "degrees; record with stabilisation off to use the IMU",
-        turned);
-  }
   const std::vector<Batch> gyro = batches(packets, "GYRO");
   const std::string advice = ", as in time lapse or slow motion: record at normal speed to use the IMU";
   const double speed = recorderSpeed(gyro);

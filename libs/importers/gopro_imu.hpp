@@ -37,10 +37,9 @@ struct GoproStreams {
 /// Throws GpmfError if a payload is damaged, a unit is unknown, or one of the sensors is missing.
 GoproStreams readGoproStreams(const std::vector<DataPacket>& packets);
 
-/// Why the motion track says nothing about the images, in one line; std::nullopt if it does:
-/// - the camera turned the images electronically (IORI changes), so that they do not move as the camera does;
-/// - the video's clock is not the recorder's (by STMP, or by the sensors' rate), as in time lapse and slow
-/// motion. Throws GpmfError like readGoproStreams().
+/// Why the motion track says nothing about the images, in one line; std::nullopt if it does: the video's
+/// clock is not the recorder's (by STMP, or by the sensors' rate), as in time lapse and slow motion. Throws
+/// GpmfError like readGoproStreams().
 std::optional<std::string> reasonToLeaveOut(const std::vector<DataPacket>& packets);
 
 /// A sample at every gyro time, the accelerometer interpolated linearly and held constant beyond its ends.

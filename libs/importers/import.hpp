@@ -21,6 +21,7 @@ struct ImportChannels {
   std::string camera = "CAMERA";
   std::string imu = "IMU";
   std::string altimeter = "ALTIMETER";
+  std::string gimbal = "GIMBAL";
 };
 
 enum class FrameFormat {
@@ -59,6 +60,8 @@ struct VehicleDescription {
   std::optional<Eigen::Vector3d> p_IC;  ///< m, camera centre in the IMU frame
   std::optional<double> timeshift_s;    ///< t_imu = t_cam + timeshift
   std::optional<ImuNoise> noise;
+  std::optional<double>
+      mount_sigma_deg;  ///< deg, of GIMBAL's angles, where the log says how the images were turned
   bool has_imu = false;
   std::optional<AltitudeSample> start_height;  ///< altimeter at the first frame
 };

@@ -1,5 +1,7 @@
 #include "redbee/importers/import_gopro.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <regex>
@@ -10,6 +12,7 @@
 #include "redbee/importers/data_track.hpp"
 #include "redbee/importers/flight_merger.hpp"
 #include "redbee/importers/gopro_imu.hpp"
+#include "redbee/importers/gopro_orientation.hpp"
 #include "redbee/importers/gpmf.hpp"
 #include "redbee/importers/video_log.hpp"
 #include "redbee/importers/video_reader.hpp"
@@ -18,6 +21,8 @@ namespace redbee {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kLeastTurn_deg = 0.5;
 
 struct UnusableImu : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -61,22 +66,54 @@ std::vector<VideoSource> onOneClock(const std::vector<fs::path>& files) {
   return sources;
 }
 
+/// What the motion track says of the camera's and of its images' rotation.
+struct Motion {
+  std::vector<ImuSample> imu;
+  std::vector<MountSample> turns;  ///< of images that were stabilised, on the IMU's clock
+  std::optional<double> lag_s;     ///< frameLag() of those
+};
+
 /// The recorder's clock starts again with each chapter, so that each is fitted to the video's by itself.
-std::vector<ImuSample> imuOf(const VideoSource& source) {
+Motion motionOf(const VideoSource& source) {
   std::vector<DataPacket> packets = readDataTrack(source.file, "gpmd");
   if (packets.empty()) throw InputError(source.file, "has no GPMF track: import it as a video");
   if (const auto reason = reasonToLeaveOut(packets)) throw UnusableImu(*reason);
   for (DataPacket& packet : packets) packet.start_s += 1e-6 * static_cast<double>(source.start_us);
-  return mergeAtGyroTimes(readGoproStreams(packets));
+  const GoproStreams streams = readGoproStreams(packets);
+  Motion motion{mergeAtGyroTimes(streams), imageTurns(packets), {}};
+  if (!motion.turns.empty()) motion.lag_s = frameLag(packets, streams);
+  return motion;
 }
 
-std::vector<ImuSample> imuOf(const std::vector<VideoSource>& sources, ImportSummary& summary) {
-  std::vector<ImuSample> all;
+/// Turns at the times of the frames on the IMU's clock.
+void putOnImuClock(Motion& motion) {
+  for (MountSample& turn : motion.turns) turn.time += fromSeconds(motion.lag_s.value_or(0));
+}
+
+void describeTurns(const Motion& all, ImportSummary& summary) {
+  // Of IORI's 16 bits, and of CORI against the gyro.
+  constexpr double kSigma_deg = 0.02;
+  if (all.turns.empty()) return;
+  summary.vehicle.mount_sigma_deg = kSigma_deg;
+  summary.vehicle.timeshift_s = all.lag_s;
+  summary.warnings.push_back(fmt::format(
+      "the camera stabilised the video and turned its images by up to {:.1f} degrees: GIMBAL says how, by "
+      "the recording's IORI; a rolling shutter is not corrected",
+      largestTurn_deg(all.turns)));
+}
+
+Motion motionOf(const std::vector<VideoSource>& sources, ImportSummary& summary) {
+  Motion all;
   for (const VideoSource& source : sources) {
     try {
-      for (const ImuSample& sample : imuOf(source)) {
+      Motion part = motionOf(source);
+      if (all.lag_s) part.lag_s = all.lag_s;  // one camera, one lag
+      all.lag_s = part.lag_s;
+      putOnImuClock(part);
+      all.turns.insert(all.turns.end(), part.turns.begin(), part.turns.end());
+      for (const ImuSample& sample : part.imu) {
         // The samples of two chapters may overlap by the error of the fits.
-        if (all.empty() || sample.time > all.back().time) all.push_back(sample);
+        if (all.imu.empty() || sample.time > all.imu.back().time) all.imu.push_back(sample);
       }
     } catch (const UnusableImu& reason) {
       summary.warnings.emplace_back(reason.what());
@@ -85,6 +122,9 @@ std::vector<ImuSample> imuOf(const std::vector<VideoSource>& sources, ImportSumm
       throw InputError(source.file, error.what());
     }
   }
+  // Half a degree of the mounting already shows (config/README.md).
+  if (largestTurn_deg(all.turns) <= kLeastTurn_deg) all.turns.clear();
+  describeTurns(all, summary);
   return all;
 }
 
@@ -103,7 +143,9 @@ ImportSummary importGopro(const ImportOptions& options, Progress& progress) {
   ImportSummary summary;
   summary.vehicle.name = options.source.stem().string();
   const std::vector<VideoSource> sources = onOneClock(chaptersOf(options));
-  FlightMerger merger(options.log, options.channels, imuOf(sources, summary), {});
+  const Motion motion = motionOf(sources, summary);
+  FlightMerger merger(options.log, options.channels, motion.imu, {});
+  merger.addMount(motion.turns);
   for (const VideoSource& source : sources) {
     const VideoPart part = addVideoFrames(source, options, merger, summary, progress);
     summary.vehicle.R_CI = mounting(part.rotation_deg);

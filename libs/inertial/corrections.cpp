@@ -102,7 +102,8 @@ CorrectionReport VisionCorrection::correct(NavigationState& state, const Homogra
   const HomographyMeasurement z =
       homographyMeasurement(state, motion, motionJacobians(state, motion, p_IC), K_scaled);
   const Vector8d innovation = toVector(scaling.scale(observation.H)) - z.predicted;
-  const Matrix8d R = feedback_correlation_frames_ * observation.covariance + z.second_order_covariance;
+  const Matrix8d R =
+      feedback_correlation_frames_ * observation.covariance + z.mount_covariance + z.second_order_covariance;
   const Matrix8d S = z.linear_covariance + R;
   const LdltFactors factors(S);
   if (!innovation.allFinite() || !factors.succeeded() || !factors.isPositive()) return {};

@@ -10,6 +10,7 @@
 #include "redbee/geometry/products.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/inertial/mount_track.hpp"
 
 namespace redbee {
 
@@ -43,8 +44,14 @@ struct NavigationState {
   Eigen::Vector3d accel_bias;
   Eigen::Matrix3d R_GI_clone;  ///< at the previous frame
   Eigen::Vector3d p_GI_clone;
-  Eigen::Matrix3d R_CI;
+  Eigen::Matrix3d R_CI;  ///< the mounting at rest: the camera against its mount
   ErrorCovariance P;
+  MountRotation mount;  ///< against the IMU; a gimbal turns it
+  MountRotation mount_clone;
+
+  Eigen::Matrix3d cameraRotation() const { return R_CI * mount.R_MI; }  ///< IMU to camera
+  Eigen::Matrix3d cameraRotationClone() const { return R_CI * mount_clone.R_MI; }
+  bool isMountKnown() const { return mount.is_known && mount_clone.is_known; }
 };
 
 struct PropagationParameters {

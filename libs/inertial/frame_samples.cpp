@@ -20,7 +20,9 @@ FrameSamples::FrameSamples(const InertialParameters& parameters)
       max_gap_s_(parameters.max_imu_gap_s),
       gyro_correction_(parameters.gyro_correction),
       check_(parameters.imu_limits),
-      imu_(parameters.max_frame_gap_s) {}
+      imu_(parameters.max_frame_gap_s) {
+  if (parameters.gimbal.enabled) mount_.emplace(parameters.gimbal);
+}
 
 bool FrameSamples::add(const ImuSample& sample) {
   if (!isPlausibleTime(sample.time) || !sample.gyro.allFinite() || !sample.accel.allFinite()) return false;
@@ -75,6 +77,7 @@ void FrameSamples::eraseBefore(CameraTime frame) {
   const ImuTime horizon = imuTime(frame) - kMemory;
   imu_.eraseBefore(horizon);
   check_.eraseBefore(horizon);
+  if (mount_) mount_->eraseBefore(horizon);
 }
 
 }  // namespace redbee

@@ -1,6 +1,7 @@
-// IMU samples by frame; converts between the camera's and the IMU's clock.
+// IMU samples, and the mount's, by frame; converts between the camera's and the IMU's clock.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "redbee/inertial/imu_rhythm.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/inertial/mount_track.hpp"
 
 namespace redbee {
 
@@ -27,6 +29,12 @@ class FrameSamples {
 
   /// True if the samples reach a frame's exposure.
   bool cover(CameraTime frame) const;
+  /// Of a gimbal; ignored where the camera is fixed to the IMU, whose mount is known and covers every frame.
+  bool addMount(const MountSample& sample) { return !mount_ || mount_->add(sample); }
+  bool coverMount(CameraTime frame) const { return !mount_ || mount_->reaches(imuTime(frame)); }
+  MountRotation mountAt(CameraTime frame) const {
+    return mount_ ? mount_->at(imuTime(frame)) : MountRotation();
+  }
   /// s, from a frame to the nearest sample, which may be a later one after a jump of the IMU's clock.
   double outageAt(CameraTime frame) const;
   /// True if samples were refused in the interval of two frames.
@@ -54,6 +62,7 @@ class FrameSamples {
   bool were_mixed_ = false;
   ImuSampleCheck check_;
   ImuBuffer imu_;
+  std::optional<MountTrack> mount_;  ///< of a gimbal
 };
 
 }  // namespace redbee

@@ -28,11 +28,21 @@ Matrix8d productCovariance(const Eigen::Matrix3d& K, const PlaneMotion& motion,
   return sum;
 }
 
+/// By the errors of the mount's angles at the two frames, which turn the cameras.
+Matrix8d mountCovariance(const NavigationState& state, const PlaneMotion& motion,
+                         const PlaneHomographyJacobians& by) {
+  using Jacobian = Eigen::Matrix<double, 8, 3>;
+  const Jacobian at_b = by.by_rotation - by.by_translation * skew(motion.t_ba);
+  const Jacobian at_a = by.by_normal - by.by_rotation * motion.R_ba;
+  return state.mount.variance * (at_b * at_b.transpose()) +
+         state.mount_clone.variance * (at_a * at_a.transpose());
+}
+
 }  // namespace
 
 PlaneMotion cameraMotion(const NavigationState& state, const Eigen::Vector3d& p_IC) {
-  const Eigen::Matrix3d R_CbG = state.R_CI * state.R_GI.transpose();
-  const Eigen::Matrix3d R_CaG = state.R_CI * state.R_GI_clone.transpose();
+  const Eigen::Matrix3d R_CbG = state.cameraRotation() * state.R_GI.transpose();
+  const Eigen::Matrix3d R_CaG = state.cameraRotationClone() * state.R_GI_clone.transpose();
   const Eigen::Vector3d p_GCa = state.p_GI_clone + state.R_GI_clone * p_IC;
   const Eigen::Vector3d p_GCb = state.p_GI + state.R_GI * p_IC;
   return {R_CbG * R_CaG.transpose(), R_CbG * (p_GCa - p_GCb), -R_CaG.col(2), p_GCa.z()};
@@ -40,23 +50,24 @@ PlaneMotion cameraMotion(const NavigationState& state, const Eigen::Vector3d& p_
 
 MotionJacobians motionJacobians(const NavigationState& state, const PlaneMotion& motion,
                                 const Eigen::Vector3d& p_IC) {
-  const Eigen::Matrix3d R_CbG = state.R_CI * state.R_GI.transpose();
+  const Eigen::Matrix3d R_CbI = state.cameraRotation(), R_CaI = state.cameraRotationClone();
+  const Eigen::Matrix3d R_CbG = R_CbI * state.R_GI.transpose();
   const Eigen::Matrix3d lever_a = -state.R_GI_clone * skew(p_IC);  // camera centre a by the clone's attitude
   const Eigen::Vector3d a_in_b =
       state.R_GI.transpose() * (state.p_GI_clone + state.R_GI_clone * p_IC - state.p_GI);
   MotionJacobians J;
   J.rotation.setZero();
-  J.rotation.middleCols<3>(kAttitude) = -state.R_CI;
-  J.rotation.middleCols<3>(kCloneAttitude) = motion.R_ba * state.R_CI;
+  J.rotation.middleCols<3>(kAttitude) = -R_CbI;
+  J.rotation.middleCols<3>(kCloneAttitude) = motion.R_ba * R_CaI;
   J.rotation.middleCols<3>(kMounting) = Eigen::Matrix3d::Identity() - motion.R_ba;
   J.translation.setZero();
-  J.translation.middleCols<3>(kAttitude) = state.R_CI * skew(a_in_b);
+  J.translation.middleCols<3>(kAttitude) = R_CbI * skew(a_in_b);
   J.translation.middleCols<3>(kPosition) = -R_CbG;
   J.translation.middleCols<3>(kCloneAttitude) = R_CbG * lever_a;
   J.translation.middleCols<3>(kClonePosition) = R_CbG;
   J.translation.middleCols<3>(kMounting) = -skew(motion.t_ba);
   J.normal.setZero();
-  J.normal.middleCols<3>(kCloneAttitude) = -state.R_CI;
+  J.normal.middleCols<3>(kCloneAttitude) = -R_CaI;
   J.normal.middleCols<3>(kMounting).setIdentity();
   J.height.setZero();
   J.height.middleCols<3>(kCloneAttitude) = lever_a.row(2);
@@ -74,10 +85,21 @@ HomographyMeasurement homographyMeasurement(const NavigationState& state, const 
                product(by.by_translation, jacobians.translation) + product(by.by_normal, jacobians.normal) +
                by.by_height * jacobians.height;
   z.linear_covariance = mappedCovariance(z.jacobian, state.P);
+  z.mount_covariance = mountCovariance(state, motion, by);
   z.second_order_covariance =
       productCovariance(K_scaled, motion, mappedCovariance(jacobians.translation, state.P),
                         mappedCovariance(jacobians.normal, state.P));
   return z;
+}
+
+Eigen::Matrix3d rotationCovariance(const NavigationState& state, const MotionJacobians& jacobians) {
+  const double mounts = state.mount.variance + state.mount_clone.variance;
+  return mappedCovariance(jacobians.rotation, state.P) + mounts * Eigen::Matrix3d::Identity();
+}
+
+Eigen::Matrix3d normalCovariance(const NavigationState& state, const MotionJacobians& jacobians) {
+  return mappedCovariance(jacobians.normal, state.P) +
+         state.mount_clone.variance * Eigen::Matrix3d::Identity();
 }
 
 double cameraHeight(const NavigationState& state, const Eigen::Vector3d& p_IC) {
@@ -113,11 +135,11 @@ void describe(const NavigationState& state, const Camera& camera, const Eigen::V
   result.H = planeHomography(camera.K(), result.motion);
   const MotionJacobians J = motionJacobians(state, result.motion, p_IC);
   const HomographyMeasurement z = homographyMeasurement(state, result.motion, J, scaledMatrix(camera));
-  const Matrix8d covariance =
-      z.linear_covariance + z.second_order_covariance + kVarianceFloor * Matrix8d::Identity();
+  const Matrix8d covariance = z.linear_covariance + z.mount_covariance + z.second_order_covariance +
+                              kVarianceFloor * Matrix8d::Identity();
   result.covariance = 0.5 * (covariance + covariance.transpose());
-  result.rotation_covariance = mappedCovariance(J.rotation, state.P);
-  result.direction_of_gravity = -(state.R_CI * state.R_GI.transpose()).col(2);
+  result.rotation_covariance = rotationCovariance(state, J);
+  result.direction_of_gravity = -(state.cameraRotation() * state.R_GI.transpose()).col(2);
   result.height_m = cameraHeight(state, p_IC);
   result.height_sigma_m = cameraHeightSigma(state, p_IC);
 }

@@ -28,6 +28,7 @@ struct HomographyMeasurement {
   Vector8d predicted;
   MeasurementJacobian<8> jacobian;
   Matrix8d linear_covariance;  ///< J P J'
+  Matrix8d mount_covariance;   ///< by the noise of a gimbal's angles; zero where the camera is fixed
   /// Second-order term: the product of the translation's and the normal's errors. It is negligible against J
   /// P J' except at unknown velocity: with t = 0, J does not depend on the normal, and the filter would be
   /// overconfident without this term.
@@ -37,6 +38,11 @@ struct HomographyMeasurement {
 HomographyMeasurement homographyMeasurement(const NavigationState& state, const PlaneMotion& motion,
                                             const MotionJacobians& jacobians,
                                             const Eigen::Matrix3d& K_scaled);
+
+/// Of the motion's rotation and normal by left perturbations [rad^2], the noise of a gimbal's angles
+/// included.
+Eigen::Matrix3d rotationCovariance(const NavigationState& state, const MotionJacobians& jacobians);
+Eigen::Matrix3d normalCovariance(const NavigationState& state, const MotionJacobians& jacobians);
 
 /// Height of the camera above the ground [m], its derivative by the error state, one standard deviation [m].
 double cameraHeight(const NavigationState& state, const Eigen::Vector3d& p_IC);

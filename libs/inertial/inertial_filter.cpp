@@ -80,6 +80,8 @@ InertialFilter::~InertialFilter() = default;
 InertialFilter::InertialFilter(InertialFilter&&) noexcept = default;
 InertialFilter& InertialFilter::operator=(InertialFilter&&) noexcept = default;
 
+bool InertialFilter::addMount(const MountSample& sample) { return implementation_->addMount(sample); }
+bool InertialFilter::coversMount(CameraTime frame) const { return implementation_->coversMount(frame); }
 bool InertialFilter::addImu(const ImuSample& sample) { return implementation_->addImu(sample); }
 int InertialFilter::takeForeignSamples() { return implementation_->takeForeignSamples(); }
 bool InertialFilter::addAltitude(const AltitudeSample& sample) {

@@ -18,9 +18,11 @@
 #include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/inertial/filter_snapshot.hpp"
+#include "redbee/inertial/gimbal_parameters.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
+#include "redbee/inertial/mount_track.hpp"
 #include "redbee/inertial/vision_agreement.hpp"
 
 namespace redbee {
@@ -29,6 +31,7 @@ struct InertialParameters {
   InertialExtrinsics extrinsics;
   ImuNoise noise;
   ImuSampleLimits imu_limits;
+  GimbalParameters gimbal;
   double gravity = 9.81;              ///< m/s^2
   double start_velocity_sigma = 3.0;  ///< m/s: of the drone's velocity at the first frame
   /// Turns measured rates into those of a gyro with axes of equal scale at right angles; biases are of its
@@ -78,7 +81,7 @@ struct NominalState {
   double camera_height_m = 0;
   Eigen::Vector3d gyro_bias;   ///< rad/s
   Eigen::Vector3d accel_bias;  ///< m/s^2
-  Eigen::Matrix3d R_CI;        ///< the mounting, corrected by the filter within the calibration's sigma
+  Eigen::Matrix3d R_CI;        ///< the mounting at rest, corrected within the calibration's sigma
 };
 
 class InertialFilter {
@@ -93,11 +96,15 @@ class InertialFilter {
   /// it.
   bool addImu(const ImuSample& sample);
   bool addAltitude(const AltitudeSample& sample);
+  /// Of a gimbal, where the parameters enable it; otherwise it is ignored. False: refused, no rotation.
+  bool addMount(const MountSample& sample);
   /// Samples of a second IMU, which were not used, since the last call.
   int takeForeignSamples();
 
   /// True if the samples reach the exposure of this frame's last row.
   bool covers(CameraTime frame) const;
+  /// True if the mount's samples reach the frame, or if it has no gimbal.
+  bool coversMount(CameraTime frame) const;
 
   /// Advances the filter to this frame and returns the motion since the last one. Invalid times are reported
   /// in the status.

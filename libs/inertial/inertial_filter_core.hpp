@@ -29,6 +29,9 @@ class InertialFilterCore {
   bool addImu(const ImuSample& sample) { return samples_.add(sample); }
   int takeForeignSamples() { return samples_.takeForeign(); }
 
+  bool addMount(const MountSample& sample) { return samples_.addMount(sample); }
+  bool coversMount(CameraTime frame) const { return samples_.coverMount(frame); }
+
   bool addAltitude(const AltitudeSample& sample) { return altitude_.add(sample); }
 
   bool covers(CameraTime frame) const {
@@ -43,8 +46,8 @@ class InertialFilterCore {
 
   /// Of the last two frames, and once.
   CorrectionReport correct(const HomographyObservation& observation) {
-    const bool belongs = state_ && previous_frame_ && !corrected_ && observation.time == *frame_ &&
-                         observation.time_previous == *previous_frame_;
+    const bool belongs = state_ && state_->isMountKnown() && previous_frame_ && !corrected_ &&
+                         observation.time == *frame_ && observation.time_previous == *previous_frame_;
     if (!belongs) return {};
     compare(observation);
     const NavigationState before = *state_;
@@ -89,7 +92,7 @@ class InertialFilterCore {
     const SnapshotCheck check = validate(known, *frame_, parameters_);
     if (check == SnapshotCheck::kAccepted) {
       known_ = known;
-      state_ = initialState(*frame_, samples_.forVertical(*frame_), parameters_, known_);
+      begin(*frame_, samples_.forVertical(*frame_));
     }
     return check;
   }
@@ -128,6 +131,7 @@ class InertialFilterCore {
   std::optional<RowMotion> rowMotionAt(CameraTime frame) const {
     const double half_s = halfReadout(camera_.intrinsics());
     if (half_s == 0 || !state_ || frame_ != frame || !agreement_.agrees()) return std::nullopt;
+    if (!state_->mount.is_known) return std::nullopt;
     return rowMotion(*state_, p_IC(), samples_, frame, fromSeconds(half_s));
   }
 
@@ -139,11 +143,16 @@ class InertialFilterCore {
       state_.reset();
       return nothing(frame, frame, status == InertialStatus::kClockJump ? status : InertialStatus::kNoImu);
     }
-    state_ = initialState(frame, before, parameters_, known_);
+    begin(frame, before);
     frame_ = frame;
     altitude_.eraseBefore(samples_.imuTime(frame));
     vision_.restart();
     return result;
+  }
+
+  void begin(CameraTime frame, const std::vector<ImuSample>& before) {
+    state_ = initialState(frame, before, parameters_, known_);
+    state_->mount = state_->mount_clone = samples_.mountAt(frame);
   }
 
   void forgetFrames() {
@@ -171,6 +180,10 @@ class InertialFilterCore {
     correctByGravity(*state_, span, parameters_, vision_.secondsSinceApplied(*frame_));
     integrate(frame);
     if (!isValid(*state_)) return startAfresh(frame);
+    if (!state_->isMountKnown()) {
+      result.status = InertialStatus::kNoMount;
+      return result;
+    }
     describe(*state_, camera_, p_IC(), result);
     if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
     if (!agreement_.agrees()) {
@@ -216,6 +229,7 @@ class InertialFilterCore {
     samples_.eraseBefore(frame);
     previous_frame_ = frame_;
     frame_ = frame;
+    state_->mount = samples_.mountAt(frame);
     corrected_ = false;
     has_moved_ = true;
   }

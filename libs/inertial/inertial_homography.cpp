@@ -18,6 +18,8 @@ const char* toString(InertialStatus status) {
       return "implausible IMU samples refused";
     case InertialStatus::kDisagreement:
       return "IMU and camera disagree";
+    case InertialStatus::kNoMount:
+      return "no attitude of the gimbal near the frame";
   }
   return "unknown";
 }

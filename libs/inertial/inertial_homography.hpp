@@ -18,6 +18,7 @@ enum class InertialStatus {
   kClockJump,     ///< time ran backwards or jumped: restarted, no homography
   kBadSamples,    ///< samples in the interval were refused (ImuSampleCheck) and not used
   kDisagreement,  ///< vision contradicts the IMU (VisionAgreement): left out, no homography
+  kNoMount,       ///< the gimbal did not say how the camera's mount was turned at both frames: no homography
 };
 const char* toString(InertialStatus status);
 

@@ -38,8 +38,8 @@ std::optional<RotationDifference> rotationDifference(const NavigationState& stat
   const PlaneMotion motion = cameraMotion(state, p_IC);
   const MotionJacobians J = motionJacobians(state, motion, p_IC);
   const ImageScaling scaling(camera.ideal().width, camera.ideal().height);
-  return rotationDifference(scaledMatrix(camera), motion, mappedCovariance(J.rotation, state.P),
-                            mappedCovariance(J.normal, state.P), toVector(scaling.scale(H)), covariance);
+  return rotationDifference(scaledMatrix(camera), motion, rotationCovariance(state, J),
+                            normalCovariance(state, J), toVector(scaling.scale(H)), covariance);
 }
 
 }  // namespace redbee

@@ -30,11 +30,12 @@ std::optional<RowMotion> rowMotion(const NavigationState& state, const Eigen::Ve
   const Eigen::Vector3d turn_after = turnOver(after, state.gyro_bias);
   const Eigen::Vector3d rate_I = (turn_before + turn_after) / (2 * half_s);
   RowMotion motion;
-  motion.rate = state.R_CI * rate_I;
-  motion.acceleration = state.R_CI * (turn_after - turn_before) / (half_s * half_s);
+  const Eigen::Matrix3d R_CI = state.cameraRotation();
+  motion.rate = R_CI * rate_I + state.R_CI * state.mount.rate_M;
+  motion.acceleration = R_CI * (turn_after - turn_before) / (half_s * half_s);
   motion.velocity =
-      state.R_CI * (state.R_GI.transpose() * state.v_GI + rate_I.cross(p_IC)) / cameraHeight(state, p_IC);
-  motion.normal = -(state.R_CI * state.R_GI.transpose()).col(2);
+      R_CI * (state.R_GI.transpose() * state.v_GI + rate_I.cross(p_IC)) / cameraHeight(state, p_IC);
+  motion.normal = -(R_CI * state.R_GI.transpose()).col(2);
   return motion;
 }
 

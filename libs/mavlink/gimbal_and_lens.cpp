@@ -1,4 +1,5 @@
 // The members of VehicleState that are about the camera's mount.
+#include <algorithm>
 #include <cmath>
 
 #include "redbee/mavlink/axes.hpp"
@@ -27,8 +28,18 @@ GimbalAttitude VehicleState::gimbalFrom(const Eigen::Quaterniond& ned_from_gimba
   gimbal.time = time;
   gimbal.enu_from_gimbal = enuRotation(ned_from_gimbal);
   const bool is_fresh = attitude_ && std::abs((time - attitude_->time).count()) <= kAttitudeFor.count();
-  if (is_fresh) gimbal.body_from_gimbal = fluRotation(attitude_->value.conjugate() * ned_from_gimbal);
+  if (is_fresh) gimbal.body_from_gimbal = fluRotation(attitudeAt(time).conjugate() * ned_from_gimbal);
   return gimbal;
+}
+
+/// A brisk body turns by a degree until the next message.
+Eigen::Quaterniond VehicleState::attitudeAt(ImuTime time) const {
+  constexpr double kCarried_s = 0.1;  // then it may turn the other way
+  const double since_s = std::clamp(seconds(time - attitude_->time), -kCarried_s, kCarried_s);
+  const double angle = body_rate_.norm() * since_s;
+  if (angle == 0) return attitude_->value;
+  return (attitude_->value * Eigen::Quaterniond(Eigen::AngleAxisd(angle, body_rate_.normalized())))
+      .normalized();
 }
 
 std::optional<GimbalAttitude> VehicleState::gimbalOf(const GimbalDeviceAttitudeStatus& m,
@@ -41,7 +52,7 @@ std::optional<GimbalAttitude> VehicleState::gimbalOf(const GimbalDeviceAttitudeS
                             std::isfinite(m.delta_yaw) && m.delta_yaw != 0;
   if (says_heading) return gimbalFrom(aboutDown(m.delta_yaw) * *q, time);
   if (!isFresh(attitude_, time)) return std::nullopt;
-  return gimbalFrom(aboutDown(headingOf(attitude_->value)) * *q, time);
+  return gimbalFrom(aboutDown(headingOf(attitudeAt(time))) * *q, time);
 }
 
 std::optional<GimbalAttitude> VehicleState::gimbalOf(const MountOrientation& m, ImuTime time) const {
@@ -51,7 +62,7 @@ std::optional<GimbalAttitude> VehicleState::gimbalOf(const MountOrientation& m, 
       aboutDown(m.yaw * kPerDegree) *
       Eigen::Quaterniond(Eigen::AngleAxisd(m.pitch * kPerDegree, Eigen::Vector3d::UnitY())) *
       Eigen::Quaterniond(Eigen::AngleAxisd(m.roll * kPerDegree, Eigen::Vector3d::UnitX()));
-  return gimbalFrom(aboutDown(headingOf(attitude_->value)) * level_from_gimbal, time);
+  return gimbalFrom(aboutDown(headingOf(attitudeAt(time))) * level_from_gimbal, time);
 }
 
 Lens VehicleState::lensOf(const CameraSettings& m, ImuTime time) const {

@@ -18,9 +18,11 @@ constexpr int kGivenUp = 3;  // requests after which an autopilot does not have 
 
 MessageRates::MessageRates(const AutopilotParameters& parameters) {
   for (const uint32_t id : kImuMessages) wanted_[id].rate_hz = parameters.imu_rate_hz;
-  wanted_[AttitudeQuaternion::kId].rate_hz = parameters.attitude_rate_hz;
-  for (const uint32_t id : {GlobalPositionInt::kId, LocalPositionNed::kId, GpsRawInt::kId,
-                            DistanceSensor::kId, GimbalDeviceAttitudeStatus::kId}) {
+  for (const uint32_t id : {AttitudeQuaternion::kId, GimbalDeviceAttitudeStatus::kId}) {
+    wanted_[id].rate_hz = parameters.attitude_rate_hz;
+  }
+  for (const uint32_t id :
+       {GlobalPositionInt::kId, LocalPositionNed::kId, GpsRawInt::kId, DistanceSensor::kId}) {
     wanted_[id].rate_hz = parameters.position_rate_hz;
   }
 }

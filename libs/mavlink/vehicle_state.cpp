@@ -131,6 +131,8 @@ std::optional<Pose> VehicleState::poseAt(const AttitudeQuaternion& m, ImuTime ti
   const auto ned_from_frd = rotationOf(m.q1, m.q2, m.q3, m.q4);
   if (!ned_from_frd) return std::nullopt;
   attitude_ = {time, *ned_from_frd};
+  const Eigen::Vector3d rate(m.rollspeed, m.pitchspeed, m.yawspeed);
+  body_rate_ = rate.allFinite() ? rate : Eigen::Vector3d(Eigen::Vector3d::Zero());
   Pose pose;
   pose.time = time;
   pose.enu_from_flu = enuRotation(*ned_from_frd);

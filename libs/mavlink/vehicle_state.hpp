@@ -59,13 +59,16 @@ class VehicleState {
   Eigen::Matrix3d positionCovariance() const;
   double velocitySigma() const;
   void addMotion(Pose& pose) const;
+  /// The last one, carried on by its rate. Precondition: there is one.
+  Eigen::Quaterniond attitudeAt(ImuTime time) const;
   GimbalAttitude gimbalFrom(const Eigen::Quaterniond& ned_from_gimbal, ImuTime time) const;
 
   AutopilotParameters parameters_;
   std::optional<Timed<GpsRawInt>> gps_;
   std::optional<Timed<GlobalPositionInt>> global_;
   std::optional<Timed<LocalPositionNed>> local_;
-  std::optional<Timed<Eigen::Quaterniond>> attitude_;  ///< FRD to NED
+  std::optional<Timed<Eigen::Quaterniond>> attitude_;    ///< FRD to NED
+  Eigen::Vector3d body_rate_ = Eigen::Vector3d::Zero();  ///< rad/s, FRD, at its time
   std::optional<CameraInformation> camera_;
 };
 

@@ -84,13 +84,13 @@ const char* faultOf(const earlier_step_t& m) {
 }
 
 const char* faultOf(const inertial_homography_t& m) {
-  const char* fault = firstFault(
-      {{hasFrameTimes(m), "time"},
-       {m.sequence >= 0, "sequence"},
-       {isFrom(inertial_homography_t::GOOD, m.status, inertial_homography_t::VISION_DISAGREES), "status"},
-       {isFlag(m.valid), "flag"},
-       {hasImageSize(m), "image size"},
-       {isFrom(0, m.feedback_test_ratio, kMaxTestRatio), "test ratio"}});
+  const char* fault =
+      firstFault({{hasFrameTimes(m), "time"},
+                  {m.sequence >= 0, "sequence"},
+                  {isFrom(inertial_homography_t::GOOD, m.status, inertial_homography_t::NO_GIMBAL), "status"},
+                  {isFlag(m.valid), "flag"},
+                  {hasImageSize(m), "image size"},
+                  {isFrom(0, m.feedback_test_ratio, kMaxTestRatio), "test ratio"}});
   fault = firstOf(fault, firstOf(faultOf(m.row_motion), faultOf(m.earlier)));
   if (fault != nullptr || m.valid == 0) return fault;
   fault = firstFault({{isCovariance(m.rotation_covariance), "covariance"},

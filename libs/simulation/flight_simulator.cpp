@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/so3.hpp"
 
 namespace redbee::simulation {
 namespace {
@@ -43,7 +44,9 @@ double FlightSimulator::exposureTime(int k) const {
 }
 
 CameraPose FlightSimulator::poseAt(double t_s) const {
-  return cameraPose(scenario_.trajectory.at(t_s), scenario_.extrinsics);
+  InertialExtrinsics extrinsics = scenario_.extrinsics;
+  if (scenario_.gimbal) extrinsics.R_CI *= scenario_.gimbal->R_MI(scenario_.trajectory, t_s);
+  return cameraPose(scenario_.trajectory.at(t_s), extrinsics);
 }
 
 CameraPose FlightSimulator::pose(int k) const { return poseAt(exposureTime(k)); }
@@ -53,7 +56,9 @@ RowMotion FlightSimulator::rowMotion(int k) const {
   const double t_s = exposureTime(k);
   const CameraPose at = pose(k);
   const auto rateAt = [&](double when_s) -> Eigen::Vector3d {
-    return scenario_.extrinsics.R_CI * scenario_.trajectory.at(when_s).omega_I;
+    if (!scenario_.gimbal) return scenario_.extrinsics.R_CI * scenario_.trajectory.at(when_s).omega_I;
+    const Eigen::Matrix3d before = poseAt(when_s - kStep_s).R_CG, after = poseAt(when_s + kStep_s).R_CG;
+    return logSO3(before * after.transpose()) / (2 * kStep_s);
   };
   RowMotion motion;
   motion.rate = rateAt(t_s);
@@ -69,10 +74,13 @@ SimulatedFrame FlightSimulator::frame(int k) const {
                                          static_cast<unsigned>(k))};
 }
 
+PlaneMotion FlightSimulator::motion(int k) const {
+  return motionOver(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), pose(k - 1), pose(k));
+}
+
 Eigen::Matrix3d FlightSimulator::homography(int k) const {
   if (k == 0) return Eigen::Matrix3d::Identity();
-  return planeHomography(camera_.K(), exactMotion(scenario_.trajectory, scenario_.extrinsics,
-                                                  exposureTime(k - 1), exposureTime(k)));
+  return planeHomography(camera_.K(), motion(k));
 }
 
 Eigen::Matrix3d FlightSimulator::frontHomography(int k, size_t patch) const {
@@ -93,6 +101,12 @@ std::vector<AltitudeSample> FlightSimulator::altimeter() const {
   return simulateAltimeter(scenario_.trajectory, scenario_.extrinsics, exposureTime(0) - kRecordingMargin,
                            recordingEnd(), ImuTime(scenario_.start), scenario_.altimeter.rate_hz,
                            scenario_.altimeter.sigma_m, scenario_.altimeter.seed);
+}
+
+std::vector<MountSample> FlightSimulator::gimbal() const {
+  if (!scenario_.gimbal) return {};
+  return simulateGimbal(*scenario_.gimbal, scenario_.trajectory, exposureTime(0) - kRecordingMargin,
+                        recordingEnd(), ImuTime(scenario_.start));
 }
 
 }  // namespace redbee::simulation

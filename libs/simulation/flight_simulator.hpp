@@ -5,12 +5,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/rolling_shutter.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/inertial/imu.hpp"
+#include "redbee/simulation/gimbal.hpp"
 #include "redbee/simulation/imu_simulator.hpp"
 #include "redbee/simulation/renderer.hpp"
 #include "redbee/simulation/scene.hpp"
@@ -36,6 +39,7 @@ struct Scenario {
   int frames = 240;
   Duration start{
       1700000000000000};  ///< time of both clocks at the start of the trajectory, except for the time shift
+  std::optional<Gimbal> gimbal{};  ///< turns the camera from the mounting of `extrinsics`
 };
 
 struct SimulatedFrame {
@@ -60,6 +64,8 @@ class FlightSimulator {
   /// True motion during the read-out of frame k.
   RowMotion rowMotion(int k) const;
 
+  /// Exact motion over the ground between exposureTime(k - 1) and exposureTime(k).
+  PlaneMotion motion(int k) const;
   /// Exact homography of the ground between exposureTime(k - 1) and exposureTime(k), ideal pixels. Identity
   /// for k = 0.
   Eigen::Matrix3d homography(int k) const;
@@ -70,6 +76,8 @@ class FlightSimulator {
   /// From half a second before the first exposure to half a second after the last one.
   std::vector<ImuSample> imu() const;
   std::vector<AltitudeSample> altimeter() const;
+  /// Empty without a gimbal.
+  std::vector<MountSample> gimbal() const;
 
  private:
   double recordingEnd() const;

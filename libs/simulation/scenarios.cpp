@@ -125,6 +125,16 @@ Scenario briskWalkers(unsigned seed) {
   return s;
 }
 
+Scenario gimbalWalkers(unsigned seed) {
+  Scenario s = briskWalkers(seed);
+  Gimbal gimbal;
+  gimbal.yaw_pitch_roll[0].sinusoids = {{12 * kDegree, 0.2, 0.3}};
+  gimbal.yaw_pitch_roll[1].sinusoids = {{6 * kDegree, 0.3, 1.1}};
+  gimbal.errors = {Eigen::Vector3d(0.2, -0.2, 0.1) * kDegree, 0.05 * kDegree, 0.005, seed + 404};
+  s.gimbal = gimbal;
+  return s;
+}
+
 Scenario withRollingShutter(Scenario scenario, double readout_s) {
   scenario.intrinsics.line_delay_s = readout_s / scenario.intrinsics.height;
   return scenario;

@@ -36,6 +36,9 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
       return filter_.addAltitude({ImuTime(fromUtime(m.utime)), m.height, m.sigma});
     });
   }
+  if (configuration_.inertial.gimbal.enabled) {
+    on<gimbal_t>(channels.gimbal, [this](const gimbal_t& m) { return onGimbal(m); });
+  }
   on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) { onFused(m); });
   on<filter_snapshot_t>(channels.warm_start, [this](const filter_snapshot_t& m) { warm_start_ = m; });
 }
@@ -59,6 +62,14 @@ bool ImuIntegrationNode::onImu(const ins_t& message) {
   return plausible;
 }
 
+bool ImuIntegrationNode::onGimbal(const gimbal_t& message) {
+  if (message.has_body == 0) return true;
+  const double(&q)[4] = message.quat_body;
+  const bool is_used = filter_.addMount({ImuTime(fromUtime(message.utime)), {q[0], q[1], q[2], q[3]}});
+  gimbal_alive_ = gimbal_alive_ || is_used;
+  return is_used;
+}
+
 void ImuIntegrationNode::noteClockOffset(CameraTime frame) {
   clock_offset_s_.reset();
   if (!last_sample_) return;
@@ -68,6 +79,10 @@ void ImuIntegrationNode::noteClockOffset(CameraTime frame) {
 }
 
 std::string ImuIntegrationNode::reasonOf(InertialStatus status) const {
+  if (status == InertialStatus::kNoMount) {
+    return "no " + configuration_.channels.gimbal +
+           " against the body near the frame (gimbal.enabled): vision alone";
+  }
   const std::string& disagreement = filter_.agreement().message();
   if (!disagreement.empty()) return disagreement;
   // A smaller one is that of an IMU that has just fallen silent.
@@ -92,12 +107,15 @@ void ImuIntegrationNode::restart(CameraTime newest) {
 
 bool ImuIntegrationNode::isReadyFor(CameraTime frame) {
   if (isFinishing()) return true;
-  const Duration timeout = fromSeconds(configuration_.waits.inertial_s);
-  if (imu_alive_ && !filter_.covers(frame)) {
-    if (clock_.now() - frame <= timeout) return false;
-    imu_alive_ = false;
-  }
+  if (isAwaited(frame, filter_.covers(frame), imu_alive_)) return false;
+  if (isAwaited(frame, filter_.coversMount(frame), gimbal_alive_)) return false;
   return !last_frame_ || !isPending(feedback_, *last_frame_);
+}
+
+bool ImuIntegrationNode::isAwaited(CameraTime frame, bool is_there, bool& alive) const {
+  if (!alive || is_there) return false;
+  alive = clock_.now() - frame <= fromSeconds(configuration_.waits.inertial_s);
+  return alive;
 }
 
 void ImuIntegrationNode::warmStart() {

@@ -1,4 +1,4 @@
-// CAMERA (its times), IMU, ALTIMETER, FUSED_HOMOGRAPHY and WARM_START in; INERTIAL_HOMOGRAPHY and
+// CAMERA (its times), IMU, ALTIMETER, GIMBAL, FUSED_HOMOGRAPHY and WARM_START in; INERTIAL_HOMOGRAPHY and
 // FILTER_SNAPSHOT out.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include "redbee/earlier_step_t.hpp"
 #include "redbee/filter_snapshot_t.hpp"
 #include "redbee/fused_homography_t.hpp"
+#include "redbee/gimbal_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
 #include "redbee/inertial_homography_t.hpp"
@@ -21,10 +22,10 @@
 
 namespace redbee {
 
-/// Publishes one message per frame, as soon as the IMU samples reach its exposure and the fused homography of
-/// the previous frame has arrived. While vision agrees with the filter, a filter snapshot is published as
-/// well; at its first frame the filter is warm-started from the snapshot that the fusion has stored
-/// (processes/homography_fusion).
+/// Publishes one message per frame, as soon as the IMU's samples (and GIMBAL, where it turns the camera)
+/// reach its exposure and the fused homography of the previous frame has arrived. While vision agrees with
+/// the filter, a filter snapshot is published as well; at its first frame the filter is warm-started from the
+/// snapshot that the fusion has stored (processes/homography_fusion).
 class ImuIntegrationNode : public Stage {
  public:
   ImuIntegrationNode(Bus& bus, const Configuration& configuration);
@@ -33,8 +34,11 @@ class ImuIntegrationNode : public Stage {
  private:
   void onFrame(const image_t& message);
   bool onImu(const ins_t& message);
+  bool onGimbal(const gimbal_t& message);
   void onFused(const fused_homography_t& message);
   bool isReadyFor(CameraTime frame);
+  /// Whether what `alive` is about still has to be waited for; clears it where it timed out.
+  bool isAwaited(CameraTime frame, bool is_there, bool& alive) const;
   /// Called when a frame arrives.
   void noteClockOffset(CameraTime frame);
   std::string reasonOf(InertialStatus status) const;
@@ -59,6 +63,7 @@ class ImuIntegrationNode : public Stage {
   Duration agreed_{0};                           ///< measured by the corrections since one was rejected
   std::optional<CameraTime> agreed_until_;       ///< the last of them
   bool imu_alive_ = true;
+  bool gimbal_alive_ = true;
   std::optional<ImuTime> last_sample_;    ///< since the newest frame arrived
   std::optional<double> clock_offset_s_;  ///< of that frame's exposure to the newest sample then
   earlier_step_t earlier_{};              ///< of the message before

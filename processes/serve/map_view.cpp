@@ -55,7 +55,7 @@ MapBuilder::MapBuilder(const Configuration& configuration)
     : camera_(configuration.camera),
       R_IC_(configuration.inertial.extrinsics.R_CI.transpose()),
       timeshift_us_(fromSeconds(configuration.inertial.extrinsics.timeshift_s).count()),
-      has_gimbal_(configuration.geolocation.mount == "gimbal") {}
+      has_gimbal_(configuration.geolocation.mount == "gimbal" || configuration.inertial.gimbal.enabled) {}
 
 void MapBuilder::onPose(const pose_t& pose) {
   pose_ = pose;

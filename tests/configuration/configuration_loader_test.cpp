@@ -119,6 +119,16 @@ TEST_F(ConfigurationLoader, FilesThatIncludeEachOtherAreRefused) {
   EXPECT_THAT(errorMessage("include: vehicle.yaml\n"), StartsWith("vehicle.yaml:1: include: "));
 }
 
+TEST_F(ConfigurationLoader, TargetsAreNotPlacedByAFixedCameraWhereAGimbalTurnsIt) {
+  const std::string gimbal = kCamera + std::string("gimbal: {enabled: true}\ngeolocation: {enabled: true}\n");
+  try {
+    loadConfiguration(write("vehicle.yaml", gimbal));
+    ADD_FAILURE();
+  } catch (const ConfigurationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("geolocation.mount must be gimbal"));
+  }
+}
+
 TEST_F(ConfigurationLoader, TheCommandLineIsCheckedWithTheWhole) {
   const fs::path file = write("vehicle.yaml", kCamera);
   const auto faultOf = [&](const std::string& preset, const std::string& setting) -> std::string {
@@ -130,6 +140,7 @@ TEST_F(ConfigurationLoader, TheCommandLineIsCheckedWithTheWhole) {
     return "";
   };
   EXPECT_EQ(faultOf("vision_only", "visual.tracker.grid_px=16"), "");
+  EXPECT_EQ(faultOf("", "gimbal.enabled=true"), "");
   EXPECT_THAT(
       faultOf("", "detection.objects.extent_threshold=0.9"),
       AllOf(StartsWith("command line: detection.objects.extent_threshold: "), HasSubstr("must not exceed")));

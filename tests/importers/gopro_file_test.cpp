@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "redbee/gimbal_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/importers/import_gopro.hpp"
 #include "redbee/ins_t.hpp"
@@ -71,12 +72,20 @@ std::vector<DataPacket> withImageOrientation(bool changes) {
   return all;
 }
 
-TEST_F(GoproFileTest, TheImuOfAStabilisedVideoIsLeftOut) {
+TEST_F(GoproFileTest, AStabilisedVideosOwnTrackBecomesGimbal) {
   video_.track = withImageOrientation(true);
   writeTestVideo(options_.source, video_);
   const ImportSummary summary = import();
-  EXPECT_TRUE(imu_.empty());
-  EXPECT_FALSE(summary.vehicle.has_imu);
+  EXPECT_EQ(imu_.size(), 800u);
+  EXPECT_TRUE(summary.vehicle.has_imu);
+  EXPECT_TRUE(summary.vehicle.mount_sigma_deg);
+  const auto turns = messagesOn<gimbal_t>(readEvents(options_.log), "GIMBAL");
+  ASSERT_EQ(turns.size(), 2u);
+  EXPECT_EQ(turns[1].utime, 1'000'000);
+  EXPECT_EQ(turns[1].has_body, 1);
+  // The image is turned to the right about the optical axis, I's x: so its axes turn back to the camera's.
+  EXPECT_NEAR(turns[1].quat_body[0], std::cos(0.01), 1e-4);
+  EXPECT_NEAR(turns[1].quat_body[1], -std::sin(0.01), 1e-4);
   EXPECT_TRUE(says(summary, "turned its images by up to 1.1 degrees")) << summary.warnings[0];
   EXPECT_EQ(frames_.size(), 50u);
 }
@@ -84,8 +93,9 @@ TEST_F(GoproFileTest, TheImuOfAStabilisedVideoIsLeftOut) {
 TEST_F(GoproFileTest, AnImageThatKeepsItsOrientationKeepsTheImu) {
   video_.track = withImageOrientation(false);
   writeTestVideo(options_.source, video_);
-  import();
+  EXPECT_FALSE(import().vehicle.mount_sigma_deg);
   EXPECT_EQ(imu_.size(), 800u);
+  EXPECT_TRUE(messagesOn<gimbal_t>(readEvents(options_.log), "GIMBAL").empty());
 }
 
 TEST_F(GoproFileTest, TheImuOfATimeLapseIsLeftOut) {

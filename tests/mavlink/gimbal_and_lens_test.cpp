@@ -42,6 +42,22 @@ TEST(MavlinkGimbal, EveryFrameGivesTheSameMount) {
              {0.5 * std::cos(30 * kDeg), -0.5 * std::sin(30 * kDeg), -std::sin(60 * kDeg)});
 }
 
+/// Between two attitudes of the body it has turned on.
+TEST(MavlinkGimbal, TheBodysAttitudeIsCarriedOnByItsRate) {
+  const Quaterniond body = attitude(110, 8, -5);
+  AttitudeQuaternion message = messageOf(body);
+  message.rollspeed = 1.2F;
+  VehicleState state({});
+  state.poseAt(message, kNow);
+  GimbalDeviceAttitudeStatus level;  // looks north, whatever the body does
+  level.q = {1, 0, 0, 0};
+  level.flags = GimbalDeviceAttitudeStatus::kYawInEarthFrame;
+  const auto gimbal = state.gimbalOf(level, kNow + std::chrono::milliseconds(20));
+  ASSERT_TRUE(gimbal && gimbal->body_from_gimbal);
+  const Quaterniond turned = body * Quaterniond(AngleAxisd(0.024, Vector3d::UnitX()));
+  EXPECT_LT(gimbal->body_from_gimbal->angularDistance(fluRotation(turned.conjugate())), 1e-5);
+}
+
 TEST(MavlinkGimbal, AMountSaysAnglesAgainstTheHorizon) {
   const Quaterniond body = attitude(45, 10, 20);
   VehicleState state({});

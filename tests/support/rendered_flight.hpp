@@ -31,10 +31,7 @@ class RenderedFlight {
   const simulation::RenderedImage& image(int k) const { return images_[static_cast<size_t>(k)]; }
   /// From frame k-1 to frame k.
   Eigen::Matrix3d homography(int k) const { return simulator_.homography(k); }
-  PlaneMotion motion(int k) const {
-    return simulation::exactMotion(scenario().trajectory, scenario().extrinsics,
-                                   simulator_.exposureTime(k - 1), simulator_.exposureTime(k));
-  }
+  PlaneMotion motion(int k) const { return simulator_.motion(k); }
 
  private:
   static simulation::Scenario withFrames(simulation::Scenario scenario, int frames) {

@@ -8,8 +8,10 @@
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/bus/image.hpp"
+#include "redbee/gimbal_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial/imu.hpp"
+#include "redbee/inertial/mount_track.hpp"
 #include "redbee/ins_t.hpp"
 
 namespace redbee::test {
@@ -27,6 +29,16 @@ inline altimeter_t message(const AltitudeSample& sample) {
   return {toUtime(sample.time), sample.height_m, sample.sigma_m};
 }
 
+/// Against the body alone, as a message of redbee-autopilot has it.
+inline gimbal_t message(const MountSample& sample) {
+  gimbal_t m{};
+  m.utime = toUtime(sample.time);
+  m.has_body = 1;
+  m.quat_body[0] = sample.q_IM.w();
+  for (int i = 0; i < 3; ++i) m.quat_body[i + 1] = sample.q_IM.vec()(i);
+  return m;
+}
+
 /// One message of a sensor, encoded.
 struct SensorMessage {
   int64_t utime = 0;  ///< us
@@ -36,6 +48,7 @@ struct SensorMessage {
 
 inline SensorMessage encoded(const image_t& m) { return {m.utime, "CAMERA", encodeMessage(m)}; }
 inline SensorMessage encoded(const ins_t& m) { return {m.utime, "IMU", encodeMessage(m)}; }
+inline SensorMessage encoded(const gimbal_t& m) { return {m.utime, "GIMBAL", encodeMessage(m)}; }
 inline SensorMessage encoded(const altimeter_t& m) { return {m.utime, "ALTIMETER", encodeMessage(m)}; }
 
 }  // namespace redbee::test

@@ -45,6 +45,9 @@ inline StackFlight stackFlight(const simulation::Scenario& scenario, int frames)
   flight.configuration.overlay_period_frames = 0;
   for (const ImuSample& sample : rendered.simulator().imu())
     flight.messages.push_back(encoded(message(sample)));
+  flight.configuration.inertial.gimbal.enabled = scenario.gimbal.has_value();
+  for (const MountSample& sample : rendered.simulator().gimbal())
+    flight.messages.push_back(encoded(message(sample)));
   for (const AltitudeSample& sample : rendered.simulator().altimeter()) {
     flight.messages.push_back(encoded(message(sample)));
   }

@@ -73,6 +73,8 @@ std::string sourceOf(const CalibrateOptions& options) {
 void readSource(const CalibrateOptions& options, const Configuration& configuration,
                 CalibrationInput& input) {
   if (!options.log.empty()) {
+    if (configuration.inertial.gimbal.enabled)
+      printWarning("gimbal.enabled: the calibration takes a fixed camera; its gimbal must have been at rest");
     readCalibrationLog(options.log, configuration, options.quiet, input);
     if (options.no_altimeter) input.altimeter.clear();
     return;

@@ -59,10 +59,6 @@ Configuration configurationFor(const DetectOptions& options) {
   return loadConfiguration(options.configuration, overrides);
 }
 
-bool isInput(const Channels& channels, const std::string& channel) {
-  return channel == channels.camera || channel == channels.imu || channel == channels.altimeter;
-}
-
 /// What the segmentation said last; may be empty.
 std::string lastWord(const ResultCollector& collector) {
   const auto health = collector.health().find(programName(kMotionSegmentation));

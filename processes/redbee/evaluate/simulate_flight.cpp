@@ -20,9 +20,13 @@ using ScenarioMaker = simulation::Scenario (*)(unsigned seed);
 
 const std::map<std::string, ScenarioMaker>& scenarios() {
   static const std::map<std::string, ScenarioMaker> makers = {
-      {"ground_only", simulation::groundOnly},   {"two_planes", simulation::twoPlanes},
-      {"waving_water", simulation::wavingWater}, {"calibration", simulation::calibrationFlight},
-      {"walkers", simulation::walkers},          {"brisk_walkers", simulation::briskWalkers},
+      {"ground_only", simulation::groundOnly},
+      {"two_planes", simulation::twoPlanes},
+      {"waving_water", simulation::wavingWater},
+      {"calibration", simulation::calibrationFlight},
+      {"walkers", simulation::walkers},
+      {"brisk_walkers", simulation::briskWalkers},
+      {"gimbal_walkers", simulation::gimbalWalkers},
   };
   return makers;
 }
@@ -62,6 +66,7 @@ Configuration configurationOf(const simulation::Scenario& scenario, const Simula
   configuration.camera = scenario.intrinsics;
   configuration.inertial.extrinsics = scenario.extrinsics;
   configuration.inertial.noise = scenario.imu.noise;
+  configuration.inertial.gimbal.enabled = scenario.gimbal.has_value();
   return configuration;
 }
 
@@ -88,6 +93,7 @@ void runSimulate(const SimulateOptions& options) {
   checkWritable(configuration);
   Progress progress("simulating " + options.scenario, "frames");
   FlightMerger merger(options.log, ImportChannels(), simulator.imu(), simulator.altimeter());
+  merger.addMount(simulator.gimbal());
   TruthFolder truth(options.truth);
   for (int k = 0; k < scenario.frames; ++k) {
     const simulation::SimulatedFrame frame = simulator.frame(k);

@@ -50,9 +50,7 @@ void runStack(LogReader& log, const std::filesystem::path& file, const Configura
   InProcessStack stack(*bus, configuration);
   Progress progress("homographies of " + file.filename().string(), "MB");
   while (const auto event = log.next()) {
-    if (event->channel != channels.camera && event->channel != channels.imu &&
-        event->channel != channels.altimeter)
-      continue;
+    if (!isInput(channels, event->channel)) continue;
     bus->publish(event->channel, event->data);
     stack.settle();
     progress.update(log.position() >> 20, log.size() >> 20);

@@ -45,6 +45,11 @@ std::string vehicleYaml(const VehicleDescription& vehicle) {
   configuration.vehicle = vehicle.name;
   configuration.has_imu = vehicle.has_imu;
   setCamera(vehicle, configuration, keys);
+  if (vehicle.mount_sigma_deg) {
+    configuration.inertial.gimbal.enabled = true;
+    configuration.inertial.gimbal.angle_sigma_deg = *vehicle.mount_sigma_deg;
+    append(keys, {"gimbal.enabled", "gimbal.angle_sigma_deg"});
+  }
   if (vehicle.start_height) {
     configuration.inertial.extrinsics.start_height_m = vehicle.start_height->height_m;
     configuration.inertial.extrinsics.start_height_sigma_m = vehicle.start_height->sigma_m;
