@@ -6,7 +6,7 @@
 #include "redbee/inertial/homography_measurement.hpp"
 #include "redbee/inertial/initial_state.hpp"
 #include "redbee/inertial/row_motion.hpp"
-#include "redbee/inertial/vision_agreement.hpp"
+#include "redbee/inertial/vision_comparison.hpp"
 
 namespace redbee {
 namespace {
@@ -31,9 +31,14 @@ class InertialFilter::Implementation {
         camera_(camera),
         samples_(parameters),
         altitude_(parameters),
-        vision_(parameters) {}
+        vision_(parameters),
+        comparison_(parameters.extrinsics) {}
 
-  bool addImu(const ImuSample& sample) { return samples_.add(sample); }
+  bool addImu(const ImuSample& sample) {
+    const bool added = samples_.add(sample);
+    if (added) comparison_.timeshift.addGyro(sample.time, parameters_.gyro_correction * sample.gyro);
+    return added;
+  }
   int takeForeignSamples() { return samples_.takeForeign(); }
 
   bool addAltitude(const AltitudeSample& sample) { return altitude_.add(sample); }
@@ -52,7 +57,8 @@ class InertialFilter::Implementation {
     const bool belongs = state_ && previous_frame_ && !corrected_ && observation.time == *frame_ &&
                          observation.time_previous == *previous_frame_;
     if (!belongs) return {};
-    compare(observation);
+    comparison_.note(*state_, camera_, p_IC(), observation.time_previous, observation.time, observation.H,
+                     observation.covariance);
     const NavigationState before = *state_;
     const CorrectionReport report = vision_.correct(*state_, observation, camera_, p_IC());
     corrected_ = report.applied;
@@ -71,7 +77,7 @@ class InertialFilter::Implementation {
   }
 
   const std::optional<FilterSnapshot>& snapshot() const { return known_; }
-  const VisionAgreement& agreement() const { return agreement_; }
+  const VisionComparison& comparison() const { return comparison_; }
   bool isAtFirstFrame() const { return state_ && !has_moved_; }
 
   SnapshotCheck warmStart(const FilterSnapshot& known) {
@@ -92,7 +98,7 @@ class InertialFilter::Implementation {
       return nothing(frame_.value_or(frame), frame, InertialStatus::kClockJump);
     }
     if (samples_.takeWereMixed()) {
-      agreement_ = VisionAgreement();
+      comparison_ = VisionComparison(parameters_.extrinsics);
       return startAfresh(frame);
     }
     if (!frame_) return start(frame, InertialStatus::kInitialising);
@@ -107,7 +113,7 @@ class InertialFilter::Implementation {
 
   std::optional<RowMotion> rowMotionAt(CameraTime frame) const {
     const double half_s = halfReadout(camera_.intrinsics());
-    if (half_s == 0 || !state_ || frame_ != frame || !agreement_.agrees()) return std::nullopt;
+    if (half_s == 0 || !state_ || frame_ != frame || !comparison_.agreement.agrees()) return std::nullopt;
     return rowMotion(*state_, p_IC(), samples_, frame, fromSeconds(half_s));
   }
 
@@ -153,21 +159,13 @@ class InertialFilter::Implementation {
     if (!isValid(*state_)) return startAfresh(frame);
     describe(*state_, camera_, p_IC(), result);
     if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
-    if (!agreement_.agrees()) {
+    if (!comparison_.agreement.agrees()) {
       result.status = InertialStatus::kDisagreement;
       return result;
     }
     result.valid = true;
     known_ = snapshotOf(*state_, frame, p_IC());
     return result;
-  }
-
-  /// Compares the rotation between the last two frames with vision's, before vision corrects it.
-  void compare(const HomographyObservation& observation) {
-    const auto difference =
-        rotationDifference(*state_, camera_, p_IC(), observation.H, observation.covariance);
-    const Eigen::Matrix3d R_ba = cameraMotion(*state_, p_IC()).R_ba;
-    if (difference) agreement_.note({observation.time_previous, observation.time, R_ba, *difference});
   }
 
   /// Refused samples take precedence over missing ones.
@@ -214,7 +212,7 @@ class InertialFilter::Implementation {
   FrameSamples samples_;
   AltitudeCorrection altitude_;
   VisionCorrection vision_;
-  VisionAgreement agreement_;  ///< survives a restart
+  VisionComparison comparison_;  ///< survives a restart
   std::optional<NavigationState> state_;
   std::optional<FilterSnapshot> known_;  ///< of the last valid state: survives a restart
   std::optional<CameraTime> frame_;
@@ -242,7 +240,8 @@ CorrectionReport InertialFilter::correct(const HomographyObservation& observatio
 std::optional<NominalState> InertialFilter::state() const { return implementation_->state(); }
 const std::optional<FilterSnapshot>& InertialFilter::snapshot() const { return implementation_->snapshot(); }
 bool InertialFilter::isAtFirstFrame() const { return implementation_->isAtFirstFrame(); }
-const VisionAgreement& InertialFilter::agreement() const { return implementation_->agreement(); }
+const VisionAgreement& InertialFilter::agreement() const { return implementation_->comparison().agreement; }
+const TimeshiftMonitor& InertialFilter::timeshift() const { return implementation_->comparison().timeshift; }
 SnapshotCheck InertialFilter::warmStart(const FilterSnapshot& known) {
   return implementation_->warmStart(known);
 }
