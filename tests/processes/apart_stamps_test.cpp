@@ -1,5 +1,5 @@
-// Stamps of camera and IMU that are apart by less than what makes the stack leave the IMU out: it flies on and
-// says by how much.
+// Stamps of camera and IMU that are apart by less than what makes the stack leave the IMU out: it flies on
+// and says by how much.
 #include <gtest/gtest.h>
 
 #include <iostream>
