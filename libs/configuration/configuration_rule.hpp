@@ -27,6 +27,15 @@ Rule(Predicate, std::string) -> Rule<Predicate>;
 
 inline const Rule anything{[](const auto&) { return true; }, ""};
 inline const Rule positive{[](auto x) { return x > 0; }, "must be above 0"};
+/// Above 0, and no more than any vehicle has: arithmetic with a sigma of 1e300 has no result.
+inline auto positiveTo(double most) {
+  std::string limit = std::to_string(static_cast<long long>(most));
+  return Rule{[most](double x) { return x > 0 && x <= most; }, "must be above 0 and at most " + limit};
+}
+inline auto zeroTo(double most) {
+  std::string limit = std::to_string(static_cast<long long>(most));
+  return Rule{[most](double x) { return x >= 0 && x <= most; }, "must lie from 0 to " + limit};
+}
 inline const Rule hangTimeout{[](auto x) { return x >= 0.5; },
                               "must be at least 0.5: a busy process gives signs of life 0.1 s apart"};
 inline const Rule notNegative{[](auto x) { return x >= 0; }, "must not be negative"};

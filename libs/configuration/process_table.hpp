@@ -104,6 +104,7 @@ inline constexpr ProcessDescription kGeolocation = [] {
   process.publishes = {"targets"};
   process.waits_for = {"detections"};
   process.memory_limit = 300'000'000;
+  process.keeps_state = true;
   return process;
 }();
 

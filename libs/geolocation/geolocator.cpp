@@ -191,6 +191,28 @@ void Geolocator::stopUnseen(const std::optional<GroundView>& view) {
   }
 }
 
+std::vector<StoppedTarget> Geolocator::stopped() const {
+  std::vector<StoppedTarget> stopped;
+  for (const auto& [id, tracked] : targets_) {
+    if (!tracked.has_stopped) continue;
+    stopped.push_back({id, tracked.filter.position(), tracked.filter.covariance().topLeftCorner<2, 2>(),
+                       tracked.size, tracked.range_m, tracked.unseen_s});
+  }
+  return stopped;
+}
+
+void Geolocator::restore(const StoppedTarget& target) {
+  if (targets_.count(target.id) > 0 || target.unseen_s > parameters_.keep_stopped_s) return;
+  GroundMeasurement place{target.position, Eigen::Matrix<double, 2, kLastingErrors>::Zero(),
+                          target.covariance};
+  begin(target.id, {place, target.size, target.range_m});
+  Tracked& tracked = targets_.at(target.id);
+  tracked.unseen_s = target.unseen_s;
+  tracked.is_reported = tracked.is_seen = false;
+  tracked.has_stopped = true;
+  tracked.filter.stop(target.position, kStoppedSigma_m_s);
+}
+
 std::vector<Target> Geolocator::step(CameraTime time, const std::optional<GroundView>& view,
                                      const std::vector<ObservedBox>& boxes) {
   const double elapsed = last_ ? seconds(time - *last_) : 0;
@@ -216,20 +238,6 @@ std::vector<Target> Geolocator::step(CameraTime time, const std::optional<Ground
                        tracked.unseen_s});
   }
   return targets;
-}
-
-std::optional<Eigen::Matrix<double, 2, 4>> footprintOf(const CameraIntrinsics& intrinsics,
-                                                       const CameraModel& camera, const GroundView& view,
-                                                       double min_depression) {
-  const double right = intrinsics.width - 1, bottom = intrinsics.height - 1;
-  const Eigen::Vector2d corners[] = {{0, 0}, {right, 0}, {right, bottom}, {0, bottom}};
-  Eigen::Matrix<double, 2, 4> footprint;
-  for (int i = 0; i < 4; ++i) {
-    const auto point = groundPointOf(camera, corners[i], view, min_depression);
-    if (!point) return std::nullopt;
-    footprint.col(i) = point->position;
-  }
-  return footprint;
 }
 
 }  // namespace redbee

@@ -42,6 +42,16 @@ struct Target {
   double unseen_s = 0;
 };
 
+/// Who has stopped, as another process may go on with it.
+struct StoppedTarget {
+  int id = 0;
+  Eigen::Vector2d position;    ///< m
+  Eigen::Matrix2d covariance;  ///< m^2
+  Eigen::Vector2d size;        ///< m
+  double range_m = 0;
+  double unseen_s = 0;
+};
+
 /// Boxes that could not be placed in a step.
 struct RefusedBoxes {
   int above_horizon = 0;  ///< their ray does not meet the ground, or too flat
@@ -57,6 +67,11 @@ class Geolocator {
   std::vector<Target> step(CameraTime time, const std::optional<GroundView>& view,
                            const std::vector<ObservedBox>& boxes);
   RefusedBoxes refused() const { return refused_; }
+  /// Those that are no longer seen to move; not who is merely slow, whom the next frame shows again.
+  std::vector<StoppedTarget> stopped() const;
+  /// Between two steps. Nothing happens to an identity that is known, nor to one that was unseen for too
+  /// long.
+  void restore(const StoppedTarget& target);
   /// The local coordinates have another origin, or the clock was set: forgets all targets.
   void restart();
 
@@ -102,11 +117,5 @@ class Geolocator {
   std::optional<CameraTime> last_;
   RefusedBoxes refused_;
 };
-
-/// East and north of the ground points [m] of the image's corners, clockwise from the upper left;
-/// std::nullopt unless each sees the ground.
-std::optional<Eigen::Matrix<double, 2, 4>> footprintOf(const CameraIntrinsics& intrinsics,
-                                                       const CameraModel& camera, const GroundView& view,
-                                                       double min_depression);
 
 }  // namespace redbee

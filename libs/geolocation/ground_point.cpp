@@ -54,4 +54,18 @@ std::optional<GroundPoint> groundPointOf(const CameraModel& camera, const Eigen:
   return point;
 }
 
+std::optional<Eigen::Matrix<double, 2, 4>> footprintOf(const CameraIntrinsics& intrinsics,
+                                                       const CameraModel& camera, const GroundView& view,
+                                                       double min_depression) {
+  const double right = intrinsics.width - 1, bottom = intrinsics.height - 1;
+  const Eigen::Vector2d corners[] = {{0, 0}, {right, 0}, {right, bottom}, {0, bottom}};
+  Eigen::Matrix<double, 2, 4> footprint;
+  for (int i = 0; i < 4; ++i) {
+    const auto point = groundPointOf(camera, corners[i], view, min_depression);
+    if (!point) return std::nullopt;
+    footprint.col(i) = point->position;
+  }
+  return footprint;
+}
+
 }  // namespace redbee

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "redbee/geolocation/ground_view.hpp"
+#include "redbee/geometry/camera_intrinsics.hpp"
 #include "redbee/geometry/camera_model.hpp"
 
 namespace redbee {
@@ -25,5 +26,11 @@ struct GroundPoint {
 /// below the horizon.
 std::optional<GroundPoint> groundPointOf(const CameraModel& camera, const Eigen::Vector2d& pixel,
                                          const GroundView& view, double min_depression);
+
+/// East and north of the ground points [m] of the image's corners, clockwise from the upper left;
+/// std::nullopt unless each sees the ground.
+std::optional<Eigen::Matrix<double, 2, 4>> footprintOf(const CameraIntrinsics& intrinsics,
+                                                       const CameraModel& camera, const GroundView& view,
+                                                       double min_depression);
 
 }  // namespace redbee

@@ -45,7 +45,7 @@ class InertialFilter::Implementation : public InertialFilterCore {
     const CorrectionReport report = correctNow(observation);
     for (const Passed& passed : again) {
       advanceTo(passed.checkpoint.frame);
-      if (passed.observation) correctNow(*passed.observation);
+      if (passed.observation) correctNow(*passed.observation, Comparison::kDone);
     }
     return report;
   }
@@ -64,8 +64,9 @@ class InertialFilter::Implementation : public InertialFilterCore {
     while (passed_.back().checkpoint.frame - passed_.front().checkpoint.frame > kLatest) passed_.pop_front();
   }
 
-  CorrectionReport correctNow(const HomographyObservation& observation) {
-    const CorrectionReport report = InertialFilterCore::correct(observation);
+  CorrectionReport correctNow(const HomographyObservation& observation,
+                              Comparison comparison = Comparison::kDue) {
+    const CorrectionReport report = InertialFilterCore::correct(observation, comparison);
     const bool was_tried = report.applied || report.test_ratio > 0;
     if (was_tried && !passed_.empty()) passed_.back().observation = observation;
     return report;
@@ -95,7 +96,8 @@ CorrectionReport InertialFilter::correct(const HomographyObservation& observatio
 std::optional<NominalState> InertialFilter::state() const { return implementation_->state(); }
 const std::optional<FilterSnapshot>& InertialFilter::snapshot() const { return implementation_->snapshot(); }
 bool InertialFilter::isAtFirstFrame() const { return implementation_->isAtFirstFrame(); }
-const VisionAgreement& InertialFilter::agreement() const { return implementation_->agreement(); }
+const VisionAgreement& InertialFilter::agreement() const { return implementation_->comparison().agreement; }
+const TimeshiftMonitor& InertialFilter::timeshift() const { return implementation_->comparison().timeshift; }
 SnapshotCheck InertialFilter::warmStart(const FilterSnapshot& known) {
   return implementation_->warmStart(known);
 }

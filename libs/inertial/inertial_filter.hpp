@@ -23,6 +23,7 @@
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
 #include "redbee/inertial/mount_track.hpp"
+#include "redbee/inertial/timeshift_monitor.hpp"
 #include "redbee/inertial/vision_agreement.hpp"
 
 namespace redbee {
@@ -118,6 +119,8 @@ class InertialFilter {
   /// Of the observations that correct() was given. While vision contradicts the IMU, advanceTo() returns no
   /// homography; the state is still corrected, so that the IMU is used again once they agree.
   const VisionAgreement& agreement() const;
+  /// Of the same observations: the time shift that they show beyond the configured one.
+  const TimeshiftMonitor& timeshift() const;
 
   /// Snapshot at the last frame with a valid motion; std::nullopt before the first.
   const std::optional<FilterSnapshot>& snapshot() const;

@@ -12,7 +12,7 @@
 #include "redbee/inertial/inertial_filter.hpp"
 #include "redbee/inertial/initial_state.hpp"
 #include "redbee/inertial/row_motion.hpp"
-#include "redbee/inertial/vision_agreement.hpp"
+#include "redbee/inertial/vision_comparison.hpp"
 
 namespace redbee {
 
@@ -24,9 +24,14 @@ class InertialFilterCore {
         camera_(camera),
         samples_(parameters),
         altitude_(parameters),
-        vision_(parameters) {}
+        vision_(parameters),
+        comparison_(parameters.extrinsics) {}
 
-  bool addImu(const ImuSample& sample) { return samples_.add(sample); }
+  bool addImu(const ImuSample& sample) {
+    const bool added = samples_.add(sample);
+    if (added) comparison_.timeshift.addGyro(sample.time, parameters_.gyro_correction * sample.gyro);
+    return added;
+  }
   int takeForeignSamples() { return samples_.takeForeign(); }
 
   bool addMount(const MountSample& sample) { return samples_.addMount(sample); }
@@ -44,22 +49,10 @@ class InertialFilterCore {
     return result;
   }
 
+  /// Whether an observation has been compared with the IMU before: a frame may be passed again.
+  enum class Comparison { kDue, kDone };
   /// Of the last two frames, and once.
-  CorrectionReport correct(const HomographyObservation& observation) {
-    const bool belongs = state_ && state_->isMountKnown() && previous_frame_ && !corrected_ &&
-                         observation.time == *frame_ && observation.time_previous == *previous_frame_;
-    if (!belongs) return {};
-    compare(observation);
-    const NavigationState before = *state_;
-    const CorrectionReport report = vision_.correct(*state_, observation, camera_, p_IC());
-    corrected_ = report.applied;
-    keepAboveGround(*state_, p_IC());
-    if (!isValid(*state_)) {
-      state_ = before;
-      return {};
-    }
-    return report;
-  }
+  CorrectionReport correct(const HomographyObservation& observation, Comparison comparison);
 
   std::optional<NominalState> state() const {
     if (!state_) return std::nullopt;
@@ -68,7 +61,7 @@ class InertialFilterCore {
   }
 
   const std::optional<FilterSnapshot>& snapshot() const { return known_; }
-  const VisionAgreement& agreement() const { return agreement_; }
+  const VisionComparison& comparison() const { return comparison_; }
   bool isAtFirstFrame() const { return state_ && !has_moved_; }
 
   /// What the frames have made of it, to return to while a second of samples is kept; std::nullopt without a
@@ -98,57 +91,18 @@ class InertialFilterCore {
   }
 
  private:
-  static constexpr double kMaxOutage = 0.5;  // s without IMU after which the state is discarded
-
-  static InertialHomography nothing(CameraTime frame_before, CameraTime frame, InertialStatus status) {
-    InertialHomography result;
-    result.time_previous = frame_before;
-    result.time = frame;
-    result.status = status;
-    return result;
-  }
-
   const Eigen::Vector3d& p_IC() const { return parameters_.extrinsics.p_IC; }
 
-  InertialHomography stepTo(CameraTime frame) {
-    if (!isPlausibleTime(frame) || (frame_ && frame == *frame_)) {
-      return nothing(frame_.value_or(frame), frame, InertialStatus::kClockJump);
-    }
-    if (samples_.takeWereMixed()) {
-      agreement_ = VisionAgreement();
-      return startAfresh(frame);
-    }
-    if (!frame_) return start(frame, InertialStatus::kInitialising);
-    const double interval = seconds(frame - *frame_);
-    if (interval < 0 || interval > parameters_.max_frame_gap_s) {
-      return start(frame, InertialStatus::kClockJump);
-    }
-    if (samples_.empty()) return coast(frame);
-    const ImuSpan span = samples_.span(samples_.imuTime(*frame_), samples_.imuTime(frame));
-    return FrameSamples::isMissing(span) ? coast(frame) : move(frame, span);
-  }
+  InertialHomography stepTo(CameraTime frame);
 
   std::optional<RowMotion> rowMotionAt(CameraTime frame) const {
     const double half_s = halfReadout(camera_.intrinsics());
-    if (half_s == 0 || !state_ || frame_ != frame || !agreement_.agrees()) return std::nullopt;
+    if (half_s == 0 || !state_ || frame_ != frame || !comparison_.agreement.agrees()) return std::nullopt;
     if (!state_->mount.is_known) return std::nullopt;
     return rowMotion(*state_, p_IC(), samples_, frame, fromSeconds(half_s));
   }
 
-  InertialHomography start(CameraTime frame, InertialStatus status) {
-    InertialHomography result = nothing(frame_.value_or(frame), frame, status);
-    const std::vector<ImuSample> before = samples_.forVertical(frame);
-    forgetFrames();
-    if (before.empty()) {
-      state_.reset();
-      return nothing(frame, frame, status == InertialStatus::kClockJump ? status : InertialStatus::kNoImu);
-    }
-    begin(frame, before);
-    frame_ = frame;
-    altitude_.eraseBefore(samples_.imuTime(frame));
-    vision_.restart();
-    return result;
-  }
+  InertialHomography start(CameraTime frame, InertialStatus status);
 
   void begin(CameraTime frame, const std::vector<ImuSample>& before) {
     state_ = initialState(frame, before, parameters_, known_);
@@ -162,46 +116,9 @@ class InertialFilterCore {
   }
 
   /// No sample in the interval: the last one is held for a while, then the state is discarded.
-  InertialHomography coast(CameraTime frame) {
-    InertialHomography result = nothing(*frame_, frame, statusOf(frame, InertialStatus::kNoImu));
-    if (samples_.outageAt(frame) > kMaxOutage) {
-      forgetFrames();
-      state_.reset();
-      return result;
-    }
-    integrate(frame);
-    return isValid(*state_) ? result : startAfresh(frame);
-  }
+  InertialHomography coast(CameraTime frame);
 
-  InertialHomography move(CameraTime frame, const ImuSpan& span) {
-    const bool gap = samples_.hasGap(span);
-    InertialHomography result =
-        nothing(*frame_, frame, statusOf(frame, gap ? InertialStatus::kImuGap : InertialStatus::kGood));
-    correctByGravity(*state_, span, parameters_, vision_.secondsSinceApplied(*frame_));
-    integrate(frame);
-    if (!isValid(*state_)) return startAfresh(frame);
-    if (!state_->isMountKnown()) {
-      result.status = InertialStatus::kNoMount;
-      return result;
-    }
-    describe(*state_, camera_, p_IC(), result);
-    if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
-    if (!agreement_.agrees()) {
-      result.status = InertialStatus::kDisagreement;
-      return result;
-    }
-    result.valid = true;
-    known_ = snapshotOf(*state_, frame, p_IC());
-    return result;
-  }
-
-  /// Compares the rotation between the last two frames with vision's, before vision corrects it.
-  void compare(const HomographyObservation& observation) {
-    const auto difference =
-        rotationDifference(*state_, camera_, p_IC(), observation.H, observation.covariance);
-    const Eigen::Matrix3d R_ba = cameraMotion(*state_, p_IC()).R_ba;
-    if (difference) agreement_.note({observation.time_previous, observation.time, R_ba, *difference});
-  }
+  InertialHomography move(CameraTime frame, const ImuSpan& span);
 
   /// Refused samples take precedence over missing ones.
   InertialStatus statusOf(CameraTime frame, InertialStatus otherwise) const {
@@ -214,33 +131,9 @@ class InertialFilterCore {
   }
 
   /// Moves the state to the frame, stopping at each altitude on the way.
-  void integrate(CameraTime frame) {
-    ImuTime time = samples_.imuTime(*frame_);
-    const ImuTime end = samples_.imuTime(frame);
-    altitude_.correctLate(*state_, time);
-    clonePose(*state_);
-    while (const std::optional<AltitudeSample> altitude = altitude_.next(end)) {
-      integrateTo(time, altitude->time);
-      time = altitude->time;
-      altitude_.correct(*state_, *altitude, 0);
-    }
-    integrateTo(time, end);
-    keepAboveGround(*state_, p_IC());
-    samples_.eraseBefore(frame);
-    previous_frame_ = frame_;
-    frame_ = frame;
-    state_->mount = samples_.mountAt(frame);
-    corrected_ = false;
-    has_moved_ = true;
-  }
+  void integrate(CameraTime frame);
 
-  void integrateTo(ImuTime begin, ImuTime end) {
-    if (end <= begin) return;
-    const ImuSpan span = samples_.span(begin, end);
-    for (std::size_t i = 1; i < span.knots.size(); ++i) {
-      propagate(*state_, span.knots[i - 1], span.knots[i], propagation_);
-    }
-  }
+  void integrateTo(ImuTime begin, ImuTime end);
 
   InertialParameters parameters_;
   PropagationParameters propagation_;
@@ -248,7 +141,7 @@ class InertialFilterCore {
   FrameSamples samples_;
   AltitudeCorrection altitude_;
   VisionCorrection vision_;
-  VisionAgreement agreement_;  ///< survives a restart
+  VisionComparison comparison_;  ///< survives a restart
   std::optional<NavigationState> state_;
   std::optional<FilterSnapshot> known_;  ///< of the last valid state: survives a restart
   std::optional<CameraTime> frame_;

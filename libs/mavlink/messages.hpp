@@ -75,6 +75,42 @@ struct CommandLong {
   }
 };
 
+/// The same command with a place in integers, which some ground stations use for all; see asLong().
+struct CommandInt {
+  static constexpr uint32_t kId = 75;
+  static constexpr std::string_view kName = "COMMAND_INT";
+  std::array<float, 4> param{};
+  int32_t x = 0;  ///< param5, scaled by the frame's rule
+  int32_t y = 0;  ///< param6
+  float z = 0;    ///< param7
+  uint16_t command = 0;
+  uint8_t target_system = 0;
+  uint8_t target_component = 0;
+  uint8_t frame = 0;
+  uint8_t current = 0;
+  uint8_t autocontinue = 0;
+  template <typename M, typename V>
+  static constexpr void visit(M& m, V& v) {
+    v("param1", m.param[0]);
+    v("param2", m.param[1]);
+    v("param3", m.param[2]);
+    v("param4", m.param[3]);
+    v("x", m.x);
+    v("y", m.y);
+    v("z", m.z);
+    v("command", m.command);
+    v("target_system", m.target_system);
+    v("target_component", m.target_component);
+    v("frame", m.frame);
+    v("current", m.current);
+    v("autocontinue", m.autocontinue);
+  }
+  /// Of a command that uses its first four parameters only, as all of a camera that tracks do.
+  CommandLong asLong() const {
+    return {{param[0], param[1], param[2], param[3]}, command, target_system, target_component, 0};
+  }
+};
+
 struct CommandAck {
   static constexpr uint32_t kId = 77;
   static constexpr std::string_view kName = "COMMAND_ACK";

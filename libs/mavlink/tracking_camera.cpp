@@ -55,7 +55,8 @@ void TrackingCamera::receive(const uint8_t* data, size_t size, int64_t host_ns, 
   if (is_datagram) parser_.endOfDatagram();
   while (const auto frame = parser_.next()) {
     loss_.note(*frame);
-    if (frame->id == CommandLong::kId && trust_.accepts(*frame, encoder_)) handle(*frame, host_ns);
+    const bool is_command = frame->id == CommandLong::kId || frame->id == CommandInt::kId;
+    if (is_command && trust_.accepts(*frame, encoder_)) handle(*frame, host_ns);
   }
 }
 
@@ -66,7 +67,8 @@ void TrackingCamera::reconnect() {
 }
 
 void TrackingCamera::handle(const Frame& frame, int64_t host_ns) {
-  const auto command = frame.message<CommandLong>();
+  const CommandLong command =
+      frame.id == CommandInt::kId ? frame.message<CommandInt>().asLong() : frame.message<CommandLong>();
   const bool is_for_us = command.target_component == parameters_.component_id;
   if (command.target_system != 0 && command.target_system != parameters_.system_id) return;
   if (command.target_component != 0 && !is_for_us) return;

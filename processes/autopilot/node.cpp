@@ -8,6 +8,7 @@
 #include "processes/autopilot/measurement_messages.hpp"
 #include "processes/link/signing_key.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/mavlink/peer_check.hpp"
 #include "redbee/node/host_clock.hpp"
 #include "redbee/node/message_check.hpp"
 
@@ -17,10 +18,17 @@ namespace {
 constexpr int64_t kImuSilence_ns = 1'000'000'000;
 constexpr double kMaxClockSigma_s = 0.02;  // more than half a frame's distance is of no use
 
+/// The configured vehicle, whoever else sends to the port.
+PeerCheck peerOf(const AutopilotParameters& link) {
+  return [system = static_cast<uint8_t>(link.system_id), key = readSigningKey(link.signing_key_file)](
+             const mavlink::Bytes& datagram) { return mavlink::holdsFrameOf(datagram, system, key); };
+}
+
 }  // namespace
 
 AutopilotNode::AutopilotNode(Bus& bus, const Configuration& configuration)
-    : AutopilotNode(bus, configuration, linkOf("autopilot.link", configuration.autopilot.link),
+    : AutopilotNode(bus, configuration,
+                    linkOf("autopilot.link", configuration.autopilot.link, peerOf(configuration.autopilot)),
                     hostNanoseconds) {}
 
 AutopilotNode::AutopilotNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Link> link,

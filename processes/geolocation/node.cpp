@@ -97,10 +97,12 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   const std::string camera_fault = cameraFault(detections);
   const ViewEstimate estimate = views_.at(imuTimeOf(time));
   if (views_.frame().takeRestart()) geolocator_.restart();
+  stopped_.restore(toUtime(time), views_.frame(), geolocator_);
   // A frame without a trusted mask shows nothing, not even that nobody moves.
   const bool is_blind = !camera_fault.empty() || detections.status != foreground_t::GOOD;
   const std::vector<Target> targets =
       geolocator_.step(time, is_blind ? std::nullopt : estimate.view, boxesOf(detections));
+  stopped_.keep(toUtime(time), views_.frame(), geolocator_);
   noteResultReady();
   targets_t message{};
   message.status =

@@ -1,9 +1,11 @@
 // DETECTIONS, POSE, GIMBAL, ALTIMETER and LENS in; TARGETS out.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
+#include "processes/geolocation/stopped_store.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/geolocation/geolocator.hpp"
@@ -22,6 +24,10 @@ class GeolocationNode : public Stage {
   /// Throws UserError unless geolocation.enabled is set.
   GeolocationNode(Bus& bus, const Configuration& configuration);
   bool processNext() override;
+  /// Who has stopped is known after a restart.
+  void keepStateIn(const std::filesystem::path& folder) override {
+    stopped_ = StoppedStore(folder / "stopped_targets");
+  }
 
  private:
   struct Frame {
@@ -45,6 +51,7 @@ class GeolocationNode : public Stage {
   std::shared_ptr<const CameraModel> camera_;
   ViewEstimator views_;
   Geolocator geolocator_;
+  StoppedStore stopped_;
   FrameQueue<Frame> pending_;
   MessageClock clock_;
   std::string lens_fault_;

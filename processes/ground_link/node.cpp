@@ -10,6 +10,7 @@
 #include "processes/link/signing_key.hpp"
 #include "processes/plausible_subscription.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/mavlink/peer_check.hpp"
 #include "redbee/node/host_clock.hpp"
 
 namespace redbee {
@@ -36,11 +37,19 @@ mavlink::ObjectPlace placeOf(const target_t& target, const targets_t& of) {
   return place;
 }
 
+/// Any ground station: their identities are not configured.
+PeerCheck peerOf(const GroundLinkParameters& link) {
+  return [system = std::optional<uint8_t>(), key = readSigningKey(link.signing_key_file)](
+             const mavlink::Bytes& datagram) { return mavlink::holdsFrameOf(datagram, system, key); };
+}
+
 }  // namespace
 
 GroundLinkNode::GroundLinkNode(Bus& bus, const Configuration& configuration)
-    : GroundLinkNode(bus, configuration, linkOf("ground_link.link", configuration.ground_link.link),
-                     hostNanoseconds) {}
+    : GroundLinkNode(
+          bus, configuration,
+          linkOf("ground_link.link", configuration.ground_link.link, peerOf(configuration.ground_link)),
+          hostNanoseconds) {}
 
 GroundLinkNode::GroundLinkNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Link> link,
                                Clock clock)

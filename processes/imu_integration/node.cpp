@@ -196,7 +196,8 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   earlier_ = stepOf(message, frame, result.valid);
   if (result.valid && agreed_ >= kAgreed) publishSnapshot();
   if (result.valid && result.status == InertialStatus::kGood) {
-    health().setState(HealthState::kGood, "");
+    const std::string& apart = filter_.timeshift().message();
+    health().setState(apart.empty() ? HealthState::kGood : HealthState::kDegraded, apart);
   } else {
     health().setState(HealthState::kDegraded, reasonOf(result.status));
   }

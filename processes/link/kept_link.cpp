@@ -41,13 +41,13 @@ ReceivedBytes KeptLink::receive() {
   return received;
 }
 
-std::unique_ptr<Link> linkOf(const std::string& key, const std::string& text) {
+std::unique_ptr<Link> linkOf(const std::string& key, const std::string& text, PeerCheck is_peer) {
   const auto address = mavlink::linkAddressOf(text);
   if (!address) {
     throw UserError(key + ": is not set in this configuration; set it to " +
                     std::string(mavlink::kLinkForms));
   }
-  return makeLink(*address);
+  return makeLink(*address, std::move(is_peer));
 }
 
 }  // namespace redbee

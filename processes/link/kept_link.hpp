@@ -43,6 +43,6 @@ class KeptLink {
 };
 
 /// For the key `key` of the configuration, such as autopilot.link. Throws UserError where `text` is empty.
-std::unique_ptr<Link> linkOf(const std::string& key, const std::string& text);
+std::unique_ptr<Link> linkOf(const std::string& key, const std::string& text, PeerCheck is_peer);
 
 }  // namespace redbee

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,7 +35,11 @@ class Link {
   virtual bool isDatagram() const = 0;
 };
 
-/// Throws UserError for a speed that the system's serial ports do not have.
-std::unique_ptr<Link> makeLink(const mavlink::LinkAddress& address);
+/// Whether a datagram is of whom a listening link is to speak with.
+using PeerCheck = std::function<bool(const std::vector<uint8_t>& datagram)>;
+
+/// Throws UserError for a speed that the system's serial ports do not have. Without a check anybody may be
+/// the peer of a UDP port that listens.
+std::unique_ptr<Link> makeLink(const mavlink::LinkAddress& address, PeerCheck is_peer = {});
 
 }  // namespace redbee

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "redbee/node/host_clock.hpp"
 
@@ -21,8 +22,8 @@ bool isSame(const sockaddr_in& a, const sockaddr_in& b) {
 
 }  // namespace
 
-UdpLink::UdpLink(const std::string& address, uint16_t port, bool listens)
-    : name_("UDP " + address + ":" + std::to_string(port)), listens_(listens) {
+UdpLink::UdpLink(const std::string& address, uint16_t port, bool listens, PeerCheck check)
+    : name_("UDP " + address + ":" + std::to_string(port)), listens_(listens), check_(std::move(check)) {
   address_.sin_family = AF_INET;
   address_.sin_port = htons(port);
   inet_pton(AF_INET, address.c_str(), &address_.sin_addr);  // linkAddressOf() has checked it
@@ -39,9 +40,12 @@ std::string UdpLink::open() {
   return "";
 }
 
-bool UdpLink::isPeer(const sockaddr_in& from, int64_t now_ns) {
+bool UdpLink::isPeer(const sockaddr_in& from, const std::vector<uint8_t>& datagram, int64_t now_ns) {
   if (!listens_) return isSame(from, *peer_);
-  if (peer_ && !isSame(from, *peer_) && now_ns - heard_ns_ < kPeerSilence_ns) return false;
+  const bool is_same = peer_ && isSame(from, *peer_);
+  if (peer_ && !is_same && now_ns - heard_ns_ < kPeerSilence_ns) return false;
+  // What a peer sends and nobody can read keeps it as little as it would have made it.
+  if (check_ && !check_(datagram)) return is_same;
   peer_ = from;
   heard_ns_ = now_ns;
   return true;
@@ -59,7 +63,8 @@ ReceivedBytes UdpLink::receive(std::chrono::milliseconds timeout) {
       recvfrom(socket_.get(), buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
   received.host_ns = hostNanoseconds();
   // An error is that of an earlier datagram that nobody took: the peer is not there yet.
-  if (size > 0 && isPeer(from, received.host_ns)) received.data.assign(buffer.begin(), buffer.begin() + size);
+  if (size > 0) received.data.assign(buffer.begin(), buffer.begin() + size);
+  if (size > 0 && !isPeer(from, received.data, received.host_ns)) received.data.clear();
   return received;
 }
 

@@ -13,12 +13,12 @@
 
 namespace redbee {
 
-/// One peer: the address that is spoken to, or the first that speaks to us, until it has been silent for
-/// three seconds. Others are not listened to.
+/// One peer: the address that is spoken to, or the first whose datagram passes the check, until none of its
+/// own has passed for three seconds. Others are not listened to, nor answered.
 class UdpLink : public Link {
  public:
   /// `address`: IPv4, to listen on or to speak to.
-  UdpLink(const std::string& address, uint16_t port, bool listens);
+  UdpLink(const std::string& address, uint16_t port, bool listens, PeerCheck check = {});
   std::string open() override;
   bool isOpen() const override { return socket_.isOpen(); }
   ReceivedBytes receive(std::chrono::milliseconds timeout) override;
@@ -26,11 +26,12 @@ class UdpLink : public Link {
   bool isDatagram() const override { return true; }
 
  private:
-  bool isPeer(const sockaddr_in& from, int64_t now_ns);
+  bool isPeer(const sockaddr_in& from, const std::vector<uint8_t>& datagram, int64_t now_ns);
 
   std::string name_;  ///< for messages
   sockaddr_in address_{};
   bool listens_;
+  PeerCheck check_;
   FileDescriptor socket_;
   std::optional<sockaddr_in> peer_;
   int64_t heard_ns_ = 0;

@@ -3,8 +3,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "redbee/files/natural_order.hpp"
+#include "redbee/files/printable.hpp"
 
 namespace redbee {
 namespace {
@@ -21,7 +20,6 @@ constexpr size_t kMostOpened = 3;
 constexpr std::chrono::seconds kListKept{2};
 constexpr int kDeepest = 3;           ///< folders below a given one
 constexpr size_t kMostFiles = 20000;  ///< looked at
-constexpr int64_t kLargestReport = int64_t{256} << 20;
 
 /// The name of the log that a part belongs to; empty for another file.
 std::string logOf(const std::string& name) {
@@ -76,7 +74,7 @@ std::vector<Archive::Entry> Archive::readFolders() const {
       // A link may lead out of the folder.
       if (lstat(at->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
       if (!known.insert(at->path()).second) continue;
-      entries.push_back({at->path().lexically_relative(folder.parent_path()).string(),
+      entries.push_back({printable(at->path().lexically_relative(folder.parent_path()).string()),
                          status.st_size,
                          status.st_mtime,
                          {at->path()}});
@@ -101,7 +99,7 @@ std::vector<Archive::Entry> Archive::flights() const {
   std::vector<std::string> paths;
   for (auto& [path, entry] : logs) {
     std::sort(entry.files.begin(), entry.files.end(), isFileNaturallyBefore);
-    paths.push_back(path);
+    paths.push_back(printable(path));
     result.push_back(std::move(entry));
   }
   makeNamesUnique(result, paths);
@@ -114,7 +112,7 @@ std::vector<Archive::Entry> Archive::reports() const {
   std::vector<std::string> paths;
   for (Entry& file : files()) {
     if (fs::path(file.name).extension() != ".html") continue;
-    paths.push_back(file.files.front().string());
+    paths.push_back(printable(file.files.front().string()));
     result.push_back(std::move(file));
   }
   makeNamesUnique(result, paths);
@@ -122,39 +120,60 @@ std::vector<Archive::Entry> Archive::reports() const {
 }
 
 std::shared_ptr<const Flight> Archive::open(const std::string& name, bool refresh) {
-  {
+  Reading reading;
+  if (!refresh) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto kept =
         std::find_if(opened_.begin(), opened_.end(), [&](const Opened& o) { return o.name == name; });
-    if (!refresh && kept != opened_.end()) return kept->flight;
+    if (kept != opened_.end()) reading = kept->flight;
   }
-  const auto entries = flights();
-  const auto entry =
-      std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.name == name; });
-  if (entry == entries.end()) return nullptr;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const auto kept = std::find_if(opened_.begin(), opened_.end(),
-                                 [&](const Opened& o) { return o.name == name && o.bytes == entry->bytes; });
-  if (kept != opened_.end()) {
-    opened_.splice(opened_.begin(), opened_, kept);
-    return opened_.front().flight;
+  if (!reading) {
+    const auto entries = flights();
+    const auto entry =
+        std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.name == name; });
+    if (entry == entries.end()) return nullptr;
+    reading = readingOf(*entry);
   }
+  try {
+    return reading->get();
+  } catch (...) {
+    forget(reading);
+    throw;
+  }
+}
+
+Archive::Reading Archive::readingOf(const Entry& entry) {
   std::vector<fs::path> runs;
   for (const Entry& file : files()) {
     if (file.files.front().filename() == "homography.csv") runs.push_back(file.files.front().parent_path());
   }
-  auto flight = std::make_shared<const Flight>(configuration_, entry->files, runs);
-  opened_.remove_if([&](const Opened& o) { return o.name == name; });
-  opened_.push_front({name, entry->bytes, flight});
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto kept = std::find_if(opened_.begin(), opened_.end(), [&](const Opened& o) {
+    return o.name == entry.name && o.bytes == entry.bytes;
+  });
+  if (kept != opened_.end()) {
+    opened_.splice(opened_.begin(), opened_, kept);
+    return opened_.front().flight;
+  }
+  opened_.remove_if([&](const Opened& o) { return o.name == entry.name; });
+  // Read by the first who asks for it, without the lock: a log may take seconds.
+  auto read = std::async(std::launch::deferred, [this, files = entry.files, runs] {
+    return std::make_shared<const Flight>(configuration_, files, runs);
+  });
+  opened_.push_front({entry.name, entry.bytes,
+                      std::make_shared<std::shared_future<std::shared_ptr<const Flight>>>(read.share())});
   if (opened_.size() > kMostOpened) opened_.pop_back();
-  return flight;
+  return opened_.front().flight;
 }
 
-std::optional<std::string> Archive::report(const std::string& name) const {
-  for (const Entry& entry : reports()) {
-    if (entry.name != name || entry.bytes > kLargestReport) continue;
-    std::ifstream file(entry.files.front(), std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(file), {}};
+void Archive::forget(const Reading& reading) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  opened_.remove_if([&](const Opened& o) { return o.flight == reading; });
+}
+
+std::optional<Archive::Entry> Archive::report(const std::string& name) const {
+  for (Entry& entry : reports()) {
+    if (entry.name == name) return std::move(entry);
   }
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -20,7 +21,8 @@ namespace redbee {
 class Archive {
  public:
   struct Entry {
-    /// Path from the folder's parent; where others are called the same, the whole path.
+    /// Path from the folder's parent; where others are called the same, the whole path. Bytes that are no
+    /// UTF-8, which no browser gives back, as their codes.
     std::string name;
     int64_t bytes = 0;
     int64_t modified_s = 0;                    ///< since 1970
@@ -38,14 +40,19 @@ class Archive {
   /// `refresh` is set. Throws InputError as Flight does.
   std::shared_ptr<const Flight> open(const std::string& name, bool refresh);
   /// std::nullopt if there is no report of that name.
-  std::optional<std::string> report(const std::string& name) const;
+  std::optional<Entry> report(const std::string& name) const;
 
  private:
+  using Reading = std::shared_ptr<std::shared_future<std::shared_ptr<const Flight>>>;
   struct Opened {
     std::string name;
     int64_t bytes = 0;  ///< a flight that is being recorded grows
-    std::shared_ptr<const Flight> flight;
+    Reading flight;
   };
+
+  /// Of a flight that is being read, or was: who wants it waits, others do not.
+  Reading readingOf(const Entry& entry);
+  void forget(const Reading& reading);
 
   /// Files below the folders, newest first, each once; links are left out. Looked up every two seconds at
   /// most.

@@ -7,10 +7,12 @@
 #include <sys/un.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
@@ -23,7 +25,8 @@ namespace {
 
 /// A viewer has one connection for the events and one or two that fetch.
 constexpr size_t kThreads = 3 * Live::kMostViewers;
-constexpr size_t kLongestBody = 4096;  ///< bytes; no request of ours has one
+constexpr size_t kLongestBody = 4096;    ///< bytes; no request of ours has one
+constexpr size_t kFilePart = 64 * 1024;  ///< bytes
 constexpr std::chrono::milliseconds kKeepAlive{1000};
 constexpr time_t kWriteTimeout_s = 5;
 constexpr size_t kMostRequests = 1'000'000;  ///< on one connection
@@ -80,6 +83,41 @@ void streamEvents(Live& live, httplib::Response& response) {
         if (is_closed) return false;
         return sink.write(text.data(), text.size());
       });
+}
+
+/// The body is sent and the connection ends: what the client still sends of its own is read by nobody.
+void refuse(const WebResponse& refusal, httplib::Response& to) {
+  to.status = refusal.status;
+  for (const auto& [name, value] : refusal.headers) to.set_header(name, value);
+  to.set_header("Connection", "close");
+  to.set_content_provider(refusal.body.size(), refusal.type,
+                          [body = refusal.body](size_t offset, size_t length, httplib::DataSink& sink) {
+                            sink.write(body.data() + offset, length);
+                            return false;
+                          });
+}
+
+/// A file of any size takes no more memory than a part of it. One that has shrunk since ends the connection.
+void streamFile(const WebResponse& response, httplib::Response& to) {
+  const auto file = std::make_shared<std::ifstream>(response.file, std::ios::binary);
+  if (!*file) {
+    to.status = 404;
+    to.set_content("the file is gone\n", "text/plain");
+    return;
+  }
+  to.set_content_provider(
+      response.file_bytes, response.type, [file](size_t offset, size_t length, httplib::DataSink& sink) {
+        std::array<char, kFilePart> part;
+        file->seekg(static_cast<std::streamoff>(offset));
+        file->read(part.data(), static_cast<std::streamsize>(std::min(length, part.size())));
+        return file->gcount() > 0 && sink.write(part.data(), static_cast<size_t>(file->gcount()));
+      });
+}
+
+/// What httplib itself answers (a method that is not known, a header too long) has no body.
+void explainError(const httplib::Request&, httplib::Response& to) {
+  if (!to.body.empty() || to.content_length_ > 0) return;
+  to.set_content(std::to_string(to.status) + ": this server does not answer such a request\n", "text/plain");
 }
 
 /// What a server that was killed has left is removed; that of one which lives is not.
@@ -151,8 +189,16 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
     if (response.is_event_stream) return streamEvents(live, to);
     to.status = response.status;
     for (const auto& [name, value] : response.headers) to.set_header(name, value);
+    if (!response.file.empty() && response.file_bytes > 0) return streamFile(response, to);
     if (response.status != 204) to.set_content(response.body, response.type);
   };
+  server.set_pre_routing_handler([&station](const httplib::Request& from, httplib::Response& to) {
+    const auto refused = station.refusal(requestOf(from));
+    if (!refused) return httplib::Server::HandlerResponse::Unhandled;
+    refuse(*refused, to);
+    return httplib::Server::HandlerResponse::Handled;
+  });
+  server.set_error_handler(explainError);
   server.Get(".*", handle);
   server.Post(".*", handle);
   listenAt(server, address);

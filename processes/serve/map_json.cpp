@@ -53,6 +53,9 @@ nlohmann::json mapJson(const MapView& map) {
                         {"footprint", pointsJson(map.footprint)},
                         {"targets", nlohmann::json::array()}};
   if (map.targets_utime) result["targets_utime"] = *map.targets_utime;
+  if (map.origin) {
+    result["origin"] = {{"latitude", map.origin->latitude_deg}, {"longitude", map.origin->longitude_deg}};
+  }
   for (const MapTarget& target : map.targets) result["targets"].push_back(targetJson(target));
   if (map.own) {
     result["own"] = {{"position", rounded(map.own->position)}, {"heading", map.own->heading_rad}};

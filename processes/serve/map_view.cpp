@@ -101,6 +101,7 @@ bool MapBuilder::isFresh(int64_t utime) const {
 MapView MapBuilder::view(int64_t utime) const {
   MapView view;
   view.path.assign(path_.begin(), path_.end());
+  if (frame_.isGlobal()) view.origin = frame_.geodeticOf(Eigen::Vector2d::Zero());
   addOwn(utime, view);
   addTargets(utime, view);
   return view;

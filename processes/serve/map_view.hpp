@@ -29,6 +29,7 @@ struct MapView {
   std::vector<Eigen::Vector2d> path;       ///< oldest first
   std::vector<Eigen::Vector2d> footprint;  ///< the image's corners on the ground; empty: unknown
   std::vector<MapTarget> targets;
+  std::optional<Geodetic> origin;        ///< the place of (0, 0), where it is known
   std::optional<int64_t> targets_utime;  ///< us, of the frame that they are about
   std::string note;                      ///< what is missing, in words; empty: nothing
 };

@@ -30,6 +30,7 @@ struct ServeOptions {
   std::filesystem::path token_file;
   bool allow_writes = false;
   std::vector<std::filesystem::path> folders;
+  std::filesystem::path tiles;
 };
 
 void addOptions(CLI::App& app, ServeOptions& options) {
@@ -42,6 +43,8 @@ void addOptions(CLI::App& app, ServeOptions& options) {
                "the page may record and restart (serve.allow_writes)");
   app.add_option("--flights", options.folders,
                  "folders with logs, results and reports to show (else that of REDBEE_RECORDINGS)");
+  app.add_option("--tiles", options.tiles, "folder with the map's tiles: z/x/y.png, WebMercator")
+      ->check(CLI::ExistingDirectory);
 }
 
 ServeParameters parametersOf(const Configuration& configuration, const ServeOptions& options) {
@@ -84,6 +87,7 @@ void serve(const ServeOptions& options) {
   Archive archive(configuration, folders);
   Station station(Access(*address, readToken(parameters.token_file), parameters.allow_writes), archive, live,
                   supervisedStack());
+  station.showTiles(options.tiles);
   const auto bus = makeLcmBus(options.url);
   ServeNode node(*bus, configuration, live);
   const std::atomic<bool>& stop = stopOnSignals();

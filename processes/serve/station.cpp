@@ -122,6 +122,13 @@ WebResponse Station::answer(const WebRequest& request) {
   }
 }
 
+std::optional<WebResponse> Station::refusal(const WebRequest& request) const {
+  if (request.header("transfer-encoding").empty() && request.header("content-length").size() < 5)
+    return access_.refusal(request);
+  if (auto refused = access_.refusal(request)) return refused;
+  return plain(413, "no request to this page has such a body");
+}
+
 WebResponse Station::route(const WebRequest& request) {
   if (request.method == "POST") return write(request);
   if (request.method != "GET") return plain(405, "GET and POST only");
@@ -137,6 +144,8 @@ WebResponse Station::route(const WebRequest& request) {
   if (request.path == "/api/flight") return flight(request);
   if (request.path == "/api/flight/frame") return flightFrame(request);
   if (request.path == "/report") return report(request);
+  if (request.path == "/api/tiles") return tileLevels();
+  if (request.path == "/api/tile") return tile(request);
   if (auto file = pageFile(request.path)) return *file;
   return plain(404, "no such address");
 }
@@ -184,11 +193,12 @@ WebResponse Station::flightFrame(const WebRequest& request) {
 }
 
 WebResponse Station::report(const WebRequest& request) const {
-  auto content = archive_.report(request.parameter("name"));
-  if (!content) return plain(404, "no such report");
+  const auto entry = archive_.report(request.parameter("name"));
+  if (!entry) return plain(404, "no such report");
   WebResponse response;
   response.type = "text/html; charset=utf-8";
-  response.body = std::move(*content);
+  response.file = entry->files.front();
+  response.file_bytes = static_cast<size_t>(entry->bytes);
   // Whatever lies in the folders: it gets no scripts, and not the page's rights.
   response.headers.emplace_back("Content-Security-Policy",
                                 "sandbox; default-src 'none'; img-src data:; style-src 'unsafe-inline'");

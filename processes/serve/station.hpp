@@ -1,8 +1,10 @@
 // The ground station: what each address of the page answers.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "processes/serve/access.hpp"
@@ -28,8 +30,14 @@ class Station {
  public:
   Station(Access access, Archive& archive, Live& live, StackControl control);
 
+  /// Shows the map's tiles in a folder: z/x/y.png of the WebMercator tiling, as map servers call them.
+  void showTiles(std::filesystem::path folder) { tiles_ = std::move(folder); }
+
   /// Never throws.
   WebResponse answer(const WebRequest& request);
+  /// By the headers alone, so that the body of who may not ask is not read; nor is one that is too long or of
+  /// unknown length: no request of the page has a body.
+  std::optional<WebResponse> refusal(const WebRequest& request) const;
 
  private:
   WebResponse route(const WebRequest& request);
@@ -39,12 +47,15 @@ class Station {
   WebResponse flightFrame(const WebRequest& request);
   WebResponse report(const WebRequest& request) const;
   WebResponse state() const;
+  WebResponse tileLevels() const;
+  WebResponse tile(const WebRequest& request) const;
   WebResponse write(const WebRequest& request);
 
   Access access_;
   Archive& archive_;
   Live& live_;
   StackControl control_;
+  std::filesystem::path tiles_;  ///< empty: none
 };
 
 /// The number in a text of digits alone; std::nullopt for any other.

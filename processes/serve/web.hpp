@@ -1,6 +1,8 @@
 // A request and its answer, without the sockets and the parsing of HTTP that cpp-httplib does.
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -30,6 +32,8 @@ struct WebResponse {
   std::string type = "text/plain; charset=utf-8";
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers;
+  std::filesystem::path file;  ///< whose first `file_bytes` are the body instead, unless empty
+  size_t file_bytes = 0;
   bool is_event_stream = false;  ///< the server goes on with the events of Live
 };
 

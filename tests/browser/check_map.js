@@ -26,6 +26,36 @@ const kWatch = `(() => {
 const note = (page, words) => page.until(`the words "${words}"`, `document.getElementById('map-note').textContent.includes(${JSON.stringify(words)})`);
 const inState = (page, state) => page.until(`${state} walker`, `document.querySelector('#targets tr[data-id="${kWalker}"]')?.dataset.state === '${state}'`);
 
+/** Tiles lie under the map; it zooms about the pointer, is dragged, and follows again. What was drawn is in the canvas's data. */
+async function checkView(page) {
+  await page.until('tiles under the map', 'Number(document.getElementById("map").dataset.tiles) > 0');
+  const box = await page.value('(({left, top, width, height}) => ({left, top, width, height}))(document.getElementById("map").getBoundingClientRect())');
+  const view = () => page.value('(({east, north, scale}) => ({east: Number(east), north: Number(north), scale: Number(scale)}))(document.getElementById("map").dataset)');
+  const at = {x: box.left + box.width / 2 + 60, y: box.top + box.height / 2 - 40};
+  const mouse = (type, x, y, more = {}) => page.send('Input.dispatchMouseEvent', {type, x, y, button: 'left', ...more});
+  const wheel = (deltaY) => mouse('mouseWheel', at.x, at.y, {button: 'none', deltaX: 0, deltaY});
+  const isFollowing = 'document.getElementById("map-follow").hidden';
+  await wheel(-100);  // from here on the view stays, whatever moves
+  await page.until('the view is chosen', `!${isFollowing}`);
+  const before = await view();
+  await wheel(-100);
+  await page.until('a nearer view', `Number(document.getElementById('map').dataset.scale) > ${before.scale * 1.2}`);
+  const near = await view();
+  const under = ({east, north, scale}) => [east + 60 / scale, north + 40 / scale];
+  const [a, b] = [under(before), under(near)];
+  assert(Math.hypot(a[0] - b[0], a[1] - b[1]) < 1.5 / near.scale, `the place under the pointer moved from ${a} to ${b}`);
+  await page.screenshot(path.join(screenshots, 'map_near.png'), 1400);
+  await mouse('mousePressed', at.x, at.y, {clickCount: 1});
+  await mouse('mouseMoved', at.x + 50, at.y + 20, {buttons: 1});
+  await mouse('mouseReleased', at.x + 50, at.y + 20, {clickCount: 1});
+  const moved = await view();
+  assert(Math.abs((near.east - moved.east) * near.scale - 50) < 1.5 && Math.abs((moved.north - near.north) * near.scale - 20) < 1.5,
+    `a drag by 50, 20 px moved the map by ${(near.east - moved.east) * near.scale}, ${(moved.north - near.north) * near.scale}`);
+  await page.value('document.getElementById("map-follow").click()');
+  assert(await page.value(isFollowing), 'the map does not follow again');
+  console.log('map: tiles, zoom, drag, follow');
+}
+
 async function check(browser) {
   const page = await browser.open(url, 1400, 950);
   await note(page, 'no TARGETS: redbee-geolocation does not answer');
@@ -36,6 +66,7 @@ async function check(browser) {
     await note(page, '');
     await page.until('many places', 'window.rows.size >= 20');
     await page.screenshot(path.join(screenshots, 'map.png'), 1400);
+    await checkView(page);
     const phone = await browser.open(url, 390, 844, true);
     await inState(phone, 'moving');
     const width = await phone.value('document.documentElement.scrollWidth');

@@ -15,6 +15,9 @@
 #include "processes/link/signing_key.hpp"
 #include "redbee/files/new_file.hpp"
 #include "redbee/files/user_error.hpp"
+#include "redbee/mavlink/encoder.hpp"
+#include "redbee/mavlink/messages.hpp"
+#include "redbee/mavlink/peer_check.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace redbee::test {
@@ -110,6 +113,36 @@ TEST(AutopilotUdpLink, ListensToTheFirstThatSpeaks) {
   EXPECT_TRUE(link->receive(kLong).data.empty());
   EXPECT_TRUE(link->send({7}));
   EXPECT_EQ(first.receive(), Bytes{7});
+}
+
+TEST(AutopilotUdpLink, HasThePeerThatSendsFramesOfTheConfiguredSystem) {
+  uint16_t port = 0;
+  {
+    port = Peer().port();  // free again
+  }
+  const mavlink::SigningKey key{1, 2, 3};
+  for (const bool has_key : {false, true}) {
+    const auto wanted = has_key ? std::optional(key) : std::nullopt;
+    const auto link = makeLink({Kind::kUdpListen, "127.0.0.1", port}, [&](const Bytes& datagram) {
+      return mavlink::holdsFrameOf(datagram, uint8_t{7}, wanted);
+    });
+    ASSERT_EQ(link->open(), "");
+    const Peer stranger, other, vehicle;
+    mavlink::Encoder of_other(8, 1), of_vehicle(7, 1);
+    if (has_key) of_vehicle.signWith(mavlink::Signer(key, 0, 1));
+    const auto heartbeat = of_vehicle.encode(mavlink::Heartbeat{});
+    auto damaged = heartbeat;
+    damaged[12] ^= 1;
+    stranger.sendTo(port, {1, 2, 3});
+    stranger.sendTo(port, damaged);
+    other.sendTo(port, of_other.encode(mavlink::Heartbeat{}));
+    if (has_key) other.sendTo(port, mavlink::Encoder(7, 1).encode(mavlink::Heartbeat{}));
+    for (int i = 0; i < (has_key ? 4 : 3); ++i) EXPECT_TRUE(link->receive(kLong).data.empty()) << i;
+    vehicle.sendTo(port, heartbeat);
+    EXPECT_EQ(link->receive(kLong).data, heartbeat);
+    ASSERT_TRUE(link->send({7}));
+    EXPECT_EQ(vehicle.receive(), Bytes{7});
+  }
 }
 
 TEST(AutopilotUdpLink, SpeaksFirst) {

@@ -5,6 +5,7 @@
 #include "processes/geolocation/node.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/gimbal_t.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/target_flight.hpp"
 
 namespace redbee::test {
@@ -14,6 +15,7 @@ using testing::HasSubstr;
 
 constexpr int64_t kStart_us = 1'000'000'000;
 constexpr int64_t kShift_us = 20'000;
+const double kKept_s = GeolocationParameters().keep_stopped_s;
 
 class GeolocationNodeTest : public testing::Test {
  protected:
@@ -77,6 +79,41 @@ TEST_F(GeolocationNodeTest, PlacesTheWalkerOnWgs84AndKeepsWhereItStopped) {
   EXPECT_LT(TargetFlight{}.missOf(stopped.targets[0].latitude, stopped.targets[0].longitude, 20), 1.2)
       << "within what it went in a third of a second";
   for (const targets_t& m : targets_) EXPECT_EQ(faultOf(m), nullptr);
+}
+
+TEST_F(GeolocationNodeTest, WhoHasStoppedIsThereAfterARestart) {
+  const ScratchFolder folder;
+  begin();
+  node_->keepStateIn(folder.path());
+  fly(0, 20);
+  ASSERT_EQ(targets_.back().n, 1);
+  const target_t before = targets_.back().targets[0];
+  ASSERT_EQ(before.state, target_t::STOPPED);
+  begin();  // another process, whose metres begin elsewhere
+  node_->keepStateIn(folder.path());
+  fly(21, 23);
+  ASSERT_EQ(targets_.back().n, 1);
+  const target_t after = targets_.back().targets[0];
+  EXPECT_EQ(after.id, before.id);
+  EXPECT_EQ(after.state, target_t::STOPPED);
+  EXPECT_NEAR(after.latitude, before.latitude, 1e-6);
+  EXPECT_NEAR(after.longitude, before.longitude, 1e-6);
+  begin();
+  node_->keepStateIn(folder.path());
+  fly(23 + kKept_s, 24 + kKept_s);
+  EXPECT_EQ(targets_.back().n, 0) << "it was unseen for longer than it is kept";
+}
+
+TEST_F(GeolocationNodeTest, AFileOfSomethingElseRestoresNobody) {
+  const ScratchFolder folder;
+  for (const char* text : {"\n", "1 2 3\n", "1000000000 5 47.3 8.5 nan 0 1 1 1 50 1\n",
+                           "1000000000 5 947.3 8.5 1 0 1 1 1 50 1\n"}) {
+    writeText(folder / "stopped_targets", text);
+    begin();
+    node_->keepStateIn(folder.path());
+    fly(13, 14);
+    EXPECT_EQ(targets_.back().n, 0) << text;
+  }
 }
 
 TEST_F(GeolocationNodeTest, WithoutAFixItCountsFromTheTakeOff) {

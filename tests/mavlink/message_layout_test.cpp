@@ -14,10 +14,11 @@ namespace {
 
 template <typename Message>
 class MessageLayoutOf : public testing::Test {};
-using Ours = testing::Types<Heartbeat, Timesync, CommandLong, CommandAck, CameraInformation, CameraSettings,
-                            MountOrientation, GimbalDeviceAttitudeStatus, CameraTrackingImageStatus,
-                            CameraTrackingGeoStatus, HighresImu, RawImu, ScaledImu2, AttitudeQuaternion,
-                            LocalPositionNed, GlobalPositionInt, GpsRawInt, DistanceSensor>;
+using Ours =
+    testing::Types<Heartbeat, Timesync, CommandLong, CommandInt, CommandAck, CameraInformation,
+                   CameraSettings, MountOrientation, GimbalDeviceAttitudeStatus, CameraTrackingImageStatus,
+                   CameraTrackingGeoStatus, HighresImu, RawImu, ScaledImu2, AttitudeQuaternion,
+                   LocalPositionNed, GlobalPositionInt, GpsRawInt, DistanceSensor>;
 TYPED_TEST_SUITE(MessageLayoutOf, Ours);
 
 TYPED_TEST(MessageLayoutOf, FollowsFromItsFields) {

@@ -26,7 +26,9 @@ class TrackingCameraTest : public testing::Test {
   void show(const std::vector<TrackedObject>& objects) { camera_.show(objects, now_ns_); }
   /// Sends a command and returns its result; 255: no answer.
   int command(uint16_t id, std::array<float, 7> param, uint8_t component = 100, uint8_t system = 1) {
-    const Bytes frame = station_.encode(CommandLong{param, id, system, component, 0});
+    return answerTo(station_.encode(CommandLong{param, id, system, component, 0}));
+  }
+  int answerTo(const Bytes& frame) {
     camera_.receive(frame.data(), frame.size(), now_ns_, true);
     int result = 255;
     for (const Frame& each : take()) {
@@ -171,6 +173,22 @@ TEST_F(TrackingCameraTest, WithAKeyOnlySignedCommandsCount) {
   const Bytes with_signature = station_.encode(point);
   camera.receive(with_signature.data(), with_signature.size(), now_ns_, true);
   EXPECT_EQ(camera.picked(), 1);
+}
+
+TEST_F(TrackingCameraTest, ObeysCommandIntLikeCommandLong) {
+  CommandInt point;
+  point.param = {0.15F, 0.15F, 0, 0};
+  point.command = camera_command::kTrackPoint;
+  point.target_system = 1;
+  point.target_component = 100;
+  EXPECT_EQ(answerTo(station_.encode(point)), command_result::kAccepted);
+  const auto status = pass<CameraTrackingImageStatus>(400);
+  ASSERT_FALSE(status.empty());
+  EXPECT_EQ(status.back().tracking_status & kActive, kActive);
+  point.param = {2, 2, 0, 0};
+  EXPECT_EQ(answerTo(station_.encode(point)), command_result::kDenied);
+  point.target_system = 2;
+  EXPECT_EQ(answerTo(station_.encode(point)), 255) << "of another vehicle";
 }
 
 }  // namespace

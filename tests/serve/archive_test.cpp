@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "redbee/files/user_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace redbee::test {
@@ -61,6 +62,22 @@ TEST_F(ArchiveTest, PartsAreInTheOrderOfTheirNumbers) {
   const auto flights = archiveOf({"flights"}).flights();
   ASSERT_THAT(namesOf(flights), ElementsAre("flights/s.lcm"));
   EXPECT_EQ(flights[0].files, expected);
+}
+
+TEST_F(ArchiveTest, ANameThatIsNoUtf8IsShownAndOpened) {
+  writeText(root_ / "flights/fl\xff.lcm", "no log");
+  writeText(root_ / "flights/r\xe9sum\xe9.html", "<p>");
+  Archive archive = archiveOf({"flights"});
+  ASSERT_THAT(namesOf(archive.flights()), ElementsAre("flights/fl\\xff.lcm"));
+  EXPECT_THROW(archive.open("flights/fl\\xff.lcm", true), UserError) << "it is found, and is no log";
+  EXPECT_TRUE(archive.report("flights/r\\xe9sum\\xe9.html"));
+}
+
+TEST_F(ArchiveTest, AFlightThatCouldNotBeReadIsReadAnew) {
+  writeText(root_ / "flights/a.lcm", "no log");
+  Archive archive = archiveOf({"flights"});
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(archive.open("flights/a.lcm", true), UserError);
+  EXPECT_EQ(archive.open("flights/b.lcm", true), nullptr);
 }
 
 TEST_F(ArchiveTest, LinksLeadNowhereElse) {

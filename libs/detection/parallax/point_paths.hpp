@@ -1,6 +1,6 @@
 // Points of strong texture, followed for a second: whether their paths are those of static surfaces at one
 // depth. What is too small or too slow for the dense flow of one baseline has a path that no static point
-// has. libs/README.md, (65) and (66).
+// has. libs/README.md, (67) and (68).
 #pragma once
 
 #include <Eigen/Core>

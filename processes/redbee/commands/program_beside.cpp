@@ -65,6 +65,11 @@ Command::Setup startingBeside(const std::string& program, bool names_subcommand)
 
 }  // namespace
 
+bool isBeside(const std::string& program) {
+  std::error_code error;
+  return std::filesystem::exists(beside(program), error);
+}
+
 Command::Setup programBeside(const std::string& program) { return startingBeside(program, true); }
 
 Command::Setup processBeside(const std::string& program) { return startingBeside(program, false); }

@@ -8,6 +8,9 @@
 
 namespace redbee {
 
+/// Whether it was built, or its package installed.
+bool isBeside(const std::string& program);
+
 /// Replaces the process by `program`, with the same arguments. Where it has not been built: one line, and
 /// exit code 2.
 Command::Setup programBeside(const std::string& program);

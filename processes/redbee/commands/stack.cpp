@@ -7,9 +7,11 @@
 
 #include "processes/common_options.hpp"
 #include "processes/redbee/commands/command.hpp"
+#include "processes/redbee/commands/program_beside.hpp"
 #include "processes/redbee/vehicle/supervisor_configuration.hpp"
 #include "redbee/configuration/drivers.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/files/user_error.hpp"
 
 namespace redbee {
 namespace {
@@ -42,15 +44,37 @@ void printTable() {
                 process.timeout.empty() ? "-" : ("waits." + std::string(process.timeout)).c_str());
   };
   for (const auto* process : kStages) print(*process);
-  for (const auto* process : kDrivers) print(*process);
+  std::string missing;
+  for (const auto* process : kDrivers) {
+    if (isBeside(programName(*process))) {
+      print(*process);
+    } else {
+      missing += (missing.empty() ? "" : ", ") + programName(*process);
+    }
+  }
   for (const auto* process : kSupportProcesses) print(*process);
+  if (!missing.empty()) std::printf("not installed here: %s\n", missing.c_str());
+}
+
+/// Throws UserError for one whose program is not there: supervisor would start it without end.
+std::vector<const ProcessDescription*> driversOf(const std::filesystem::path& file) {
+  const auto drivers = configuredDrivers(loadConfiguration(file));
+  for (const auto* driver : drivers) {
+    const std::string program = programName(*driver);
+    if (isBeside(program)) continue;
+    const bool needs_packages = driver == &kCamera || driver == &kServe;
+    const std::string packages =
+        needs_packages ? "scripts/setup scripts/packages-" + std::string(driver->name) + ".txt and " : "";
+    throw UserError(file.string() + ": wants " + program + ", which is not here: install its package, or " +
+                    packages + "scripts/build");
+  }
+  return drivers;
 }
 
 void runStack(const StackOptions& options) {
   if (options.supervisord) {
-    const auto drivers = options.configuration.empty()
-                             ? std::vector<const ProcessDescription*>{}
-                             : configuredDrivers(loadConfiguration(options.configuration));
+    const auto drivers = options.configuration.empty() ? std::vector<const ProcessDescription*>{}
+                                                       : driversOf(options.configuration);
     std::fputs(supervisorConfiguration(drivers).c_str(), stdout);
   } else if (options.print_url) {
     std::printf("%s\n", options.url.c_str());

@@ -2,17 +2,21 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
+#include "processes/redbee/vehicle/live_check.hpp"
+#include "processes/redbee/vehicle/live_findings.hpp"
 #include "processes/redbee/vehicle/sender_rule.hpp"
 #include "processes/redbee/vehicle/stack_network.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/bus/receive_buffer.hpp"
+#include "redbee/files/user_error.hpp"
 
 namespace redbee {
 namespace {
@@ -97,21 +101,59 @@ std::vector<Finding> findSensors(const DoctorOptions& options) {
           sensorFinding(options.imu_channel, imu, options.listen_s)};
 }
 
+namespace {
+
+int print(const std::vector<Finding>& findings) {
+  int failed = 0;
+  for (const Finding& finding : findings) {
+    const char* mark = finding.good ? " ok " : "FAIL";
+    std::printf("[%s] %s\n", finding.checked ? mark : " -- ", finding.what.c_str());
+    if (!finding.fix.empty()) std::printf("       %s\n", finding.fix.c_str());
+    failed += finding.good ? 0 : 1;
+  }
+  return failed;
+}
+
+/// Whether the network of the stack that is up is this process's, or root has entered it.
+bool enterStack(StackNetwork& network) {
+  return network.is_ours || (network.supervisor && enterNetworkOf(*network.supervisor));
+}
+
+}  // namespace
+
 int runDoctor(const DoctorOptions& options) {
   StackNetwork network = stackNetwork(supervisorPidFile());
-  const bool is_inside = network.is_ours || (network.supervisor && enterNetworkOf(*network.supervisor));
+  const bool is_inside = enterStack(network);
   if (const auto port = portOf(options.url); port && is_inside) {
     network.only_sender = onlySender(readRuleset(), *port);
   }
   std::vector<Finding> findings = {findNetwork(network, is_inside), findReceiveBuffer(options.url),
                                    findMulticast(options.url), findSpy()};
   for (Finding& finding : findSensors(options)) findings.push_back(std::move(finding));
-  int failed = 0;
-  for (const Finding& finding : findings) {
-    std::printf("[%s] %s\n", finding.good ? " ok " : "FAIL", finding.what.c_str());
-    if (!finding.good) std::printf("       %s\n", finding.fix.c_str());
-    failed += finding.good ? 0 : 1;
+  return print(findings);
+}
+
+int runLiveDoctor(const LiveDoctorOptions& options) {
+  const Configuration configuration = loadConfiguration(options.configuration);
+  StackNetwork network = stackNetwork(supervisorPidFile());
+  const bool is_inside = enterStack(network);
+  const auto bus = makeLcmBus(options.url);
+  LiveCheck check(*bus, configuration);
+  handleUntil(*bus, options.listen_s, [] { return false; });
+  if (!check.hasHeard()) {
+    throw UserError(
+        fmt::format("doctor: {}: nothing was heard in {} s; start the stack (scripts/fly up --config "
+                    "{}){}",
+                    options.url, options.listen_s, options.configuration.string(),
+                    is_inside ? "" : ", or as root: it has a network of its own"));
   }
+  std::vector<Finding> findings = check.findings();
+  findings.push_back(findDisk(options.recordings, static_cast<double>(check.bytes()) / options.listen_s));
+  const int failed = print(findings);
+  const auto unchecked =
+      std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return !f.checked; });
+  std::printf("%d failed, %d not checked, of %d\n", failed, static_cast<int>(unchecked),
+              static_cast<int>(findings.size()));
   return failed;
 }
 

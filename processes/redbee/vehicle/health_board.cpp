@@ -6,6 +6,7 @@
 #include <set>
 
 #include "processes/health_check.hpp"
+#include "processes/redbee/vehicle/watch.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/node/health.hpp"
 
@@ -49,6 +50,17 @@ Tone toneOf(HealthState state) {
       return Tone::kBad;
   }
   return Tone::kBad;
+}
+
+/// Ended in order, as a recorder is by the one who started it; a process that should fly is missed all the
+/// same.
+bool hasStopped(const process_health_t& health) {
+  return health.state == static_cast<int8_t>(HealthState::kDead) && health.message.rfind(kStopped, 0) == 0;
+}
+
+Tone toneOf(const process_health_t& health) {
+  if (!hasStopped(health)) return toneOf(static_cast<HealthState>(health.state));
+  return health.process == programName(kRecord) ? Tone::kPlain : Tone::kWarning;
 }
 
 /// The stages in processing order, with or without messages, then others that publish, such as drivers, by
@@ -127,7 +139,7 @@ void HealthBoard::appendRemarks(std::vector<BoardLine>& lines, Time now) const {
           {who + fmt::format("silent since {} s", secondsBetween(entry.received, now)), Tone::kBad});
     }
     if (!entry.last.message.empty()) {
-      lines.push_back({who + entry.last.message, toneOf(static_cast<HealthState>(entry.last.state))});
+      lines.push_back({who + entry.last.message, toneOf(entry.last)});
     }
     if (entry.last.calibration.rfind("does not", 0) == 0) {
       lines.push_back({who + "calibration: " + entry.last.calibration, Tone::kWarning});
@@ -168,11 +180,12 @@ std::vector<HealthBoard::Process> HealthBoard::list(Time now) const {
     Process process{shortName(name), "no messages", Tone::kBad, std::nullopt, 0, 0};
     if (it != entries_.end()) {
       const Entry& entry = it->second;
-      const auto state = static_cast<HealthState>(entry.last.state);
+      const char* state =
+          hasStopped(entry.last) ? "stopped" : toString(static_cast<HealthState>(entry.last.state));
       const bool silent = isSilent(entry, now);
       process = {shortName(name),
-                 silent ? "silent" : toString(state),
-                 silent ? Tone::kBad : toneOf(state),
+                 silent ? "silent" : state,
+                 silent ? Tone::kBad : toneOf(entry.last),
                  entry.last,
                  std::chrono::duration<double>(now - entry.received).count(),
                  entry.restarts};

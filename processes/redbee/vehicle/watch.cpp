@@ -112,7 +112,7 @@ void ProcessWatch::noteDeath(const std::string& name, Watched& watched) {
   death.pid = watched.pid;
   death.state = static_cast<int8_t>(HealthState::kDead);
   death.message = (watched.killed ? "hung and was killed, process "
-                   : was_stopping ? "stopped, process "
+                   : was_stopping ? kStopped
                                   : "died, process ") +
                   std::to_string(death.pid);
   death.rate_in = death.rate_out = 0;

@@ -17,6 +17,9 @@
 
 namespace redbee {
 
+/// How the message of a DEAD process begins that had ended in order.
+inline constexpr const char* kStopped = "stopped, process ";
+
 /// Watches the children of supervisor, each by a pidfd (pidfd_open(2)), so that an exit is detected
 /// immediately. Which they are says supervisor, and that they live their heartbeats; PROCESS_HEALTH, which
 /// anybody may have sent, only adds what a report of a death contains.

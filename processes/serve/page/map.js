@@ -1,5 +1,7 @@
 // The map: a plain metric grid, north up, that follows the drone and its targets.
 import {drawTargets, listTargets} from './targets.js';
+import {viewControl} from './map_view.js';
+import {drawTiles} from './tiles.js';
 
 const canvas = document.getElementById('map');
 const note = document.getElementById('map-note');
@@ -8,6 +10,7 @@ const kLeast_m = 10;
 const kMost_m = 3000;
 let last = null;
 let view = null;
+const control = viewControl(canvas, document.getElementById('map-follow'), () => view, () => last && drawMap(...last));
 
 /** The part of the ground that is shown: {centre, reach}, metres to each side of the canvas's shorter half. With targets it
     is about them and the drone, however far the footprint reaches. It stays while they are in it and it is not far too wide. */
@@ -86,10 +89,11 @@ export function drawMap(map, colourOf = () => '#e69f00') {
   canvas.height = size.height * ratio;
   const context = canvas.getContext('2d');
   context.scale(ratio, ratio);
-  view = viewOf(map, view);
+  view = control.chosen() ?? viewOf(map, view);
   const {centre} = view;
   const px_per_m = Math.min(size.width, size.height) / 2 / view.reach;
   const place = ([e, n]) => [size.width / 2 + (e - centre[0]) * px_per_m, size.height / 2 - (n - centre[1]) * px_per_m];
+  drawTiles(context, size, map.origin, centre, px_per_m, () => last && drawMap(...last));
   drawGrid(context, size, centre, px_per_m);
   const polygon = (points) => {
     context.beginPath();

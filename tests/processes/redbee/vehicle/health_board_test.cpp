@@ -148,5 +148,27 @@ TEST(HealthBoard, ImplausibleMessagesAreCountedNotShown) {
   EXPECT_FALSE(isShown([](auto& h) { h.message = std::string(100000, 'm'); }));
 }
 
+TEST(HealthBoard, ARecorderThatWasStoppedIsNotDead) {
+  HealthBoard board;
+  for (const char* name : {"redbee-record", "redbee-homography-fusion"}) {
+    process_health_t death = healthOf(name, HealthState::kDead);
+    death.message = "stopped, process 100";
+    board.onHealth(death, kNow);
+  }
+  process_health_t died = healthOf("redbee-visual-homography", HealthState::kDead);
+  died.message = "died, process 100";
+  board.onHealth(died, kNow);
+  for (const auto& process : board.list(kNow + seconds(60))) {
+    const bool is_recorder = process.name == "record";
+    if (is_recorder || process.name == "homography-fusion") {
+      EXPECT_EQ(process.state, "stopped");
+      EXPECT_EQ(process.tone, is_recorder ? Tone::kPlain : Tone::kWarning) << process.name;
+    } else if (process.name == "visual-homography") {
+      EXPECT_EQ(process.state, "dead");
+      EXPECT_EQ(process.tone, Tone::kBad);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace redbee

@@ -1,0 +1,67 @@
+// Tiles of a local folder under the map: WebMercator, z/x/y.
+const kEquator_m = 6378137;  // WGS-84
+const kFlattening = 1 / 298.257223563;
+const kMostKept = 300;
+const kMostDrawn = 64;
+const kept = new Map();
+let levels = [];
+const asked = fetch('/api/tiles').then((answer) => (answer.ok ? answer.json() : [])).then((found) => { levels = found; }).catch(() => {});
+
+/** Metres a radian of latitude and of longitude at the origin. */
+function radiiAt(latitude) {
+  const e2 = kFlattening * (2 - kFlattening);
+  const w = 1 - e2 * Math.sin(latitude) ** 2;
+  return {north: kEquator_m * (1 - e2) / w ** 1.5, east: kEquator_m / Math.sqrt(w) * Math.cos(latitude)};
+}
+
+const rowOf = (latitude, count) => (1 - Math.asinh(Math.tan(latitude)) / Math.PI) / 2 * count;
+const latitudeOf = (row, count) => Math.atan(Math.sinh(Math.PI * (1 - 2 * row / count)));
+
+function tile(z, x, y, arrived) {
+  const key = `${z}/${x}/${y}`;
+  if (!kept.has(key)) {
+    if (kept.size >= kMostKept) kept.delete(kept.keys().next().value);
+    const image = new Image();
+    image.onload = arrived;
+    image.src = `/api/tile?z=${z}&x=${x}&y=${y}`;
+    kept.set(key, image);
+  }
+  const image = kept.get(key);
+  return image.complete && image.naturalWidth > 0 ? image : null;
+}
+
+/** `origin`: {latitude, longitude} of the map's [0, 0] in degrees; without it, and without tiles, nothing is drawn.
+    Flat about the origin, as the map is: a kilometre away a tile is off by some centimetres. */
+export function drawTiles(context, size, origin, centre, px_per_m, redraw) {
+  if (!origin) return;
+  if (levels.length === 0) {
+    asked.then(() => levels.length > 0 && redraw());
+    return;
+  }
+  const [latitude, longitude] = [origin.latitude, origin.longitude].map((degrees) => degrees * Math.PI / 180);
+  const radii = radiiAt(latitude);
+  const wanted = Math.log2(2 * Math.PI * radii.east * px_per_m / 256);
+  const z = levels.reduce((best, level) => (Math.abs(level - wanted) < Math.abs(best - wanted) ? level : best));
+  const count = 2 ** z;
+  const east = (column) => ((column / count * 2 - 1) * Math.PI - longitude) * radii.east;
+  const north = (row) => (latitudeOf(row, count) - latitude) * radii.north;
+  const half = [size.width, size.height].map((length) => length / 2 / px_per_m);
+  const column = (m) => ((m / radii.east + longitude) / Math.PI + 1) / 2 * count;
+  const row = (m) => rowOf(m / radii.north + latitude, count);
+  const [left, right] = [column(centre[0] - half[0]), column(centre[0] + half[0])].map(Math.floor);
+  const [top, bottom] = [row(centre[1] + half[1]), row(centre[1] - half[1])].map(Math.floor);
+  if ((right - left + 1) * (bottom - top + 1) > kMostDrawn) return;  // far below the smallest level
+  const across = (m) => size.width / 2 + (m - centre[0]) * px_per_m;
+  const down = (m) => size.height / 2 - (m - centre[1]) * px_per_m;
+  let drawn = 0;
+  for (let y = Math.max(0, top); y <= Math.min(count - 1, bottom); ++y) {
+    for (let x = left; x <= right; ++x) {
+      const image = tile(z, (x + count) % count, y, redraw);
+      if (!image) continue;
+      ++drawn;
+      const [x0, y0] = [across(east(x)), down(north(y))];
+      context.drawImage(image, x0, y0, across(east(x + 1)) - x0 + 0.5, down(north(y + 1)) - y0 + 0.5);
+    }
+  }
+  Object.assign(context.canvas.dataset, {tiles: drawn, zoom: z});
+}
