@@ -36,6 +36,7 @@ std::vector<Setting> detectionSettings() {
       setting("detection.parallax.nearest_depth_fraction", MEMBER(parallax.nearest_depth_fraction), fraction),
       setting("detection.parallax.evidence_sigmas", MEMBER(parallax.evidence_sigmas), positive),
       setting("detection.parallax.evidence_rate", MEMBER(parallax.evidence_rate), fraction),
+      setting("detection.parallax.use_point_paths", MEMBER(parallax.use_point_paths), anything),
       setting("detection.parallax.use_registration", MEMBER(parallax.use_registration), anything),
       setting("detection.parallax.border_stretch", MEMBER(parallax.border_stretch), fraction),
       setting("detection.parallax.motion_half", MEMBER(parallax.motion_half), positive),
