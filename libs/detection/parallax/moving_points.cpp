@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 namespace redbee {
 namespace {
@@ -92,8 +93,12 @@ std::vector<cv::Point> movingPoints(const std::vector<PointPath>& paths, double 
   return points;
 }
 
-cv::Mat1f movingRegion(const std::vector<cv::Point>& points, const cv::Mat1f& difference, double scale) {
-  cv::Mat1f region = cv::Mat1f::zeros(difference.size());
+cv::Mat1f movingRegion(const std::vector<cv::Point>& points, const cv::Mat1f& difference_of_any_size,
+                       cv::Size size, double scale) {
+  if (points.empty()) return {};
+  cv::Mat1f difference;
+  cv::resize(difference_of_any_size, difference, size, 0, 0, cv::INTER_LINEAR);
+  cv::Mat1f region = cv::Mat1f::zeros(size);
   const double reach_px = kReach_px / scale;
   const int reach = static_cast<int>(std::ceil(reach_px));
   for (const cv::Point& point : points) {

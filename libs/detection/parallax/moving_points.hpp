@@ -14,9 +14,10 @@ namespace redbee {
 /// rest). `scale`: full-size pixels per pixel of the paths'.
 std::vector<cv::Point> movingPoints(const std::vector<PointPath>& paths, double scale);
 
-/// 0..1, of the size of `difference`: where the appearance differs from the background (29) about as much as
-/// at a moving point next to it. Points in cast shadows, which differ little, count little.
-/// `difference`: 0..1, of the paths' images.
-cv::Mat1f movingRegion(const std::vector<cv::Point>& points, const cv::Mat1f& difference, double scale);
+/// 0..1, of the paths' images: where the appearance differs from the background (29) about as much as at a
+/// moving point next to it; empty without points. Points in cast shadows, which differ little, count little.
+/// `difference`: 0..1, of any size; `size`: of the paths' images.
+cv::Mat1f movingRegion(const std::vector<cv::Point>& points, const cv::Mat1f& difference, cv::Size size,
+                       double scale);
 
 }  // namespace redbee

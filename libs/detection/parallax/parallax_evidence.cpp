@@ -117,10 +117,7 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
 }
 
 cv::Mat1f ParallaxEvidence::movingRegion(const cv::Mat1f& difference) const {
-  cv::Mat1f at_work;
-  const std::vector<cv::Point> points = movingPoints(paths_.paths(), scale_);
-  if (!points.empty()) cv::resize(difference, at_work, unknown_.size(), 0, 0, cv::INTER_LINEAR);
-  return redbee::movingRegion(points, at_work, scale_);
+  return redbee::movingRegion(movingPoints(paths_.paths(), scale_), difference, unknown_.size(), scale_);
 }
 
 /// Neither image shows the scene there.

@@ -37,9 +37,7 @@ constexpr double kLeastParallax_px = 1;        // full size: below, both compone
 constexpr int kRegistrationIterations = 2;
 constexpr size_t kRegistrationPoints = 300;  // more do not make it better
 
-cv::Point pixelAt(const Eigen::Vector2d& p) {
-  return {cvRound(p.x()), cvRound(p.y())};
-}
+cv::Point pixelAt(const Eigen::Vector2d& p) { return {cvRound(p.x()), cvRound(p.y())}; }
 
 /// Inverse root of the covariance of a position [1/px]. `tensor`: around it.
 Eigen::Matrix2d whiteningOf(const Symmetric2f& tensor, double sigma_px) {

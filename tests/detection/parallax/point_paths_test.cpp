@@ -150,11 +150,12 @@ TEST(MovingRegion, ReachesWhereTheAppearanceDiffersAndNotIntoShadows) {
   cv::Mat1f difference = cv::Mat1f::zeros(60, 80);
   difference(cv::Rect(20, 20, 4, 9)) = 0.8F;   // an object
   difference(cv::Rect(60, 20, 4, 9)) = 0.25F;  // a cast shadow
-  const cv::Mat1f region = movingRegion({{21, 22}, {61, 22}}, difference, 2);
+  const cv::Mat1f region = movingRegion({{21, 22}, {61, 22}}, difference, difference.size(), 2);
   EXPECT_GT(region(24, 23), 0.9F);
   EXPECT_EQ(region(24, 26), 0.0F);
   EXPECT_EQ(region(28, 21), 0.0F);  // farther than 10 px at full size
   EXPECT_LT(region(22, 61), 0.2F);
+  EXPECT_TRUE(movingRegion({}, difference, difference.size(), 2).empty());
 }
 
 }  // namespace
