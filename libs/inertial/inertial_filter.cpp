@@ -39,6 +39,7 @@ class InertialFilter::Implementation : public InertialFilterCore {
     });
     if (at == passed_.end() || std::next(at) == passed_.end()) return correctNow(observation);
     if (at->observation || at->checkpoint.previous_frame != observation.time_previous) return {};
+    if (!at->checkpoint.state.isMountKnown()) return {};
     const std::vector<Passed> again(std::next(at), passed_.end());
     returnTo(at->checkpoint);
     passed_.erase(std::next(at), passed_.end());
@@ -58,7 +59,8 @@ class InertialFilter::Implementation : public InertialFilterCore {
 
   void remember() {
     std::optional<FilterCheckpoint> now = checkpoint();
-    if (!now) return passed_.clear();  // it has begun again
+    if (!now) return passed_.clear();                                               // it has begun again
+    if (!passed_.empty() && now->frame == passed_.back().checkpoint.frame) return;  // it did not move
     if (!passed_.empty() && now->previous_frame != passed_.back().checkpoint.frame) passed_.clear();
     passed_.push_back({*std::move(now), std::nullopt});
     while (passed_.back().checkpoint.frame - passed_.front().checkpoint.frame > kLatest) passed_.pop_front();

@@ -29,7 +29,9 @@ class InertialFilterCore {
 
   bool addImu(const ImuSample& sample) {
     const bool added = samples_.add(sample);
-    if (added) comparison_.timeshift.addGyro(sample.time, parameters_.gyro_correction * sample.gyro);
+    // What turns a gimbal is not in the gyro's rates.
+    if (added && !parameters_.gimbal.enabled)
+      comparison_.timeshift.addGyro(sample.time, parameters_.gyro_correction * sample.gyro);
     return added;
   }
   int takeForeignSamples() { return samples_.takeForeign(); }

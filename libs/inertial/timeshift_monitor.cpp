@@ -10,6 +10,8 @@ namespace redbee {
 namespace {
 
 constexpr double kLongestPair_s = 0.5;  // frames further apart are not compared
+constexpr double kClockSetBack_s =
+    1;  // a pair that is older than so came from another clock; others came late
 constexpr double kReach_s = TimeshiftFitOptions().max_shift_s + 0.05;
 constexpr double kSigmas = 3;               // of certainty before anything is said
 constexpr double kSmallestDrift_s = 0.003;  // a smaller change over the memory is no drift worth a word
@@ -23,7 +25,9 @@ double TimeshiftMonitor::sinceOrigin(ImuTime time) {
 }
 
 void TimeshiftMonitor::addGyro(ImuTime time, const Eigen::Vector3d& rate) {
-  gyro_.add(sinceOrigin(time), rate);
+  const double now_s = sinceOrigin(time);
+  gyro_.add(now_s, rate);
+  gyro_.eraseBefore(now_s - parameters_.window_s - kReach_s - kClockSetBack_s);  // also where vision is away
 }
 
 void TimeshiftMonitor::addVision(CameraTime a, CameraTime b, const Eigen::Matrix3d& R_ba) {
@@ -33,7 +37,7 @@ void TimeshiftMonitor::addVision(CameraTime a, CameraTime b, const Eigen::Matrix
   const double from_s = sinceOrigin(toImu(a, shift));
   const double to_s = sinceOrigin(toImu(b, shift));
   if (!vision_.empty() && to_s <= vision_.back().to_s) {  // the clock was set back, or a pair came late
-    if (vision_.back().to_s - to_s < kLongestPair_s) return;
+    if (vision_.back().to_s - to_s < kClockSetBack_s) return;
     vision_.clear();
     past_.clear();
     updated_s_ = from_s;

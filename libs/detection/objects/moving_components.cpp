@@ -41,8 +41,8 @@ void addMovingComponents(ForegroundComponents& found, const cv::Mat1b& unknown,
   cv::Mat1f moving;
   cv::resize(maps.moving, moving, found.image, 0, 0, cv::INTER_LINEAR);
   cv::Mat1b mask = moving > kRegion;
-  mask.setTo(0, unknown);
   if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
+  mask.setTo(0, unknown);
   const cv::Rect part = cv::boundingRect(mask);
   if (part.empty()) return;
   growPart(found, part);
@@ -52,18 +52,25 @@ void addMovingComponents(ForegroundComponents& found, const cv::Mat1b& unknown,
     if (cv::countNonZero(pixelsOf(found, i) & mask(component.box)) > kConfirmed * component.area_px)
       component.gain = std::max(component.gain, kGain);
   }
-  forEachRegion(
-      mask(part), parameters.min_area_px, [&](const cv::Rect& in_part, int area, const cv::Mat1b& pixels) {
-        const cv::Rect box = in_part + part.tl();
-        if (isCovered(found, count, box)) return;
-        Component component;
-        component.box = box;
-        component.area_px = area;
-        component.score = component.peak = kPeak;
-        if (!maps.residual.empty()) component.residual_around = meanAround(maps.residual, found.image, box);
-        found.components.push_back(component);
-        found.labels(box - found.part.tl()).setTo(static_cast<double>(found.components.size()), pixels);
-      });
+  forEachRegion(mask(part), parameters.min_area_px,
+                [&](const cv::Rect& in_part, int, const cv::Mat1b& pixels) {
+                  const cv::Rect region = in_part + part.tl();
+                  if (isCovered(found, count, region)) return;
+                  // What a small component has already stays its own.
+                  const cv::Mat1b free = pixels & (found.labels(region - found.part.tl()) == 0);
+                  const int area = cv::countNonZero(free);
+                  if (area < parameters.min_area_px) return;
+                  const cv::Rect own = cv::boundingRect(free);
+                  Component component;
+                  component.box = own + region.tl();
+                  component.area_px = area;
+                  component.score = component.peak = kPeak;
+                  if (!maps.residual.empty())
+                    component.residual_around = meanAround(maps.residual, found.image, component.box);
+                  found.components.push_back(component);
+                  found.labels(component.box - found.part.tl())
+                      .setTo(static_cast<double>(found.components.size()), free(own));
+                });
 }
 
 }  // namespace redbee

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSpan_s = 1.5;
 constexpr size_t kFewestPoints = 4;
+constexpr double kLeastDirectionError = 1e-6;  // rad; 0 is allowed, and its weight is not a number
 // What a component shows of its object changes slowly: errors that are as far apart are independent.
 constexpr double kCorrelation_s = 0.17;
 
@@ -72,7 +73,8 @@ double chiSquareOfStatic(const std::vector<PathObservation>& observations, doubl
     A << Eigen::Matrix2d::Identity(), Eigen::Vector2d(parallax.y(), -parallax.x());
     fit.add(A, seen.base + parallax, whitening);
   }
-  fit.addPrior(2, 1 / (direction_error * direction_error));
+  const double sigma = std::max(direction_error, kLeastDirectionError);
+  fit.addPrior(2, 1 / (sigma * sigma));
   return fit.chiSquare();
 }
 
@@ -95,7 +97,7 @@ void CameraPath::propagate(double elapsed_s, const std::optional<Eigen::Matrix3d
                     compose(step->motion, frame.motion));
   }
   frames_.push_back(frameOf(elapsed_s, *ground, step->motion));
-  while (frames_.front().age_s > kSpan_s) frames_.pop_front();
+  while (!frames_.empty() && frames_.front().age_s > kSpan_s) frames_.pop_front();
 }
 
 bool CameraPath::remembers(int64_t frame) const { return oldest() <= frame && frame <= current_; }

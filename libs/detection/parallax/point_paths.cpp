@@ -82,10 +82,11 @@ void PointPaths::update(CameraTime time, const cv::Mat1b& grey, const Eigen::Mat
   constexpr int kLeastSide_px = 24;
   if (size_ != grey.size()) reset();
   size_ = grey.size();
-  Pyramid image(grey, 1, shape_.margin(), kLeastSide_px);
   const double elapsed_s = last_time_ ? seconds(time - *last_time_) : 0;
   const bool continues = !previous_.empty() && ground_ && motion_;
   camera_.propagate(elapsed_s, ground_, motion_ ? std::optional(CameraStep{*motion_, K}) : std::nullopt);
+  if (ground_ && !motion_) return reset();  // no path can be told from a static one's
+  Pyramid image(grey, 1, shape_.margin(), kLeastSide_px);
   tensor_ = structureTensor(grey, kWindow_px);
   if (continues) {
     follow(image, *ground_, excluded);

@@ -55,7 +55,8 @@ LiveCheck::LiveCheck(Bus& bus, const Configuration& configuration)
 
 void LiveCheck::onImu(const ins_t& message) {
   const ImuSample sample{ImuTime(fromUtime(message.utime)), vector3(message.gyro), vector3(message.accel)};
-  timeshift_.addGyro(sample.time, configuration_.inertial.gyro_correction * sample.gyro);
+  if (!configuration_.inertial.gimbal.enabled)
+    timeshift_.addGyro(sample.time, configuration_.inertial.gyro_correction * sample.gyro);
   if (imu_.empty() || sample.time > imu_.back().time) imu_.push_back(sample);
 }
 

@@ -72,6 +72,27 @@ class Flight {
   CameraPath path_{0.15};
 };
 
+TEST(StaticPath, AStepLongerThanTheMemoryLeavesNothingToRemember) {
+  Flight flight(kSpeed_mps, 1.6);
+  flight.step();
+  flight.step();
+  EXPECT_EQ(flight.path().current(), 2);
+  EXPECT_TRUE(flight.path().remembers(2));
+  EXPECT_FALSE(flight.path().remembers(1));
+  EXPECT_FALSE(flight.path().remembers(0));
+}
+
+TEST(StaticPath, ADirectionWithoutErrorIsNoReasonToRest) {
+  Flight flight;
+  std::deque<PathPoint> points;
+  for (int i = 0; i <= 24; ++i) {
+    if (i > 0) flight.step();
+    points.push_back({flight.path().current(), flight.project({3, 8 + 1.5 * i * kPeriod_s, 0}),
+                      Eigen::Vector2d::Constant(kVariance_px2)});
+  }
+  EXPECT_GT(*movingLogLikelihood(points, flight.path(), 0), 5);
+}
+
 TEST(StaticPath, APointAtAnyDepthRests) {
   for (const double height_m : {0.0, 1.0, 4.0, 8.0}) {
     // Negative where the path is curved, which a constant velocity does not explain.
