@@ -127,10 +127,13 @@ cv::Mat1b ForegroundComponents::mask() const {
 cv::Mat1b ForegroundComponents::mask(const std::vector<size_t>& kept) const {
   cv::Mat1b mask = cv::Mat1b::zeros(image);
   for (const size_t index : kept) {
-    const cv::Rect& box = components.at(index).box;
-    mask(box).setTo(255, labels(box - part.tl()) == static_cast<int>(index) + 1);
+    mask(components.at(index).box).setTo(255, pixelsOf(index));
   }
   return mask;
+}
+
+cv::Mat1b ForegroundComponents::pixelsOf(size_t index) const {
+  return labels(components.at(index).box - part.tl()) == static_cast<int>(index) + 1;
 }
 
 void splitComponent(ForegroundComponents& found, size_t index, const std::vector<cv::Rect2d>& boxes) {

@@ -29,6 +29,8 @@ struct ForegroundComponents {
   /// 0 or 255, of the image's size: the pixels of all components, or of those that are kept.
   cv::Mat1b mask() const;
   cv::Mat1b mask(const std::vector<size_t>& kept) const;
+  /// 255 at the pixels of one component, of its box's size.
+  cv::Mat1b pixelsOf(size_t index) const;
 };
 
 /// Those of ForegroundMaps that components are asked about; each may be empty.

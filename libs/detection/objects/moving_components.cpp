@@ -24,10 +24,6 @@ void growPart(ForegroundComponents& found, const cv::Rect& by) {
   found.labels = labels;
 }
 
-cv::Mat1b pixelsOf(const ForegroundComponents& found, size_t index) {
-  return found.labels(found.components[index].box - found.part.tl()) == static_cast<int>(index) + 1;
-}
-
 bool isCovered(const ForegroundComponents& found, size_t count, const cv::Rect& box) {
   return std::any_of(
       found.components.begin(), found.components.begin() + static_cast<std::ptrdiff_t>(count),
@@ -49,7 +45,7 @@ void addMovingComponents(ForegroundComponents& found, const cv::Mat1b& unknown,
   const size_t count = found.components.size();
   for (size_t i = 0; i < count; ++i) {
     Component& component = found.components[i];
-    if (cv::countNonZero(pixelsOf(found, i) & mask(component.box)) > kConfirmed * component.area_px)
+    if (cv::countNonZero(found.pixelsOf(i) & mask(component.box)) > kConfirmed * component.area_px)
       component.gain = std::max(component.gain, kGain);
   }
   forEachRegion(mask(part), parameters.min_area_px,
