@@ -28,7 +28,7 @@ class InertialFilter::Implementation : public InertialFilterCore {
   }
 
   InertialHomography advanceTo(CameraTime frame) {
-    const InertialHomography result = InertialFilterCore::advanceTo(frame);
+    InertialHomography result = InertialFilterCore::advanceTo(frame);
     remember();
     return result;
   }

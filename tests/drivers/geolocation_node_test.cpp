@@ -19,7 +19,7 @@ const double kKept_s = GeolocationParameters().keep_stopped_s;
 
 class GeolocationNodeTest : public testing::Test {
  protected:
-  void begin(Configuration configuration = TargetFlight::configuration()) {
+  void begin(const Configuration& configuration = TargetFlight::configuration()) {
     node_ = std::make_unique<GeolocationNode>(*bus_, configuration);
     subscription_ =
         bus_->subscribe<targets_t>("TARGETS", 1000, [this](const targets_t& m) { targets_.push_back(m); });

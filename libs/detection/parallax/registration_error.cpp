@@ -56,7 +56,8 @@ HomographyFlow registrationError(const cv::Mat2f& flow, const FlowCovariance& no
   for (int y = kStep_px / 2; y < flow.rows; y += kStep_px) {
     for (int x = kStep_px / 2; x < flow.cols; x += kStep_px) {
       if (unknown(y, x) != 0) continue;
-      const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y)), back = flow(y, x);
+      const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
+      const cv::Vec2f& back = flow(y, x);
       const cv::Vec2f along = segment.direction(pixel + back);
       const float variance = noise.largest(y, x);
       if (along == cv::Vec2f(0, 0)) {
