@@ -50,9 +50,13 @@ inline std::string explain(int error) {
 /// Disables ffmpeg's own messages on stderr; errors are reported as exceptions.
 inline void silence() { av_log_set_level(AV_LOG_QUIET); }
 
+/// What openInput() reads: a header may not say all of the streams.
+enum class Probe { kStreams, kHeaderOnly };
+
 /// Opens a recording and finds its streams. `options`: of the demuxer. Throws InputError.
 inline Input openInput(const std::filesystem::path& path,
-                       const std::map<std::string, std::string>& options = {}) {
+                       const std::map<std::string, std::string>& options = {},
+                       Probe probe = Probe::kStreams) {
   silence();
   requireFile(path);
   AVDictionary* dictionary = nullptr;
@@ -62,6 +66,7 @@ inline Input openInput(const std::filesystem::path& path,
   av_dict_free(&dictionary);
   if (opened < 0) throw InputError(path, "is no video or is cut short: " + explain(opened));
   Input input(raw);
+  if (probe == Probe::kHeaderOnly) return input;
   const int found = avformat_find_stream_info(input.get(), nullptr);
   if (found < 0) throw InputError(path, "its streams cannot be read: " + explain(found));
   return input;

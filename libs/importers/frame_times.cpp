@@ -1,14 +1,18 @@
 #include "redbee/importers/frame_times.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 #include <string_view>
 
 #include "redbee/files/ffmpeg.hpp"
+#include "redbee/importers/time_check.hpp"
 
 namespace redbee {
 
-FrameTimes::FrameTimes(const AVFormatContext& input, const AVStream& stream, double fps)
-    : stream_(&stream), fps_(fps), source_(Source::kPresentation) {
+FrameTimes::FrameTimes(const std::filesystem::path& file, const AVFormatContext& input,
+                       const AVStream& stream, double fps)
+    : stream_(&stream), fps_(fps), source_(Source::kPresentation), edit_list_(file, input, stream) {
   // A raw stream: ffmpeg found no time when it looked for the streams.
   if ((input.iformat->flags & AVFMT_NOTIMESTAMPS) != 0 || stream.start_time == AV_NOPTS_VALUE) {
     source_ = Source::kRate;
@@ -40,11 +44,23 @@ std::optional<int64_t> FrameTimes::timeOf(const AVFrame& frame) {
       break;
   }
   if (frame.best_effort_timestamp == AV_NOPTS_VALUE) return std::nullopt;
-  return microseconds(frame.best_effort_timestamp);
+  return microseconds(frame.best_effort_timestamp + edit_list_.shiftAt(frame.pkt_pos));
 }
 
 int64_t FrameTimes::microseconds(int64_t ticks) const {
   return av_rescale_q(ticks, stream_->time_base, AVRational{1, 1000000});
+}
+
+bool FrameLeaps::isOne(const std::filesystem::path& file, int64_t frame, int64_t last_utime, int64_t utime) {
+  constexpr int64_t kHandful = 3;
+  const double leap_s = 1e-6 * (static_cast<double>(utime) - static_cast<double>(last_utime));
+  if (leap_s <= kClockWasSet_s) return false;
+  if (count_++ == 0) first_ = fmt::format("by {:.0f} s at frame {}", leap_s, frame);
+  if (count_ > kHandful)
+    throw InputError(file, "times leap " + first_ + ": the clock was set during the recording; cut it there");
+  line_ = fmt::format("the times of {} frame{} leap, the first {}: left out", count_, count_ == 1 ? "" : "s",
+                      first_);
+  return true;
 }
 
 }  // namespace redbee

@@ -3,7 +3,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <optional>
+#include <string>
+
+#include "redbee/importers/edit_list.hpp"
 
 struct AVFormatContext;
 struct AVFrame;
@@ -15,7 +19,8 @@ namespace redbee {
 class FrameTimes {
  public:
   /// `fps`: Hz, of a stream without times; 0: not known.
-  FrameTimes(const AVFormatContext& input, const AVStream& stream, double fps);
+  FrameTimes(const std::filesystem::path& file, const AVFormatContext& input, const AVStream& stream,
+             double fps);
 
   /// True for a stream without times whose frame rate is not known.
   bool needsRate() const { return source_ == Source::kRate && !(fps_ > 0); }
@@ -35,8 +40,24 @@ class FrameTimes {
   const AVStream* stream_;
   double fps_;
   Source source_;
+  EditList edit_list_;
   std::deque<int64_t> decoding_times_;  ///< ticks
   int64_t frames_ = 0;
+};
+
+/// Frames whose times lie so far ahead that they cannot be true.
+class FrameLeaps {
+ public:
+  /// `utime` of a frame that follows number `frame` - 1, which has `last_utime`. Throws InputError where
+  /// there are more such than a handful: a clock was set.
+  bool isOne(const std::filesystem::path& file, int64_t frame, int64_t last_utime, int64_t utime);
+  /// For the summary; empty where there was none.
+  const std::string& line() const { return line_; }
+
+ private:
+  int64_t count_ = 0;
+  std::string first_;
+  std::string line_;
 };
 
 }  // namespace redbee

@@ -1,58 +1,12 @@
 #include "redbee/importers/video_reader.hpp"
 
-#include <cmath>
-
 #include "redbee/files/ffmpeg.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/importers/frame_converter.hpp"
 #include "redbee/importers/frame_times.hpp"
-
-extern "C" {
-#include <libavutil/display.h>
-}
+#include "redbee/importers/video_stream.hpp"
 
 namespace redbee {
-namespace {
-
-/// A cover image or a thumbnail is no recording.
-bool isRecording(const AVStream& stream) {
-  return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
-         (stream.disposition & (AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS)) == 0;
-}
-
-AVStream* findVideo(AVFormatContext& input) {
-  AVStream* found = nullptr;
-  const AVCodec* codec = nullptr;  // asked for: then only a stream that can be decoded is found
-  const int best = av_find_best_stream(&input, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-  if (best >= 0 && isRecording(*input.streams[best])) found = input.streams[best];
-  for (unsigned i = 0; i < input.nb_streams; ++i) {
-    if (found == nullptr && isRecording(*input.streams[i])) found = input.streams[i];
-  }
-  for (unsigned i = 0; i < input.nb_streams; ++i) {
-    if (input.streams[i] != found) input.streams[i]->discard = AVDISCARD_ALL;
-  }
-  return found;
-}
-
-/// Degrees clockwise.
-int rotationOf(const std::filesystem::path& path, const AVStream& stream) {
-  const auto* matrix =
-      reinterpret_cast<const int32_t*>(av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
-  if (matrix == nullptr) return 0;
-  const double clockwise = -av_display_rotation_get(matrix);
-  const double mirrored =
-      static_cast<double>(matrix[0]) * matrix[4] - static_cast<double>(matrix[1]) * matrix[3];
-  if (!std::isfinite(clockwise) || mirrored < 0)
-    throw InputError(path, "states that its images are mirrored: no camera sees so");
-  const double quarters = std::round(clockwise / 90);
-  if (std::abs(clockwise - 90 * quarters) > 1) {
-    throw InputError(path, "states a rotation by " + std::to_string(std::lround(clockwise)) +
-                               " degrees: only quarter turns can be applied");
-  }
-  return static_cast<int>((static_cast<int64_t>(quarters) % 4 + 4) % 4) * 90;
-}
-
-}  // namespace
 
 class VideoReader::Implementation {
  public:
@@ -67,7 +21,7 @@ class VideoReader::Implementation {
     if (codec == nullptr) throw InputError(path_, "has no video stream that can be decoded");
     rotation_deg_ = rotationOf(path_, *stream_);
     converter_ = std::make_unique<FrameConverter>(options.width, options.grey, rotation_deg_);
-    times_ = std::make_unique<FrameTimes>(*input_, *stream_, options.fps);
+    times_ = std::make_unique<FrameTimes>(path, *input_, *stream_, options.fps);
     if (times_->needsRate())
       throw InputError(path_, "is a raw stream, which has no times: give its frame rate with --fps");
     decoder_.reset(avcodec_alloc_context3(codec));
@@ -92,6 +46,7 @@ class VideoReader::Implementation {
     }
     if (options_.fps > 0 && !times_->usesRate())
       all.push_back("--fps is not used: the video has times of its own");
+    if (!leaps_.line().empty()) all.push_back(leaps_.line());
     if (!damage_.empty()) {
       all.push_back(damage_ +
                     (damaged_ > 1 ? " (and " + std::to_string(damaged_ - 1) + " more such places)" : "") +
@@ -184,6 +139,7 @@ class VideoReader::Implementation {
   std::optional<VideoFrame> take() {
     const auto utime = times_->timeOf(*frame_);
     if (!utime && !options_.keep_going) failAfterLast("has no presentation time");
+    if (utime && frames_ > 0 && leaps_.isOne(path_, frames_, last_utime_, *utime)) return std::nullopt;
     if (!utime || (frames_ > 0 && *utime <= last_utime_)) {
       const std::string fault = !utime ? "a frame without a time"
                                        : "time runs backwards or repeats at frame " +
@@ -222,6 +178,7 @@ class VideoReader::Implementation {
   std::unique_ptr<FrameTimes> times_;
   ffmpeg::Packet packet_;
   ffmpeg::Frame frame_;
+  FrameLeaps leaps_;
   int rotation_deg_ = 0;
   cv::Size size_;
   std::string complaint_;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "redbee/bus/image.hpp"
 #include "redbee/gimbal_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/importers/import_gopro.hpp"
@@ -55,6 +56,31 @@ TEST_F(GoproFileTest, AnEditListMovesTheMotionTrackWithTheVideo) {
     std::cout << "track from " << start_s << " s: first sample at " << first_s << " s\n";
     EXPECT_NEAR(first_s, start_s, 0.005);
     EXPECT_NEAR(1e-6 * static_cast<double>(imu_[1199].utime), start_s + 1199.0 / 400, 0.005);
+  }
+}
+
+TEST_F(GoproFileTest, AFewMillisecondsOfAnEditListCount) {
+  for (const double video_s : {0.0, -0.005, -0.013, -0.1}) {
+    for (const double track_s : {0.005, -0.005, -0.105}) {
+      video_.track = packets(3);
+      video_.start_s = video_s;
+      video_.track_start_s = track_s;
+      writeTestVideo(options_.source, video_);
+      import();
+      ASSERT_EQ(imu_.size(), 1200u);
+      const double shift_us = static_cast<double>(imu_[0].utime) - 1e6 * track_s;
+      double worst_us = std::abs(shift_us);
+      for (const image_t& frame : frames_) {
+        const auto grey = decodeGrey(frame);
+        ASSERT_TRUE(grey);
+        const double true_us = 40'000.0 * numberShownIn(*grey) + 1e6 * video_s;
+        worst_us = std::max(worst_us, std::abs(static_cast<double>(frame.utime) - true_us));
+      }
+      std::cout << "video from " << video_s << " s, track from " << track_s << " s: " << frames_.size()
+                << " frames, off by " << worst_us << " us\n";
+      EXPECT_LT(worst_us, 500) << video_s << " " << track_s;
+      EXPECT_GE(frames_.size(), 47u);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <functional>
@@ -30,6 +31,8 @@ struct TestVideo {
   int b_frames = 0;
   int rotation_deg = 0;      ///< that the container states, clockwise
   int broken_packet = -1;    ///< whose content is overwritten
+  int late_frames = 0;       ///< at the end, by a day and a half
+  double start_s = 0;        ///< of the first frame: what lies before 0 is cut by an edit list
   double track_start_s = 0;  ///< of the motion track: what lies before 0 is cut by an edit list
   std::vector<DataPacket> track;
   std::function<cv::Mat(int frame)> image;  ///< grey
@@ -59,7 +62,7 @@ class TestVideoWriter {
         std::memcpy(frame_->data[0] + y * frame_->linesize[0], grey.ptr(y), static_cast<size_t>(grey.cols));
       for (int plane : {1, 2})
         std::memset(frame_->data[plane], 128, static_cast<size_t>(frame_->linesize[plane] * grey.rows / 2));
-      frame_->pts = k;
+      frame_->pts = k + (k >= video_.frames - video_.late_frames ? int64_t{129'600} * video_.fps : 0);
       encode(frame_.get());
     }
     encode(nullptr);
@@ -127,6 +130,9 @@ class TestVideoWriter {
         std::memset(packet_->data + 4, 0xFF, static_cast<size_t>(packet_->size - 4));
       if (packet_->duration == 0) packet_->duration = 1;
       av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
+      const int64_t start = std::llround(video_.start_s / av_q2d(stream_->time_base));
+      packet_->pts += start;
+      packet_->dts += start;
       packet_->stream_index = stream_->index;
       require(av_interleaved_write_frame(output_.get(), packet_.get()));
     }

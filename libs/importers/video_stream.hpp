@@ -1,0 +1,18 @@
+// Which stream of a container is the recording, and how its images are turned.
+#pragma once
+
+#include <filesystem>
+
+struct AVFormatContext;
+struct AVStream;
+
+namespace redbee {
+
+/// The best stream that can be decoded and is no cover image or thumbnail; nullptr where there is none. The
+/// others are discarded.
+AVStream* findVideo(AVFormatContext& input);
+
+/// Degrees clockwise, quarter turns. Throws InputError for another rotation or a mirror.
+int rotationOf(const std::filesystem::path& path, const AVStream& stream);
+
+}  // namespace redbee
