@@ -40,7 +40,7 @@ Loader::Place Loader::placeOf(const YAML::Node& node) const {
 
 void Loader::loadFile(const std::filesystem::path& file) {
   YAML::Node root;
-  if (const std::string fault = faultOfFile(file); !fault.empty()) fail({file.string(), 0}, "file", fault);
+  if (const std::string fault = faultOfInput(file); !fault.empty()) fail({file.string(), 0}, "file", fault);
   try {
     root = YAML::LoadFile(file.string());
   } catch (const YAML::BadFile&) {
@@ -68,7 +68,7 @@ void Loader::includeOne(const YAML::Node& name) {
   if (!name.IsScalar()) fail(placeOf(name), "include", "must be a file name or a list of them");
   const std::filesystem::path file = open_files_.back().parent_path() / name.Scalar();
   std::error_code error;
-  if (const std::string fault = faultOfFile(file); !fault.empty())
+  if (const std::string fault = faultOfInput(file); !fault.empty())
     fail(placeOf(name), "include", file.string() + " " + fault);
   const bool open = std::any_of(open_files_.begin(), open_files_.end(), [&](const auto& other) {
     return std::filesystem::equivalent(file, other, error);
@@ -144,7 +144,7 @@ void Loader::loadMask() {
   if (name.empty()) return;
   files_.emplace_back(name);
   const Place& place = places_.at(key);
-  if (const std::string fault = faultOfFile(name); !fault.empty()) fail(place, key, name + " " + fault);
+  if (const std::string fault = faultOfInput(name); !fault.empty()) fail(place, key, name + " " + fault);
   const cv::Mat1b image = decodeGreyImage(readWhole(name));
   if (image.empty()) fail(place, key, name + " is neither a PNG nor a JPEG image, or damaged");
   const auto size = [](int width, int height) {

@@ -73,4 +73,10 @@ Decompressed decompress(const std::string& method, ByteView compressed, size_t s
   return {{compressed.data, compressed.data + compressed.size}, compressed.size == size ? "" : kOtherSize};
 }
 
+std::optional<size_t> sizeOfZstdFrame(ByteView compressed, size_t most) {
+  const unsigned long long size = ZSTD_getFrameContentSize(compressed.data, compressed.size);
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size > most) return std::nullopt;
+  return static_cast<size_t>(size);
+}
+
 }  // namespace redbee

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,8 @@ struct Decompressed {
 /// One or more frames of zstd (RFC 8878) or LZ4 that should give `size` bytes, which are allocated. `method`:
 /// "", "zstd", "lz4"; another is a fault.
 Decompressed decompress(const std::string& method, ByteView compressed, size_t size);
+
+/// The size that a frame of zstd gives, as it states; std::nullopt for anything else, and above `most`.
+std::optional<size_t> sizeOfZstdFrame(ByteView compressed, size_t most);
 
 }  // namespace redbee

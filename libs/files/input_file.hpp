@@ -1,10 +1,12 @@
 // What may be read as a file.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -35,9 +37,41 @@ inline std::string faultOfFile(const std::filesystem::path& file) {
   }
 }
 
-/// Throws InputError unless it is a regular file. To be called before any file of the user's is opened.
+/// Empty, or what stands in a file's place by its first bytes: no command reads these, and each has its fix.
+inline std::string faultOfContent(const std::filesystem::path& file) {
+  using std::string_view_literals::operator""sv;
+  struct Kind {
+    std::string_view start;
+    const char* fault;
+  };
+  static constexpr std::array<Kind, 8> kKinds{
+      {{"version https://git-lfs.github.com/spec/"sv,
+        "is a pointer of Git LFS, not the file it stands for: fetch that with git lfs pull"},
+       {"SQLite format 3\0"sv,
+        "is a ROS 2 bag in SQLite: ros2 bag convert makes an MCAP of it, which import mcap reads"},
+       {"PK\x03\x04"sv, "is a ZIP archive: unpack it first"},
+       {"7z\xBC\xAF\x27\x1C"sv, "is a 7z archive: unpack it first"},
+       {"\x1F\x8B"sv, "is packed by gzip: unpack it first (gzip -d)"},
+       {"\x28\xB5\x2F\xFD"sv, "is packed by Zstandard: unpack it first (zstd -d)"},
+       {"\xFD\x37zXZ"sv, "is packed by xz: unpack it first (xz -d)"},
+       {"BZh"sv, "is packed by bzip2: unpack it first (bzip2 -d)"}}};
+  std::string bytes(kKinds.front().start.size(), '\0');
+  std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  for (const auto& [start, fault] : kKinds) {
+    if (bytes.compare(0, start.size(), start) == 0) return fault;
+  }
+  return "";
+}
+
+/// Empty for what may be read, otherwise what it is instead.
+inline std::string faultOfInput(const std::filesystem::path& file) {
+  const std::string fault = faultOfFile(file);
+  return fault.empty() ? faultOfContent(file) : fault;
+}
+
+/// Throws InputError where there is a faultOfInput(). To be called before any file of the user's is opened.
 inline void requireFile(const std::filesystem::path& file) {
-  if (const std::string fault = faultOfFile(file); !fault.empty()) throw InputError(file, fault);
+  if (const std::string fault = faultOfInput(file); !fault.empty()) throw InputError(file, fault);
 }
 
 /// All bytes of a regular file.

@@ -6,6 +6,7 @@
 #include "redbee/altimeter_t.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/gimbal_t.hpp"
+#include "redbee/importers/impossible_values.hpp"
 #include "redbee/importers/imu_check.hpp"
 #include "redbee/ins_t.hpp"
 
@@ -43,7 +44,11 @@ gimbal_t toMessage(const MountSample& sample) {
 
 FlightMerger::FlightMerger(const std::filesystem::path& log, ImportChannels channels,
                            std::vector<ImuSample> imu, std::vector<AltitudeSample> altitudes)
-    : log_(log), channels_(std::move(channels)), imu_(std::move(imu)), altitudes_(std::move(altitudes)) {}
+    : log_(log), channels_(std::move(channels)), imu_(std::move(imu)), altitudes_(std::move(altitudes)) {
+  for (const std::string& line : {leaveOutImpossible(imu_), leaveOutImpossible(altitudes_)}) {
+    if (!line.empty()) left_out_.push_back(line);
+  }
+}
 
 void FlightMerger::addFrame(const image_t& frame) {
   writeUpTo(fromUtime(frame.utime));
@@ -61,7 +66,7 @@ void FlightMerger::check(ImportSummary& summary) const {
   const ImuFindings findings =
       checkImu(imu_, CameraTime(fromUtime(first_utime_)), CameraTime(fromUtime(last_utime_)), units_);
   if (imu_file_ && !findings.faults.empty()) throw InputError(*imu_file_, findings.faults.front());
-  for (const auto* lines : {&findings.faults, &findings.warnings})
+  for (const auto* lines : {&left_out_, &findings.faults, &findings.warnings})
     summary.warnings.insert(summary.warnings.end(), lines->begin(), lines->end());
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,8 @@
 
 namespace redbee {
 
-/// Frames are added one by one (they are large), the rest at once. An IMU sample or altitude with the same
+/// Frames are added one by one (they are large), the rest at once. Values that no sensor measures are left
+/// out, and said (impossible_values.hpp). An IMU sample or altitude with the same
 /// time as a frame is written before it.
 class FlightMerger {
  public:
@@ -40,6 +42,7 @@ class FlightMerger {
   std::vector<MountSample> mount_;
   std::optional<std::filesystem::path> imu_file_;
   ImuUnits units_;
+  std::vector<std::string> left_out_;  ///< a line each
   size_t next_imu_ = 0;
   size_t next_altitude_ = 0;
   size_t next_mount_ = 0;

@@ -11,7 +11,7 @@
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
 #include "redbee/geometry/median.hpp"
-#include "redbee/importers/vector_table.hpp"
+#include "redbee/importers/row_times.hpp"
 
 namespace redbee {
 namespace {
@@ -82,7 +82,7 @@ void fixAccelUnit(const std::filesystem::path& file, ImuTable& table) {
 }  // namespace
 
 bool isGcsv(const std::filesystem::path& file) {
-  if (!faultOfFile(file).empty()) return false;
+  if (!faultOfInput(file).empty()) return false;
   std::string line;
   std::ifstream in(file);
   std::getline(in, line);
@@ -98,13 +98,13 @@ ImuTable readGcsv(const std::filesystem::path& file) {
     csv.fail(
         "names not the columns t,gx,gy,gz,ax,ay,az: without an accelerometer there is no gravity to fly by");
   ImuTable table;
-  IncreasingTimeCheck times;
+  RowTimes times;
   while (csv.next(names.size())) {
     ImuSample sample;
     const double time_s = header.time_s * csv.number(0);
     if (!(std::abs(time_s) < kLatest_s)) csv.fail("'" + csv.fields()[0] + "' is no time");
     sample.time = ImuTime(fromSeconds(time_s));
-    times.check(csv, toUtime(sample.time));
+    times.add(csv, toUtime(sample.time));
     sample.gyro =
         header.gyro * (header.orientation * Eigen::Vector3d(csv.number(1), csv.number(2), csv.number(3)));
     sample.accel =
@@ -112,6 +112,7 @@ ImuTable readGcsv(const std::filesystem::path& file) {
     table.samples.push_back(sample);
   }
   if (table.samples.empty()) throw InputError(file, "holds no samples");
+  times.check(table.samples, table.warnings);
   fixAccelUnit(file, table);
   if (!header.orientation_text.empty()) {
     table.warnings.push_back(file.string() + ": axes are turned by its orientation " +

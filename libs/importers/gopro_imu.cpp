@@ -7,6 +7,7 @@
 #include <string>
 
 #include "redbee/importers/gpmf.hpp"
+#include "redbee/importers/impossible_values.hpp"
 
 namespace redbee {
 namespace {
@@ -145,6 +146,22 @@ std::vector<TimedVector> timed(const std::vector<Batch>& all, const std::string&
   return out;
 }
 
+/// Before the streams are joined, so that an interpolation mixes nothing in.
+void leaveOutImpossible(std::vector<TimedVector>& stream, bool (*isPossible)(const Eigen::Vector3d&),
+                        const std::string& key, std::string& damage) {
+  const auto isWrong = [&](const TimedVector& each) { return !isPossible(each.value); };
+  const auto first = std::find_if(stream.begin(), stream.end(), isWrong);
+  if (first == stream.end()) return;
+  const auto wrong = std::count_if(first, stream.end(), isWrong);
+  const std::string what =
+      fmt::format("{} of {} {} samples are beyond what any sensor measures", wrong, stream.size(), key);
+  if (static_cast<double>(wrong) > kMostImpossible * static_cast<double>(stream.size()))
+    throw GpmfError(what + ": import it as a video");
+  damage += fmt::format("{}{}, the first at {:.3f} s: they are left out", damage.empty() ? "" : "; ", what,
+                        first->t_s);
+  stream.erase(std::remove_if(first, stream.end(), isWrong), stream.end());
+}
+
 }  // namespace
 
 GoproStreams readGoproStreams(const std::vector<DataPacket>& packets) {
@@ -154,7 +171,10 @@ GoproStreams readGoproStreams(const std::vector<DataPacket>& packets) {
   // other.
   std::optional<double> offset;
   if (allStamped(gyro) && allStamped(accel)) offset = (stampOffset(gyro) + stampOffset(accel)) / 2;
-  return {timed(gyro, "GYRO", offset), timed(accel, "ACCL", offset)};
+  GoproStreams streams{timed(gyro, "GYRO", offset), timed(accel, "ACCL", offset), {}};
+  leaveOutImpossible(streams.gyro, isPossibleTurn, "GYRO", streams.damage);
+  leaveOutImpossible(streams.accel, isPossibleForce, "ACCL", streams.damage);
+  return streams;
 }
 
 std::optional<std::string> reasonToLeaveOut(const std::vector<DataPacket>& packets) {

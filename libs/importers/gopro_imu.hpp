@@ -19,6 +19,7 @@ struct TimedVector {
 struct GoproStreams {
   std::vector<TimedVector> gyro;   ///< rad/s
   std::vector<TimedVector> accel;  ///< m/s^2, specific force
+  std::string damage;              ///< a line about values that are left out (impossible_values.hpp)
 };
 
 /// Frame I is x forward along the optical axis, y left, z up.
@@ -34,7 +35,8 @@ struct GoproStreams {
 /// the batches; STMP is used instead if the camera writes it. The samples of a single payload are spread
 /// evenly over its duration.
 ///
-/// Throws GpmfError if a payload is damaged, a unit is unknown, or one of the sensors is missing.
+/// Throws GpmfError if a payload is damaged, a unit is unknown, one of the sensors is missing, or more than a
+/// tenth of its values cannot be any sensor's.
 GoproStreams readGoproStreams(const std::vector<DataPacket>& packets);
 
 /// Why the motion track says nothing about the images, in one line; std::nullopt if it does: the video's

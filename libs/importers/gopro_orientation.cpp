@@ -29,7 +29,7 @@ std::vector<TimedOrientation> orientations(const std::vector<DataPacket>& packet
     for (size_t i = 0; i < found.size(); ++i) {
       const auto& [w, right, down, forward] = found[i];
       const Eigen::Quaterniond q(w, forward, -right, -down);
-      if (!(q.norm() > 0.5)) continue;  // a camera fills up with zeros
+      if (!(q.norm() > 0.5 && q.norm() < 2)) continue;  // damage; and a camera fills up with zeros
       const double t_s =
           packet.start_s + packet.duration_s * static_cast<double>(i) / static_cast<double>(found.size());
       all.push_back({t_s, q.normalized()});

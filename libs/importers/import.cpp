@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "redbee/importers/impossible_values.hpp"
+
 namespace redbee {
 namespace {
 
@@ -52,7 +54,7 @@ std::optional<AltitudeSample> startHeight(const std::vector<AltitudeSample>& alt
   std::optional<AltitudeSample> nearest;
   for (const AltitudeSample& sample : altitudes) {
     const Duration distance = std::chrono::abs(sample.time - first_frame);
-    if (distance > kWindow || sample.height_m <= 0) continue;
+    if (distance > kWindow || sample.height_m <= 0 || !isPossible(sample)) continue;
     if (!nearest || distance < std::chrono::abs(nearest->time - first_frame)) nearest = sample;
   }
   return nearest;

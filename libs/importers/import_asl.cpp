@@ -8,6 +8,7 @@
 #include "redbee/files/input_error.hpp"
 #include "redbee/importers/flight_merger.hpp"
 #include "redbee/importers/image_file.hpp"
+#include "redbee/importers/row_times.hpp"
 #include "redbee/importers/sensor_yaml.hpp"
 
 namespace redbee {
@@ -33,7 +34,7 @@ bool hasKalibrsLayout(const fs::path& camera) {
   return fs::is_directory(camera) && !fs::is_directory(camera / "data") && !fs::exists(camera / "data.csv");
 }
 
-std::vector<NamedFrame> readFrameNames(const fs::path& folder) {
+std::vector<NamedFrame> readFrameNames(const fs::path& folder, ImportSummary& summary) {
   std::vector<NamedFrame> frames;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string(), time = entry.path().stem().string();
@@ -50,35 +51,40 @@ std::vector<NamedFrame> readFrameNames(const fs::path& folder) {
     if (frames[i].time == frames[i - 1].time)
       throw InputError(folder / frames[i].name, "is within a microsecond of " + frames[i - 1].name);
   }
-  return frames;
+  std::vector<int64_t> utimes;
+  for (const NamedFrame& frame : frames) utimes.push_back(toUtime(frame.time));
+  const TimeFindings findings = checkTimes(utimes, TimeOrder::kSorted, folder.string());
+  for (const std::string& line : findings.lines) summary.warnings.push_back(folder.string() + ": " + line);
+  return thoseKept(frames, findings.keep);
 }
 
-std::vector<NamedFrame> readFrameList(const fs::path& file) {
+std::vector<NamedFrame> readFrameList(const fs::path& file, ImportSummary& summary) {
   CsvReader csv(file);
   csv.skipHeader();
-  IncreasingTimeCheck times;
+  RowTimes times;
   std::vector<NamedFrame> frames;
   while (csv.next(2)) {
     const CameraTime time(fromNanoseconds(csv.integer(0)));
-    times.check(csv, toUtime(time));
+    times.add(csv, toUtime(time));
     if (csv.fields()[1].empty()) csv.fail("names no image");
     frames.push_back({time, csv.fields()[1], csv.line()});
   }
   if (frames.empty()) throw InputError(file, "lists no images");
+  times.check(frames, summary.warnings);
   return frames;
 }
 
-std::vector<ImuSample> readImu(const fs::path& file, const ImuUnits& units) {
+std::vector<ImuSample> readImu(const fs::path& file, const ImuUnits& units, ImportSummary& summary) {
   const double to_rad_s = factorOf(gyroUnits(), units.gyro, "--gyro-unit");
   const double to_m_s2 = factorOf(accelUnits(), units.accel, "--accel-unit");
   CsvReader csv(file);
   csv.skipHeader();
-  IncreasingTimeCheck times;
+  RowTimes times;
   std::vector<ImuSample> samples;
   while (csv.next(7)) {
     ImuSample sample;
     sample.time = ImuTime(fromNanoseconds(csv.integer(0)));
-    times.check(csv, toUtime(sample.time));
+    times.add(csv, toUtime(sample.time));
     for (int axis = 0; axis < 3; ++axis) {
       sample.gyro[axis] = to_rad_s * csv.number(static_cast<size_t>(1 + axis));
       sample.accel[axis] = to_m_s2 * csv.number(static_cast<size_t>(4 + axis));
@@ -86,21 +92,23 @@ std::vector<ImuSample> readImu(const fs::path& file, const ImuUnits& units) {
     samples.push_back(sample);
   }
   if (samples.empty()) throw InputError(file, "holds no samples");
+  times.check(samples, summary.warnings);
   return samples;
 }
 
-std::vector<AltitudeSample> readAltitudes(const fs::path& folder) {
+std::vector<AltitudeSample> readAltitudes(const fs::path& folder, ImportSummary& summary) {
   if (!fs::is_directory(folder)) return {};
   const double sigma = readAltimeterSigma(folder / "sensor.yaml");
   CsvReader csv(folder / "data.csv");
   csv.skipHeader();
-  IncreasingTimeCheck times;
+  RowTimes times;
   std::vector<AltitudeSample> samples;
   while (csv.next(2)) {
     const ImuTime time(fromNanoseconds(csv.integer(0)));
-    times.check(csv, toUtime(time));
+    times.add(csv, toUtime(time));
     samples.push_back({time, csv.number(1), sigma});
   }
+  times.check(samples, summary.warnings);
   return samples;
 }
 
@@ -178,13 +186,15 @@ ImportSummary importAsl(const ImportOptions& options, Progress& progress) {
   const fs::path mav = findVehicleFolder(options.source);
   const fs::path list = mav / "cam0" / "data.csv";
   const bool is_kalibrs = hasKalibrsLayout(mav / "cam0");
-  const std::vector<NamedFrame> frames = is_kalibrs ? readFrameNames(mav / "cam0") : readFrameList(list);
+  ImportSummary summary;
+  const std::vector<NamedFrame> frames =
+      is_kalibrs ? readFrameNames(mav / "cam0", summary) : readFrameList(list, summary);
   const fs::path imu_file = is_kalibrs ? mav / "imu0.csv" : mav / "imu0" / "data.csv";
   const bool has_imu = is_kalibrs ? fs::exists(imu_file) : fs::is_directory(mav / "imu0");
-  const std::vector<ImuSample> imu = has_imu ? readImu(imu_file, options.units) : std::vector<ImuSample>{};
-  const std::vector<AltitudeSample> altitudes = readAltitudes(mav / "altimeter0");
+  const std::vector<ImuSample> imu =
+      has_imu ? readImu(imu_file, options.units, summary) : std::vector<ImuSample>{};
+  const std::vector<AltitudeSample> altitudes = readAltitudes(mav / "altimeter0", summary);
 
-  ImportSummary summary;
   describeVehicle(mav, has_imu, summary);
   summary.vehicle.name =
       fs::weakly_canonical(mav.filename() == "mav0" ? mav.parent_path() : mav).filename().string();

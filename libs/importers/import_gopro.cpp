@@ -71,6 +71,7 @@ struct Motion {
   std::vector<ImuSample> imu;
   std::vector<MountSample> turns;  ///< of images that were stabilised, on the IMU's clock
   std::optional<double> lag_s;     ///< frameLag() of those
+  std::string damage;              ///< a line about what is left out
 };
 
 /// The recorder's clock starts again with each chapter, so that each is fitted to the video's by itself.
@@ -80,7 +81,7 @@ Motion motionOf(const VideoSource& source) {
   if (const auto reason = reasonToLeaveOut(packets)) throw UnusableImu(*reason);
   for (DataPacket& packet : packets) packet.start_s += 1e-6 * static_cast<double>(source.start_us);
   const GoproStreams streams = readGoproStreams(packets);
-  Motion motion{mergeAtGyroTimes(streams), imageTurns(packets), {}};
+  Motion motion{mergeAtGyroTimes(streams), imageTurns(packets), {}, streams.damage};
   if (!motion.turns.empty()) motion.lag_s = frameLag(packets, streams);
   return motion;
 }
@@ -107,6 +108,7 @@ Motion motionOf(const std::vector<VideoSource>& sources, ImportSummary& summary)
   for (const VideoSource& source : sources) {
     try {
       Motion part = motionOf(source);
+      if (!part.damage.empty()) summary.warnings.push_back(source.file.string() + ": " + part.damage);
       if (all.lag_s) part.lag_s = all.lag_s;  // one camera, one lag
       all.lag_s = part.lag_s;
       putOnImuClock(part);

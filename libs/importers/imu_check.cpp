@@ -10,6 +10,7 @@
 
 #include "redbee/geometry/median.hpp"
 #include "redbee/importers/import.hpp"
+#include "redbee/importers/impossible_values.hpp"
 #include "redbee/importers/time_check.hpp"
 
 namespace redbee {
@@ -101,6 +102,17 @@ void checkGravity(const std::vector<ImuSample>& imu, const ImuUnits& read_as, Im
   } else {
     findings.faults.push_back(what + ", in no known unit; import without the IMU");
   }
+}
+
+/// More of them than can be left out.
+void checkPossible(const std::vector<ImuSample>& imu, ImuFindings& findings) {
+  const auto wrong =
+      std::count_if(imu.begin(), imu.end(), [](const ImuSample& sample) { return !isPossible(sample); });
+  if (wrong == 0) return;
+  findings.faults.push_back(
+      fmt::format("{} of {} IMU samples are beyond what any measures, in no known unit: the recording is "
+                  "damaged; import without the IMU",
+                  wrong, imu.size()));
 }
 
 void checkTurns(const std::vector<ImuSample>& imu, const ImuUnits& read_as, ImuFindings& findings) {
@@ -210,6 +222,7 @@ ImuFindings checkImu(const std::vector<ImuSample>& imu, CameraTime first_frame, 
     checkGravity(imu, read_as, findings);
     // In a wrong unit of time the gyro's turns mean nothing.
     if (findings.faults.empty()) checkTurns(imu, read_as, findings);
+    if (findings.faults.empty()) checkPossible(imu, findings);
     checkHoles(imu, findings);
     checkConstants(imu, findings);
   }

@@ -8,6 +8,7 @@
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/printable.hpp"
+#include "redbee/importers/row_times.hpp"
 
 namespace redbee {
 namespace {
@@ -41,7 +42,7 @@ ColumnNumbers readHeader(CsvReader& csv) {
 
 }  // namespace
 
-std::vector<ImuSample> readImuCsv(const std::filesystem::path& file, const ImuUnits& units) {
+ImuTable readImuCsv(const std::filesystem::path& file, const ImuUnits& units) {
   constexpr double kLatest_s = 1e10;  // the year 2286; far beyond it microseconds overflow
   const double to_s = factorOf(timeUnits(), units.time, "--time-unit");
   const double to_rad_s = factorOf(gyroUnits(), units.gyro, "--gyro-unit");
@@ -49,8 +50,9 @@ std::vector<ImuSample> readImuCsv(const std::filesystem::path& file, const ImuUn
   CsvReader csv(file);
   const ColumnNumbers columns = readHeader(csv);
   const size_t width = csv.columns();
-  IncreasingTimeCheck times;
-  std::vector<ImuSample> samples;
+  RowTimes times;
+  ImuTable table;
+  table.units = units;
   while (csv.next(width)) {
     ImuSample sample;
     const double t_s = to_s * csv.number(columns[0]);
@@ -59,15 +61,16 @@ std::vector<ImuSample> readImuCsv(const std::filesystem::path& file, const ImuUn
                " is no time: give its unit with --time-unit ms, us or ns");
     }
     sample.time = ImuTime(fromSeconds(t_s));
-    times.check(csv, toUtime(sample.time));
+    times.add(csv, toUtime(sample.time));
     for (int axis = 0; axis < 3; ++axis) {
       sample.gyro[axis] = to_rad_s * csv.number(columns[static_cast<size_t>(1 + axis)]);
       sample.accel[axis] = to_m_s2 * csv.number(columns[static_cast<size_t>(4 + axis)]);
     }
-    samples.push_back(sample);
+    table.samples.push_back(sample);
   }
-  if (samples.empty()) throw InputError(file, "holds no samples");
-  return samples;
+  if (table.samples.empty()) throw InputError(file, "holds no samples");
+  times.check(table.samples, table.warnings);
+  return table;
 }
 
 }  // namespace redbee

@@ -18,15 +18,14 @@ struct ImuTable {
 
 /// `source`: a file, or the folder that the app left.
 ///
-/// | recorded by | files | clock |
-/// | --- | --- | --- |
-/// | Sensor Logger | Gyroscope.csv; TotalAcceleration.csv, or Accelerometer.csv and Gravity.csv; Metadata.csv
-/// | that of
-///   the app's own video (Camera/<ms>.mp4), else the start of the recording |
-/// | MARS Logger | gyro_accel.csv; frame_timestamps.txt or movie_metadata.csv | of the frames |
-/// | OpenCamera Sensors | NAME_gyro.csv, NAME_accel.csv, NAME_timestamps.csv | of the frames |
-/// | Gyroflow's loggers | F.gcsv | of the video |
-/// | anything else | see readImuCsv() | of the video |
+/// - Sensor Logger: Gyroscope.csv; TotalAcceleration.csv, or Accelerometer.csv and Gravity.csv; Metadata.csv.
+///   Clock: that of the app's own video (Camera/<ms>.mp4), otherwise the start of the recording.
+/// - MARS Logger: gyro_accel.csv; frame_timestamps.txt or movie_metadata.csv. Clock: of the frames.
+/// - OpenCamera Sensors: NAME_gyro.csv, NAME_accel.csv and NAME_timestamps.csv, or NAMEgyro.csv,
+/// NAMEaccel.csv
+///   and NAME_imu_timestamps.csv. Clock: of the frames.
+/// - Gyroflow's loggers: F.gcsv. Clock: of the video.
+/// - Anything else: readImuCsv(). Clock: of the video.
 ///
 /// Gyro and accelerometer of separate files are joined at the gyro's times. Specific force is positive upward
 /// at rest: an iPhone's signs are turned. Throws InputError with file and line.

@@ -1,5 +1,6 @@
 #include "redbee/importers/recognise.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -25,6 +26,15 @@ bool startsWith(const std::string& text, std::string_view start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
+/// A folder that rosbag2 has recorded.
+bool isRosBag(const fs::path& folder) {
+  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), [](const auto& entry) {
+    fs::path name = entry.path().filename();
+    if (name.extension() == ".zstd") name = name.stem();
+    return name.extension() == ".mcap" || name.extension() == ".db3";
+  });
+}
+
 bool hasMotionTrack(const fs::path& file) {
   try {
     return !readDataTrack(file, "gpmd").empty();
@@ -39,7 +49,8 @@ std::string recogniseRecording(const fs::path& path) {
   if (!fs::exists(path)) throw InputError(path, "no such file or folder");
   if (fs::is_directory(path)) {
     const bool is_asl = fs::is_directory(path / "mav0") || fs::is_directory(path / "cam0");
-    return is_asl ? "asl" : "video";
+    if (is_asl) return "asl";
+    return isRosBag(path) ? "mcap" : "video";
   }
   const std::string start = startOf(path);
   // By its first event, or by its name where that is damaged.

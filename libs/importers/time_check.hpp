@@ -26,4 +26,14 @@ struct TimeFindings {
 /// recording falls apart because a clock was set.
 TimeFindings checkTimes(const std::vector<int64_t>& utimes, TimeOrder order, const std::string& source);
 
+/// The rows for which `keep` has true, one for each.
+template <typename Row>
+std::vector<Row> thoseKept(const std::vector<Row>& rows, const std::vector<bool>& keep) {
+  std::vector<Row> kept;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (keep[i]) kept.push_back(rows[i]);
+  }
+  return kept;
+}
+
 }  // namespace redbee

@@ -8,6 +8,10 @@
 
 namespace redbee {
 
+bool hasColumn(const std::vector<std::string>& header, const std::string& name) {
+  return std::find(header.begin(), header.end(), name) != header.end();
+}
+
 size_t columnOf(const CsvReader& csv, const std::string& name) {
   const auto& header = csv.header();
   const auto found = std::find(header.begin(), header.end(), name);
@@ -40,11 +44,7 @@ std::vector<AxisSample> readVectors(CsvReader& csv, const VectorColumns& columns
   if (rows.empty()) throw InputError(csv.path(), "holds no samples");
   const TimeFindings times = checkTimes(utimes, TimeOrder::kAsTheyCome, csv.path().string());
   for (const std::string& line : times.lines) warnings.push_back(csv.path().string() + ": " + line);
-  std::vector<AxisSample> samples;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    if (times.keep[i]) samples.push_back(rows[i]);
-  }
-  return samples;
+  return thoseKept(rows, times.keep);
 }
 
 std::vector<ImuSample> joinAtGyroTimes(const std::vector<AxisSample>& gyro,

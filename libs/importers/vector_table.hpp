@@ -23,6 +23,8 @@ struct VectorColumns {
   size_t time = 0, x = 0, y = 0, z = 0;
 };
 
+bool hasColumn(const std::vector<std::string>& header, const std::string& name);
+
 /// The place of a column by its name, blanks left out; fails with what is there.
 size_t columnOf(const CsvReader& csv, const std::string& name);
 

@@ -14,7 +14,7 @@ class ImuCsvTest : public testing::Test {
  protected:
   std::vector<ImuSample> read(const std::string& text, const ImuUnits& units = {}) const {
     writeText(folder_ / "imu.csv", text);
-    return readImuCsv(folder_ / "imu.csv", units);
+    return readImuCsv(folder_ / "imu.csv", units).samples;
   }
   ScratchFolder folder_;
 };
@@ -73,8 +73,8 @@ TEST_F(ImuCsvTest, RecordedCasesAreRead) {
   const auto bom = sharedCase("imu_bom.csv");
   const auto quoted = sharedCase("imu_quoted_header.csv");
   if (!bom || !quoted) GTEST_SKIP() << "the cases are not here (REDBEE_SHARED)";
-  EXPECT_EQ(readImuCsv(*bom).size(), 199u);
-  const auto imu = readImuCsv(*quoted);
+  EXPECT_EQ(readImuCsv(*bom).samples.size(), 199u);
+  const auto imu = readImuCsv(*quoted).samples;
   EXPECT_EQ(imu.size(), 99u);
   EXPECT_EQ(toUtime(imu[0].time), -98'333);
   EXPECT_EQ(imu[0].gyro.y(), 0.431329);

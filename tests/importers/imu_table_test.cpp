@@ -74,9 +74,17 @@ TEST_F(ImuTableTest, OpenCameraSensorsTablesHaveNoHeader) {
   const int64_t boot = 7'000'000'000'000;
   write("VID_1_gyro.csv", rows("0,0,G,N", boot, 0));
   write("VID_1_accel.csv", rows("0,A,0,N", boot, 2'000'000));
-  expectError("VID_1_gyro.csv", "VID_1_timestamps.csv");
+  expectError("VID_1_gyro.csv", "has neither VID_1_imu_timestamps.csv nor VID_1_timestamps.csv beside it");
   write("VID_1_timestamps.csv", std::to_string(boot + 50'000'000) + "\n");
   expectMotion(read("VID_1_gyro.csv"), 0.05);
+  expectMotion(read(""), 0.05);
+  // As the app names them since it has records of the magnetic field.
+  for (const char* sensor : {"gyro", "accel"})
+    fs::rename(folder_ / ("VID_1_" + std::string(sensor) + ".csv"),
+               folder_ / ("VID_1" + std::string(sensor) + ".csv"));
+  write("VID_1magnetic.csv", "1,2,3,4\n");
+  fs::rename(folder_ / "VID_1_timestamps.csv", folder_ / "VID_1_imu_timestamps.csv");
+  expectMotion(read("VID_1gyro.csv"), 0.05);
   expectMotion(read(""), 0.05);
 }
 

@@ -107,7 +107,7 @@ TEST_F(RosbagTest, DamagedBagsGiveOneLine) {
   expectError("is no ROS 1 bag");
   writeText(options_.source, "#ROSBAG V2.0\n");
   errorMessage();
-  writeText(options_.source, "SQLite format 3");
+  writeText(options_.source, std::string("SQLite format 3\0", 16));
   expectError("is a ROS 2 bag in SQLite");
   std::string broken = whole;
   for (size_t i = 6000; i < 9000; ++i) broken[i] = 'x';  // within the first chunk

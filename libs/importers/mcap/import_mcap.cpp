@@ -1,10 +1,14 @@
 #include "redbee/importers/mcap/import_mcap.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
+#include "redbee/files/decompress.hpp"
 #include "redbee/files/input_error.hpp"
+#include "redbee/files/input_file.hpp"
 #include "redbee/files/mcap_reader.hpp"
+#include "redbee/files/natural_order.hpp"
 #include "redbee/files/printable.hpp"
 #include "redbee/importers/ros/import_ros.hpp"
 #include "redbee/importers/ros/ros_messages.hpp"
@@ -12,14 +16,48 @@
 namespace redbee {
 namespace {
 
+/// rosbag2 splits a recording into bag_0.mcap, bag_1.mcap, ... in the bag's folder.
+std::vector<std::filesystem::path> mcapFilesOf(const std::filesystem::path& source) {
+  if (!std::filesystem::is_directory(source)) return {source};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(source)) {
+    const std::filesystem::path& file = entry.path();
+    if (file.extension() == ".db3" || file.extension() == ".zstd") requireFile(file);  // says what to do
+    if (file.extension() == ".mcap") files.push_back(file);
+  }
+  if (files.empty()) throw InputError(source, "holds no .mcap file: is it a ROS 2 bag?");
+  std::sort(files.begin(), files.end(), isFileNaturallyBefore);
+  return files;
+}
+
 bool isReadable(const McapChannel& channel) {
   return channel.message_encoding == "cdr" || channel.message_encoding == "ros1";
 }
 
+/// ros2 bag record --compression-mode message packs each message by zstd, and CDR begins otherwise. What
+/// cannot be unpacked stays as it is: no message.
+class MessageUnpacker {
+ public:
+  ByteView unpack(ByteView data) {
+    constexpr size_t kLargestMessage = 256U << 20;
+    const auto size = sizeOfZstdFrame(data, kLargestMessage);
+    if (!size) return data;
+    Decompressed plain = decompress("zstd", data, *size);
+    if (!plain.fault.empty()) return data;
+    bytes_ = std::move(plain.bytes);
+    return {bytes_.data(), bytes_.size()};
+  }
+
+ private:
+  std::vector<uint8_t> bytes_;  ///< of the latest
+};
+
 class McapRecording : public RosRecording {
  public:
-  McapRecording(std::filesystem::path file, bool keep_going)
-      : file_(std::move(file)), reader_(file_), keep_going_(keep_going) {
+  McapRecording(const std::filesystem::path& source, bool keep_going)
+      : source_(source), keep_going_(keep_going) {
+    for (const std::filesystem::path& file : mcapFilesOf(source))
+      parts_.push_back(std::make_unique<McapReader>(file));
     listTopics();
   }
 
@@ -32,13 +70,19 @@ class McapRecording : public RosRecording {
     for (const RosTopic& topic : topics_) {
       if (names.count(topic.name) > 0) wanted[topic.name] = &topic;
     }
-    reader_.read([&](const McapMessage& message) {
-      const auto topic = wanted.find(message.channel->topic);
-      const bool is_wanted = topic != wanted.end() && isReadable(*message.channel) &&
-                             message.channel->schema.name == topic->second->type;
-      return !is_wanted || on_message({topic->second, message.log_ns, message.data});
-    });
-    takeDamage();
+    bool goes_on = true;
+    MessageUnpacker unpacker;
+    for (const auto& part : parts_) {
+      if (!goes_on) return;
+      part->read([&](const McapMessage& message) {
+        const auto topic = wanted.find(message.channel->topic);
+        const bool is_wanted = topic != wanted.end() && isReadable(*message.channel) &&
+                               message.channel->schema.name == topic->second->type;
+        goes_on = !is_wanted || on_message({topic->second, message.log_ns, unpacker.unpack(message.data)});
+        return goes_on;
+      });
+      takeDamage(*part);
+    }
   }
 
  private:
@@ -58,25 +102,28 @@ class McapRecording : public RosRecording {
       }
       topic.messages += messages;
     };
-    if (const auto summary = reader_.summary()) {
-      for (const auto& [channel, messages] : *summary) add(channel, messages);
-    } else {
-      reader_.read([&](const McapMessage& message) {
+    for (const auto& part : parts_) {
+      if (const auto summary = part->summary()) {
+        for (const auto& [channel, messages] : *summary) add(channel, messages);
+        continue;
+      }
+      part->read([&](const McapMessage& message) {
         add(*message.channel, 1);
         return true;
       });
-      takeDamage();
+      takeDamage(*part);
     }
     for (const auto& [name, topic] : by_name) topics_.push_back(topic);
     refuseOtherEncodings(others);
   }
 
   /// Of what has been read.
-  void takeDamage() {
-    const std::string& damage = reader_.damage();
-    if (damage.empty() || !warnings_.empty()) return;
+  void takeDamage(const McapReader& part) {
+    const std::string& damage = part.damage();
+    if (damage.empty()) return;
     if (!keep_going_) throw InputError(damage + "; --keep-going imports what is whole");
-    warnings_.push_back(damage + ": what is whole is imported");
+    const std::string line = damage + ": what is whole is imported";
+    if (std::find(warnings_.begin(), warnings_.end(), line) == warnings_.end()) warnings_.push_back(line);
   }
 
   /// Where no image can be read but something else is there, say what.
@@ -89,11 +136,11 @@ class McapRecording : public RosRecording {
     std::vector<std::string> list;
     for (const auto& [topic, encoding] : others) list.push_back(topic + " (" + encoding + ")");
     throw InputError(
-        file_, "holds no images of ROS messages (cdr, ros1); what it has is not read: " + firstTenOf(list));
+        source_, "holds no images of ROS messages (cdr, ros1); what it has is not read: " + firstTenOf(list));
   }
 
-  std::filesystem::path file_;
-  McapReader reader_;
+  std::filesystem::path source_;
+  std::vector<std::unique_ptr<McapReader>> parts_;  ///< in the order of the recording
   bool keep_going_;
   std::vector<RosTopic> topics_;
   std::vector<std::string> warnings_;
@@ -105,13 +152,13 @@ ImportSummary importMcap(const ImportOptions& options, Progress& progress) {
 
 }  // namespace
 
-std::unique_ptr<RosRecording> openMcap(const std::filesystem::path& file, bool keep_going) {
-  return std::make_unique<McapRecording>(file, keep_going);
+std::unique_ptr<RosRecording> openMcap(const std::filesystem::path& source, bool keep_going) {
+  return std::make_unique<McapRecording>(source, keep_going);
 }
 
 Importer mcapImporter() {
   return rosImporter("mcap", "MCAP, as rosbag2 and Foxglove record it: images, IMU, range, camera_info",
-                     "F.mcap", importMcap);
+                     "F.mcap, or the folder of a ROS 2 bag", importMcap);
 }
 
 }  // namespace redbee

@@ -8,11 +8,11 @@
 
 namespace redbee {
 
-/// Source: an MCAP file. Messages of ROS 2 (CDR) and ROS 1 are read, see rosKindOf().
+/// Source: an MCAP file, or a folder with the parts of one recording. Messages of ROS 2 (CDR) and ROS 1 are read, see rosKindOf().
 Importer mcapImporter();
 
 /// Its topics and messages. `keep_going`: of a file that is damaged, or cut short, what is whole is read,
 /// with a warning. Throws InputError with the fix.
-std::unique_ptr<RosRecording> openMcap(const std::filesystem::path& file, bool keep_going);
+std::unique_ptr<RosRecording> openMcap(const std::filesystem::path& source, bool keep_going);
 
 }  // namespace redbee

@@ -110,7 +110,7 @@ ImportSummary importRosRecording(RosRecording& recording, const ImportOptions& o
   const RosTopics topics = chooseRosTopics(recording.topics(), options.topics, options.source);
   const RosSensors sensors = readRosSensors(recording, topics, options);
   ImportSummary summary;
-  summary.vehicle.name = options.source.stem().string();
+  summary.vehicle.name = std::filesystem::weakly_canonical(options.source).stem().string();
   summary.warnings = sensors.warnings;
   FlightMerger merger(options.log, options.channels, sensors.imu, sensors.altitudes);
   if (topics.imu) merger.requirePlausibleImu(options.source, options.units);

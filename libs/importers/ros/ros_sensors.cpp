@@ -55,11 +55,7 @@ void sortByTime(std::vector<Sample>& samples, const std::string& source, const s
   for (const Sample& sample : samples) utimes.push_back(toUtime(sample.time));
   const TimeFindings times = checkTimes(utimes, TimeOrder::kSorted, source);
   for (const std::string& line : times.lines) warnings.push_back(topic + ": " + line);
-  std::vector<Sample> kept;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    if (times.keep[i]) kept.push_back(samples[i]);
-  }
-  samples = std::move(kept);
+  samples = thoseKept(samples, times.keep);
   const auto isBefore = [](const Sample& a, const Sample& b) { return a.time < b.time; };
   if (!std::is_sorted(samples.begin(), samples.end(), isBefore)) {
     warnings.push_back(topic + ": messages are not in the order of their stamps; they are sorted");

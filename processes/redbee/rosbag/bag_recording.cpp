@@ -23,13 +23,10 @@ const char* const kRepair = " (Debian's python3-rosbag, or python3 -m rosbag.ros
 
 void requireMagic(const std::filesystem::path& file) {
   requireFile(file);
-  std::array<char, 15> bytes{};
+  std::array<char, kMagic.size()> bytes{};
   std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
   const std::string_view start(bytes.data(), bytes.size());
-  if (start == "SQLite format 3")
-    throw InputError(
-        file, "is a ROS 2 bag in SQLite: ros2 bag convert makes an MCAP of it, which import mcap reads");
-  if (start.substr(0, kMagic.size()) != kMagic)
+  if (start != kMagic)
     throw InputError(file, "is no ROS 1 bag: it does not start with '" + std::string(kMagic) + "'");
 }
 
