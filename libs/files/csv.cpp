@@ -131,7 +131,9 @@ int64_t CsvReader::integer(size_t column) const {
   int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
-    fail("'" + text + "' in column " + std::to_string(column + 1) + " is no whole number");
+    const bool is_rounded = text.find_first_of("eE") != std::string::npos && startsLikeNumber(text);
+    fail("'" + text + "' in column " + std::to_string(column + 1) + " is no whole number" +
+         (is_rounded ? ": a spreadsheet has rounded it; take the file as it was recorded" : ""));
   }
   return value;
 }

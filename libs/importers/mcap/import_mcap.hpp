@@ -8,7 +8,8 @@
 
 namespace redbee {
 
-/// Source: an MCAP file, or a folder with the parts of one recording. Messages of ROS 2 (CDR) and ROS 1 are read, see rosKindOf().
+/// Source: an MCAP file, or a folder with the parts of one recording. Messages of ROS 2 (CDR) and ROS 1 are
+/// read, see rosKindOf().
 Importer mcapImporter();
 
 /// Its topics and messages. `keep_going`: of a file that is damaged, or cut short, what is whole is read,
