@@ -10,6 +10,7 @@
 #include "redbee/ins_t.hpp"
 #include "tests/support/gpmf_bytes.hpp"
 #include "tests/support/log_events.hpp"
+#include "tests/support/mp4_edits.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/shared_flight.hpp"
 #include "tests/support/test_video.hpp"
@@ -81,6 +82,28 @@ TEST_F(GoproFileTest, AFewMillisecondsOfAnEditListCount) {
       EXPECT_LT(worst_us, 500) << video_s << " " << track_s;
       EXPECT_GE(frames_.size(), 47u);
     }
+  }
+}
+
+TEST_F(GoproFileTest, WhatWasCutOutLeavesAHole) {
+  video_.track = packets(2);
+  video_.key_every = 10;
+  for (const int b_frames : {0, 2}) {
+    video_.b_frames = b_frames;
+    writeTestVideo(options_.source, video_);
+    // Of the encoder's clock, on which the first frame is shown after those that refer to it.
+    const double first_s = 0.04 * b_frames;
+    setEdits(options_.source, {{0.4, first_s + 0.013}, {0.6, first_s + 1}});
+    import();
+    ASSERT_EQ(frames_.size(), 25u);
+    for (size_t i = 0; i < frames_.size(); ++i) {
+      const auto grey = decodeGrey(frames_[i]);
+      ASSERT_TRUE(grey);
+      const int shown = static_cast<int>(i < 10 ? 1 + i : 15 + i);
+      EXPECT_EQ(numberShownIn(*grey), shown);
+      EXPECT_NEAR(static_cast<double>(frames_[i].utime), 40'000 * shown - 13'000, 100) << shown;
+    }
+    EXPECT_EQ(imu_[0].utime, 0);
   }
 }
 
