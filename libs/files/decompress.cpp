@@ -3,6 +3,7 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
@@ -74,8 +75,12 @@ Decompressed decompress(const std::string& method, ByteView compressed, size_t s
 }
 
 std::optional<size_t> sizeOfZstdFrame(ByteView compressed, size_t most) {
+  // The smallest block is a header of three bytes and one that is repeated: what states more is damaged.
+  constexpr size_t kSmallestBlock = 4, kMostOfBlock = 128 << 10;
+  const size_t possible = compressed.size / kSmallestBlock * kMostOfBlock;
   const unsigned long long size = ZSTD_getFrameContentSize(compressed.data, compressed.size);
-  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size > most) return std::nullopt;
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) return std::nullopt;
+  if (size > std::min(most, possible)) return std::nullopt;
   return static_cast<size_t>(size);
 }
 

@@ -19,7 +19,8 @@ struct Decompressed {
 /// "", "zstd", "lz4"; another is a fault.
 Decompressed decompress(const std::string& method, ByteView compressed, size_t size);
 
-/// The size that a frame of zstd gives, as it states; std::nullopt for anything else, and above `most`.
+/// The size that a frame of zstd gives, as it states; std::nullopt for anything else, above `most`,
+/// and above what its bytes can give.
 std::optional<size_t> sizeOfZstdFrame(ByteView compressed, size_t most);
 
 }  // namespace redbee
