@@ -1,5 +1,7 @@
 #include "redbee/importers/mcap/import_mcap.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -134,7 +136,8 @@ class McapRecording : public RosRecording {
     }
     if (others.empty()) return;
     std::vector<std::string> list;
-    for (const auto& [topic, encoding] : others) list.push_back(topic + " (" + encoding + ")");
+    list.reserve(others.size());
+    for (const auto& [topic, encoding] : others) list.push_back(fmt::format("{} ({})", topic, encoding));
     throw InputError(
         source_, "holds no images of ROS messages (cdr, ros1); what it has is not read: " + firstTenOf(list));
   }
