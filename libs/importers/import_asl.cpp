@@ -52,6 +52,7 @@ std::vector<NamedFrame> readFrameNames(const fs::path& folder, ImportSummary& su
       throw InputError(folder / frames[i].name, "is within a microsecond of " + frames[i - 1].name);
   }
   std::vector<int64_t> utimes;
+  utimes.reserve(frames.size());
   for (const NamedFrame& frame : frames) utimes.push_back(toUtime(frame.time));
   const TimeFindings findings = checkTimes(utimes, TimeOrder::kSorted, folder.string());
   for (const std::string& line : findings.lines) summary.warnings.push_back(folder.string() + ": " + line);

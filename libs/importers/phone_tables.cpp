@@ -122,7 +122,7 @@ fs::path framesOfOpenCamera(const fs::path& gyro) {
   start.erase(start.rfind("gyro.csv"));
   if (!start.empty() && start.back() != '_') start += '_';
   for (const char* end : {"imu_timestamps.csv", "timestamps.csv"}) {
-    const fs::path frames = gyro.parent_path() / (start + end);
+    fs::path frames = gyro.parent_path() / (start + end);
     if (fs::exists(frames)) return frames;
   }
   throw InputError(gyro,

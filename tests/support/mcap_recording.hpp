@@ -14,12 +14,12 @@
 
 namespace redbee::test {
 
-using PackMessage = std::function<std::vector<uint8_t>(std::vector<uint8_t>)>;
+using PackMessage = std::function<std::vector<uint8_t>(const std::vector<uint8_t>&)>;
 
 /// Frames number `first` and on at 20 Hz, 64x48 px, the first of all at 1 s.
 inline void writeMcapRecording(
     const std::filesystem::path& file, int first, int frames, const std::vector<ImuSample>& imu,
-    const PackMessage& pack = [](std::vector<uint8_t> bytes) { return bytes; }) {
+    const PackMessage& pack = [](const std::vector<uint8_t>& bytes) { return bytes; }) {
   std::filesystem::create_directories(file.parent_path());
   McapWriter writer(file, "ros2", "test");
   const uint16_t images = writer.addChannel("/camera", rawImageSchema(), "cdr");
