@@ -21,7 +21,8 @@ EditList::EditList(const std::filesystem::path& file, const AVFormatContext& inp
   auto* shown = const_cast<AVStream*>(&stream);  // ffmpeg's function reads, and takes no const
   for (int i = 0; i < avformat_index_get_entries_count(shown); ++i) {
     const AVIndexEntry* entry = avformat_index_get_entry(shown, i);
-    // From a key frame before the cut, for the decoder; what is shown before an earlier cut may be among them.
+    // From a key frame before the cut, for the decoder; what is shown before an earlier cut may be among
+    // them.
     if ((entry->flags & AVINDEX_DISCARD_FRAME) != 0) continue;
     const auto found = true_times.find(entry->pos);
     if (found != true_times.end() && found->second != entry->timestamp)
