@@ -52,9 +52,10 @@ template <typename Sample>
 void sortByTime(std::vector<Sample>& samples, const std::string& source, const std::string& topic,
                 std::vector<std::string>& warnings) {
   std::vector<int64_t> utimes;
+  utimes.reserve(samples.size());
   for (const Sample& sample : samples) utimes.push_back(toUtime(sample.time));
   const TimeFindings times = checkTimes(utimes, TimeOrder::kSorted, source);
-  for (const std::string& line : times.lines) warnings.push_back(topic + ": " + line);
+  for (const std::string& line : times.lines) warnings.push_back(fmt::format("{}: {}", topic, line));
   samples = thoseKept(samples, times.keep);
   const auto isBefore = [](const Sample& a, const Sample& b) { return a.time < b.time; };
   if (!std::is_sorted(samples.begin(), samples.end(), isBefore)) {
@@ -84,7 +85,7 @@ class ImageTimes {
   std::vector<bool> check(const std::string& source, const std::string& topic,
                           std::vector<std::string>& warnings) const {
     const TimeFindings times = checkTimes(utimes_, TimeOrder::kAsTheyCome, source);
-    for (const std::string& line : times.lines) warnings.push_back(topic + ": " + line);
+    for (const std::string& line : times.lines) warnings.push_back(fmt::format("{}: {}", topic, line));
     std::vector<bool> keep(messages_, true);
     for (size_t i = 0; i < places_.size(); ++i) keep[places_[i]] = times.keep[i];
     return keep;
