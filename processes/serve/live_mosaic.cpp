@@ -14,7 +14,7 @@ namespace {
 constexpr int64_t kKept_us = 2'000'000;       ///< of the chain: longer than a frame's way through the stack
 constexpr int64_t kPointPeriod_us = 100'000;  ///< of a track
 constexpr int kQuality = 85;
-constexpr int kMostRefused = 20;              ///< five seconds
+constexpr int kMostRefused = 20;  ///< five seconds
 
 }  // namespace
 
