@@ -1,5 +1,7 @@
 #include "processes/serve/node.hpp"
 
+#include <malloc.h>
+
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -103,6 +105,7 @@ void ServeNode::followViewers() {
     while_watched_.clear();
     assembly_.dropImages();
     mosaic_.release();
+    malloc_trim(0);  // what the viewers' threads have freed stays with their arenas otherwise
   }
 }
 
