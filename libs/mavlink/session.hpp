@@ -61,6 +61,7 @@ class Session {
   void handleHeartbeat(const Heartbeat& message, int64_t host_ns);
   void handleTimesync(const Frame& frame, int64_t host_ns);
   void handleSensors(const Frame& frame, int64_t host_ns);
+  void handleAttitude(const AttitudeQuaternion& message, int64_t host_ns);
   void handleCamera(const Frame& frame, int64_t host_ns);
   template <typename Message>
   void handleImu(const Frame& frame, int64_t host_ns);
@@ -88,7 +89,8 @@ class Session {
   std::optional<int64_t> heartbeat_ns_;
   uint8_t autopilot_ = 0;  ///< MAV_AUTOPILOT
   std::optional<int64_t> gimbal_device_ns_;
-  std::optional<ImuReading> last_imu_;  ///< since the clock was last set
+  std::optional<int64_t> quaternion_ns_;  ///< of the last ATTITUDE_QUATERNION
+  std::optional<ImuReading> last_imu_;    ///< since the clock was last set
   int64_t next_timesync_ns_ = 0;
   int64_t next_heartbeat_ns_ = 0;
   std::vector<Bytes> outgoing_;

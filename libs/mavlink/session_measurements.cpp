@@ -4,13 +4,15 @@
 #include <optional>
 #include <type_traits>
 
+#include "redbee/mavlink/attitude_message.hpp"
 #include "redbee/mavlink/session.hpp"
 
 namespace redbee::mavlink {
 namespace {
 
-constexpr int64_t kOldest_ns = 1'000'000'000;  // on the way; an older measurement is not of this clock
-constexpr int64_t kAhead_ns = 50'000'000;      // of its arrival: what the estimate may be off by, and more
+constexpr int64_t kOldest_ns = 1'000'000'000;       // on the way; an older measurement is not of this clock
+constexpr int64_t kOtherSilent_ns = 2'000'000'000;  // then the message that says less counts
+constexpr int64_t kAhead_ns = 50'000'000;  // of its arrival: what the estimate may be off by, and more
 
 }  // namespace
 
@@ -76,20 +78,24 @@ void Session::handleSensors(const Frame& frame, int64_t host_ns) {
       return noteTimed(frame.message<GlobalPositionInt>());
     case LocalPositionNed::kId:
       return noteTimed(frame.message<LocalPositionNed>());
-    case AttitudeQuaternion::kId: {
-      const auto message = frame.message<AttitudeQuaternion>();
-      const auto time = timeOf(uint64_t{message.time_boot_ms} * 1000, host_ns);
-      const auto pose = time ? vehicle_.poseAt(message, *time) : std::nullopt;
-      if (pose) measurements_.emplace_back(*pose);
-      return;
-    }
+    case AttitudeQuaternion::kId:
+      quaternion_ns_ = host_ns;
+      return handleAttitude(frame.message<AttitudeQuaternion>(), host_ns);
+    case Attitude::kId:  // the same in angles: only where the quaternion does not come
+      if (quaternion_ns_ && host_ns - *quaternion_ns_ <= kOtherSilent_ns) return;
+      return handleAttitude(quaternionOf(frame.message<Attitude>()), host_ns);
     default:
       return;
   }
 }
 
+void Session::handleAttitude(const AttitudeQuaternion& message, int64_t host_ns) {
+  const auto time = timeOf(uint64_t{message.time_boot_ms} * 1000, host_ns);
+  const auto pose = time ? vehicle_.poseAt(message, *time) : std::nullopt;
+  if (pose) measurements_.emplace_back(*pose);
+}
+
 void Session::handleCamera(const Frame& frame, int64_t host_ns) {
-  constexpr int64_t kDeviceSilent_ns = 2'000'000'000;
   const auto append = [&](const auto& measurement) {
     if (measurement) measurements_.emplace_back(*measurement);
   };
@@ -105,7 +111,7 @@ void Session::handleCamera(const Frame& frame, int64_t host_ns) {
     const auto message = frame.message<GimbalDeviceAttitudeStatus>();
     if (const auto time = bootTimeOf(frame, message.time_boot_ms, host_ns))
       append(vehicle_.gimbalOf(message, *time));
-  } else if (!gimbal_device_ns_ || host_ns - *gimbal_device_ns_ > kDeviceSilent_ns) {
+  } else if (!gimbal_device_ns_ || host_ns - *gimbal_device_ns_ > kOtherSilent_ns) {
     // The older message says less: only where the newer does not come.
     const auto message = frame.message<MountOrientation>();
     if (const auto time = bootTimeOf(frame, message.time_boot_ms, host_ns))

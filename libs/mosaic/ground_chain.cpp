@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <iterator>
 
 namespace redbee {
 
@@ -42,6 +43,38 @@ std::vector<GroundChain::Frame> GroundChain::longestPiece() const {
   return frames;
 }
 
+const GroundChain::Frame* GroundChain::frame(int64_t utime) const {
+  if (pieces_.empty()) return nullptr;
+  const auto found = pieces_.back().find(utime);
+  return found == pieces_.back().end() ? nullptr : &found->second;
+}
+
+const GroundChain::Frame* GroundChain::lastFrame() const {
+  return pieces_.empty() ? nullptr : &pieces_.back().rbegin()->second;
+}
+
+const GroundChain::Frame* GroundChain::lastWithPlane() const {
+  if (pieces_.empty()) return nullptr;
+  const Piece& piece = pieces_.back();
+  const auto found =
+      std::find_if(piece.rbegin(), piece.rend(), [](const auto& entry) { return entry.second.plane; });
+  return found == piece.rend() ? nullptr : &found->second;
+}
+
+void GroundChain::eraseBefore(int64_t utime) {
+  if (pieces_.empty()) return;
+  erased_ += pieces_.size() - 1;
+  pieces_.erase(pieces_.begin(), pieces_.end() - 1);
+  Piece& piece = pieces_.back();
+  // The newest stays, so that the next step finds it.
+  piece.erase(piece.begin(), piece.lower_bound(std::min(utime, piece.rbegin()->first)));
+}
+
+MapReference::MapReference(const GroundChain::Frame& frame, const Eigen::Matrix3d& K_inverse)
+    : is_metric(frame.plane.has_value()),
+      own(is_metric ? groundMap(K_inverse, *frame.plane) : Eigen::Matrix3d::Identity()),
+      H(frame.H) {}
+
 GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K_inverse) {
   GroundFrames result;
   if (piece.empty()) return result;
@@ -54,11 +87,10 @@ GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::M
     reference = k;
     distance = std::abs(k - middle);
   }
-  const GroundChain::Frame& frame = piece[static_cast<size_t>(reference)];
-  result.is_metric = frame.plane.has_value();
-  result.reference = result.is_metric ? groundMap(K_inverse, *frame.plane) : Eigen::Matrix3d::Identity();
-  for (const GroundChain::Frame& other : piece)
-    result.frames.push_back({other.utime, result.reference * frame.H * other.H.inverse()});
+  const MapReference map(piece[static_cast<size_t>(reference)], K_inverse);
+  result.is_metric = map.is_metric;
+  result.reference = map.own;
+  for (const GroundChain::Frame& other : piece) result.frames.push_back({other.utime, map.toMap(other)});
   return result;
 }
 

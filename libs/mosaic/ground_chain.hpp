@@ -38,11 +38,33 @@ class GroundChain {
 
   /// The piece of most frames, in order of time; empty before the first step.
   std::vector<Frame> longestPiece() const;
-  size_t pieces() const { return pieces_.size(); }
+  /// How many have begun.
+  size_t pieces() const { return erased_ + pieces_.size(); }
+
+  /// Of the newest piece; null where no step of it leads to that time.
+  const Frame* frame(int64_t utime) const;
+  /// The last of the newest piece; null before the first step.
+  const Frame* lastFrame() const;
+  /// The last of them that has a plane; null where none has.
+  const Frame* lastWithPlane() const;
+  /// All pieces but the newest, and what it has of earlier times; the next step still goes on from it.
+  void eraseBefore(int64_t utime);
 
  private:
   using Piece = std::map<int64_t, Frame>;
   std::vector<Piece> pieces_;
+  size_t erased_ = 0;
+};
+
+/// The map that a frame lays: in metres where its plane is known, else in its ideal pixels.
+struct MapReference {
+  MapReference(const GroundChain::Frame& frame, const Eigen::Matrix3d& K_inverse);
+  /// From the ideal pixels of a frame of the same piece.
+  Eigen::Matrix3d toMap(const GroundChain::Frame& frame) const { return own * H * frame.H.inverse(); }
+
+  bool is_metric;
+  Eigen::Matrix3d own;  ///< from the ideal pixels of the frame that lays it
+  Eigen::Matrix3d H;    ///< of that frame
 };
 
 /// A frame's way to the map.
@@ -51,8 +73,7 @@ struct MappedFrame {
   Eigen::Matrix3d to_map;  ///< from its ideal pixels
 };
 
-/// The map is that of the plane in the middle of the piece, in metres; without any plane it is the middle
-/// frame's image, in its ideal pixels, and `is_metric` is false.
+/// The map is that of the plane in the middle of the piece; without any plane that of the middle frame.
 struct GroundFrames {
   std::vector<MappedFrame> frames;
   bool is_metric = false;

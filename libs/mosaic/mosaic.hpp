@@ -32,6 +32,12 @@ class Mosaic {
  public:
   explicit Mosaic(const MosaicGrid& grid);
 
+  /// Before add(), where the grid was not made for all frames: it grows, in steps, to what this one shows,
+  /// with no side above `most_px`: where one would be, every pixel becomes twice as coarse. From a greater
+  /// height coarser pixels are used. Returns false, and does nothing, for what lies so far off that it can be
+  /// no neighbour of the frames before.
+  bool makeRoomFor(const Eigen::Matrix3d& to_map, cv::Size image, int most_px);
+
   /// `image`: BGR, ideal camera; `left_out`: of its size, not 0 where a pixel is not ground (movers, unknown
   /// pixels).
   void add(const cv::Mat3b& image, const cv::Mat1b& left_out, const Eigen::Matrix3d& to_map);
@@ -40,8 +46,12 @@ class Mosaic {
   cv::Mat3b image() const;
   /// 255 where a frame shows the ground.
   cv::Mat1b known() const;
+  const MosaicGrid& grid() const { return grid_; }
 
  private:
+  void halve();
+  void grow(const Eigen::Array2i& before, const Eigen::Array2i& behind);
+
   MosaicGrid grid_;
   cv::Mat3f sum_;
   cv::Mat1f weight_;

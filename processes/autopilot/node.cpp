@@ -16,6 +16,7 @@ namespace redbee {
 namespace {
 
 constexpr int64_t kImuSilence_ns = 1'000'000'000;
+constexpr int64_t kPoseSilence_ns = 3'000'000'000;
 constexpr double kMaxClockSigma_s = 0.02;  // more than half a frame's distance is of no use
 
 /// The configured vehicle, whoever else sends to the port.
@@ -79,6 +80,7 @@ void AutopilotNode::publish(const mavlink::Measurement& measurement) {
     publishOn(channels.altimeter, messageOf(*height));
   } else if (const auto* pose = std::get_if<mavlink::Pose>(&measurement)) {
     publishOn(channels.pose, messageOf(*pose));
+    pose_ns_ = link_.now();
   } else if (const auto* gimbal = std::get_if<mavlink::GimbalAttitude>(&measurement)) {
     publishOn(channels.gimbal, messageOf(*gimbal));
   } else if (const auto* lens = std::get_if<mavlink::Lens>(&measurement)) {
@@ -121,6 +123,10 @@ void AutopilotNode::describeState(int64_t now_ns) {
     return degraded("the autopilot's clock is known to more than 20 ms only");
   if (now_ns - imu_ns_ > kImuSilence_ns)
     return degraded(session_.autopilotName() + " sends no message of an IMU");
+  if (configuration_.geolocation.enabled && now_ns - pose_ns_ > kPoseSilence_ns) {
+    return degraded(session_.autopilotName() + " sends no attitude: there is no " +
+                    configuration_.channels.pose);
+  }
   health_.setState(HealthState::kGood);
 }
 

@@ -41,7 +41,8 @@ class AutopilotNode : public Node {
   KeptLink link_;
   mavlink::Session session_;
   mavlink::SessionCounters reported_;
-  int64_t imu_ns_ = 0;  ///< when the last sample arrived
+  int64_t imu_ns_ = 0;   ///< when the last sample arrived
+  int64_t pose_ns_ = 0;  ///< and when the last attitude did
 };
 
 }  // namespace redbee

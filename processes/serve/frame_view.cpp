@@ -62,6 +62,17 @@ std::vector<uint8_t> jpegOf(const image_t& image) {
 
 std::string textOf(const json& json) { return json.dump(-1, ' ', false, json::error_handler_t::replace); }
 
+std::string bundleOf(const json& head, const std::vector<uint8_t>& image, const std::vector<uint8_t>& mask) {
+  const std::string text = textOf(head);
+  std::string bundle;
+  bundle.reserve(4 + text.size() + image.size() + mask.size());
+  for (const int shift : {24, 16, 8, 0}) bundle += static_cast<char>(text.size() >> shift & 0xff);
+  bundle += text;
+  bundle.append(image.begin(), image.end());
+  bundle.append(mask.begin(), mask.end());
+  return bundle;
+}
+
 std::string bundleOf(const FrameView& view, int64_t sequence) {
   std::vector<uint8_t> jpeg;
   cv::Size size;
@@ -80,14 +91,7 @@ std::string bundleOf(const FrameView& view, int64_t sequence) {
     head["detections"] = detectionsJson(*view.detections);
     head["trails"] = trailsJson(view.trails);
   }
-  const std::string text = textOf(head);
-  std::string bundle;
-  bundle.reserve(4 + text.size() + jpeg.size() + view.mask.size());
-  for (const int shift : {24, 16, 8, 0}) bundle += static_cast<char>(text.size() >> shift & 0xff);
-  bundle += text;
-  bundle.append(jpeg.begin(), jpeg.end());
-  bundle.append(view.mask.begin(), view.mask.end());
-  return bundle;
+  return bundleOf(head, jpeg, view.mask);
 }
 
 }  // namespace redbee

@@ -31,6 +31,10 @@ struct FrameView {
 /// is left out and said in `note`.
 std::string bundleOf(const FrameView& view, int64_t sequence);
 
+/// The same with another JSON, which states image_bytes and mask_bytes.
+std::string bundleOf(const nlohmann::json& head, const std::vector<uint8_t>& image,
+                     const std::vector<uint8_t>& mask);
+
 /// Bad UTF-8, which a message may hold, is replaced.
 std::string textOf(const nlohmann::json& json);
 

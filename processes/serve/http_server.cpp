@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@
 #include <thread>
 #include <utility>
 
+#include "processes/serve/request_stream.hpp"
 #include "redbee/files/new_file.hpp"
 #include "redbee/files/user_error.hpp"
 
@@ -28,8 +30,8 @@ constexpr size_t kThreads = 3 * Live::kMostViewers;
 constexpr size_t kLongestBody = 4096;    ///< bytes; no request of ours has one
 constexpr size_t kFilePart = 64 * 1024;  ///< bytes
 constexpr std::chrono::milliseconds kKeepAlive{1000};
-constexpr time_t kWriteTimeout_s = 5;
-constexpr size_t kMostRequests = 1'000'000;  ///< on one connection
+constexpr std::chrono::milliseconds kIdle{5000};       ///< that a connection may be between requests
+constexpr std::chrono::milliseconds kStopPeriod{200};  ///< in which an idle one learns that the server stops
 
 WebRequest requestOf(const httplib::Request& from) {
   WebRequest request{from.method, from.path, {}, {}};
@@ -161,8 +163,32 @@ void listenAt(httplib::Server& server, const ListenAddress& address) {
 
 }  // namespace
 
+/// httplib's, but for how it reads and writes.
+class BoundedServer : public httplib::Server {
+ private:
+  bool isStopping() const { return svr_sock_ == INVALID_SOCKET; }
+
+  bool waitForRequest(RequestStream& stream) const {
+    for (std::chrono::milliseconds waited{0}; waited < kIdle && !isStopping(); waited += kStopPeriod) {
+      if (stream.waitForRequest(kStopPeriod)) return true;
+    }
+    return false;
+  }
+
+  bool process_and_close_socket(int socket) override {
+    RequestStream stream(socket);
+    bool is_closed = false;
+    while (!is_closed && waitForRequest(stream)) {
+      if (!process_request(stream, false, is_closed, nullptr) || stream.isExhausted()) break;
+    }
+    shutdown(socket, SHUT_RDWR);
+    close(socket);
+    return true;
+  }
+};
+
 struct HttpServer::Implementation {
-  httplib::Server server;
+  BoundedServer server;
   std::thread thread;
 };
 
@@ -171,10 +197,8 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
   httplib::Server& server = implementation_->server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_payload_max_length(kLongestBody);
-  server.set_write_timeout(kWriteTimeout_s);
-  server.set_keep_alive_max_count(kMostRequests);
   // Nothing else ends the wait at a Unix socket when the server is to stop.
-  server.set_idle_interval(std::chrono::milliseconds(200));
+  server.set_idle_interval(kStopPeriod);
   server.set_tcp_nodelay(true);
   // Not httplib's SO_REUSEPORT: a second server would be given half of the connections.
   server.set_socket_options([](int socket) {

@@ -55,7 +55,8 @@ MapBuilder::MapBuilder(const Configuration& configuration)
     : camera_(configuration.camera),
       R_IC_(configuration.inertial.extrinsics.R_CI.transpose()),
       timeshift_us_(fromSeconds(configuration.inertial.extrinsics.timeshift_s).count()),
-      has_gimbal_(configuration.geolocation.mount == "gimbal" || configuration.inertial.gimbal.enabled) {}
+      has_gimbal_(configuration.geolocation.mount == "gimbal" || configuration.inertial.gimbal.enabled),
+      has_autopilot_(!configuration.autopilot.link.empty()) {}
 
 void MapBuilder::onPose(const pose_t& pose) {
   pose_ = pose;
@@ -109,7 +110,9 @@ MapView MapBuilder::view(int64_t utime) const {
 
 void MapBuilder::addOwn(int64_t utime, MapView& view) const {
   if (!pose_) {
-    view.note = "no POSE: the position comes from redbee-autopilot, which needs autopilot.link";
+    view.note = has_autopilot_
+                    ? "no POSE has come from redbee-autopilot, whose line says why"
+                    : "no POSE: the position comes from redbee-autopilot, which needs autopilot.link";
     return;
   }
   if (const int64_t age = utime + timeshift_us_ - pose_->utime; age > kStale_us) {

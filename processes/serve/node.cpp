@@ -1,5 +1,7 @@
 #include "processes/serve/node.hpp"
 
+#include <malloc.h>
+
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -62,11 +64,12 @@ Subscription ServeNode::on(const std::string& channel, Handler handler) {
                                      [this] { health_.noteDamaged(); });
 }
 
-ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live)
+ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live, LiveMosaic& mosaic)
     : bus_(bus),
       channels_(configuration.channels),
       health_(programName(kServe), configurationHash(configuration)),
       live_(live),
+      mosaic_(mosaic),
       assembly_(configuration),
       map_(configuration) {
   always_.push_back(on<detections_t>(channels_.detections, [this](const detections_t& m) {
@@ -77,6 +80,7 @@ ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live)
   }));
   always_.push_back(on<fused_homography_t>(channels_.fused_homography, [this](const fused_homography_t& m) {
     map_.onFused(m);
+    mosaic_.onFused(m);
     assembly_.onFused(m);
   }));
   always_.push_back(on<pose_t>(channels_.pose, [this](const pose_t& m) { map_.onPose(m); }));
@@ -100,6 +104,8 @@ void ServeNode::followViewers() {
   } else {
     while_watched_.clear();
     assembly_.dropImages();
+    mosaic_.release();
+    malloc_trim(0);  // what the viewers' threads have freed stays with their arenas otherwise
   }
 }
 
@@ -119,6 +125,7 @@ bool ServeNode::processNext() {
   followViewers();
   if (auto view = assembly_.takeFrame()) {
     health_.notePublished(fromUtime(view->utime));
+    mosaic_.onFrame(*view, Clock::now());
     live_.setFrame(std::move(*view));
   }
   publishHealth();

@@ -9,6 +9,7 @@
 #include "processes/serve/frame_assembly.hpp"
 #include "processes/serve/live.hpp"
 #include "processes/serve/live_map.hpp"
+#include "processes/serve/live_mosaic.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/node/message_check.hpp"
 #include "redbee/node/node.hpp"
@@ -18,7 +19,7 @@ namespace redbee {
 /// Images and masks, the bulk of what is published, are subscribed to only while somebody looks.
 class ServeNode : public Node {
  public:
-  ServeNode(Bus& bus, const Configuration& configuration, Live& live);
+  ServeNode(Bus& bus, const Configuration& configuration, Live& live, LiveMosaic& mosaic);
 
   bool processNext() override;
   void finish() override { live_.close(); }
@@ -38,6 +39,7 @@ class ServeNode : public Node {
   Channels channels_;
   HealthMonitor health_;
   Live& live_;
+  LiveMosaic& mosaic_;
   FrameAssembly assembly_;
   LiveMap map_;
   HealthBoard board_;

@@ -85,11 +85,13 @@ void serve(const ServeOptions& options) {
   if (!address) throw UserError("--listen " + parameters.listen + ": must be " + kListenForms);
   Live live;
   Archive archive(configuration, folders);
+  LiveMosaic mosaic(configuration);
   Station station(Access(*address, readToken(parameters.token_file), parameters.allow_writes), archive, live,
                   supervisedStack());
+  station.showMosaic(mosaic);
   station.showTiles(options.tiles);
   const auto bus = makeLcmBus(options.url);
-  ServeNode node(*bus, configuration, live);
+  ServeNode node(*bus, configuration, live, mosaic);
   const std::atomic<bool>& stop = stopOnSignals();
   const HttpServer server(*address, station, live);
   spdlog::info("redbee-serve: configuration {} ({}), {}: {}", options.configuration.string(),

@@ -139,6 +139,7 @@ WebResponse Station::route(const WebRequest& request) {
     return response;
   }
   if (request.path == "/api/frame") return liveFrame(request);
+  if (request.path == "/api/mosaic") return liveMosaic(request);
   if (request.path == "/api/state") return state();
   if (request.path == "/api/flights") return flights();
   if (request.path == "/api/flight") return flight(request);
@@ -157,6 +158,14 @@ WebResponse Station::liveFrame(const WebRequest& request) const {
   // Another number than the newest: older, or that of a server before a restart.
   if (!frame || frame->sequence() == *after) return plain(204, "");
   return bytesResponse(frame->bundle());
+}
+
+WebResponse Station::liveMosaic(const WebRequest& request) const {
+  const auto after = numberOf(request.parameter("after"));
+  if (!after) return plain(400, "after: must be the number of a mosaic");
+  const auto newest =
+      mosaic_ == nullptr ? nullptr : mosaic_->newest(*after, std::chrono::steady_clock::now());
+  return newest ? bytesResponse(*newest) : plain(204, "");
 }
 
 WebResponse Station::state() const {

@@ -10,6 +10,7 @@
 #include "processes/serve/access.hpp"
 #include "processes/serve/archive.hpp"
 #include "processes/serve/live.hpp"
+#include "processes/serve/live_mosaic.hpp"
 #include "processes/serve/web.hpp"
 
 namespace redbee {
@@ -33,6 +34,9 @@ class Station {
   /// Shows the map's tiles in a folder: z/x/y.png of the WebMercator tiling, as map servers call them.
   void showTiles(std::filesystem::path folder) { tiles_ = std::move(folder); }
 
+  /// What grows while the stack flies; it must outlive the station.
+  void showMosaic(LiveMosaic& mosaic) { mosaic_ = &mosaic; }
+
   /// Never throws.
   WebResponse answer(const WebRequest& request);
   /// By the headers alone, so that the body of who may not ask is not read; nor is one that is too long or of
@@ -42,6 +46,7 @@ class Station {
  private:
   WebResponse route(const WebRequest& request);
   WebResponse liveFrame(const WebRequest& request) const;
+  WebResponse liveMosaic(const WebRequest& request) const;
   WebResponse flights() const;
   WebResponse flight(const WebRequest& request);
   WebResponse flightFrame(const WebRequest& request);
@@ -55,7 +60,8 @@ class Station {
   Archive& archive_;
   Live& live_;
   StackControl control_;
-  std::filesystem::path tiles_;  ///< empty: none
+  LiveMosaic* mosaic_ = nullptr;  ///< null: none
+  std::filesystem::path tiles_;   ///< empty: none
 };
 
 /// The number in a text of digits alone; std::nullopt for any other.

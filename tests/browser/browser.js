@@ -12,7 +12,7 @@ class Browser {
     browser.profile = fs.mkdtempSync(path.join(os.tmpdir(), 'redbee-browser-'));
     browser.process = spawn(program, ['--headless', '--no-sandbox', '--disable-gpu', '--hide-scrollbars', '--no-first-run',
       '--disable-background-networking', '--disable-dev-shm-usage', '--force-color-profile=srgb', '--remote-debugging-pipe',
-      `--user-data-dir=${browser.profile}`, 'about:blank'], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+      `--user-data-dir=${browser.profile}`, 'about:blank'], {detached: true, stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
     browser.next = 1;
     browser.waiting = new Map();
     browser.errors = [];
@@ -62,7 +62,8 @@ class Browser {
   }
 
   async close() {
-    this.process.kill('SIGKILL');
+    // With the processes that it has started, which write into the profile.
+    process.kill(-this.process.pid, 'SIGKILL');
     await new Promise((resolve) => this.process.on('close', resolve));
     fs.rmSync(this.profile, {recursive: true, force: true, maxRetries: 20, retryDelay: 100});
   }

@@ -180,6 +180,33 @@ async function record(page) {
   console.log('recorded: started and stopped by the button');
 }
 
+/** It grows while it is open, is ground nearly everywhere that it is anything, and is asked for only while it is open. */
+async function mosaic(page) {
+  const asked = () => page.value('performance.getEntriesByType("resource").filter((entry) => entry.name.includes("/api/mosaic")).length');
+  assert(await asked() === 0, 'the mosaic is asked for before it is opened');
+  await page.press('m');
+  const {frames: first, known: little} = await mosaicAfter(page, 0);
+  const {frames, known, unit, tracks} = await mosaicAfter(page, first + 8, 'Number(document.getElementById("mosaic").dataset.tracks) > 0');
+  assert(unit === 'm', `the mosaic is in ${unit}`);
+  assert(known > little, `it shows ${known} pixels, before ${little}`);
+  await page.screenshot(path.join(screenshots, 'mosaic.png'), 1400);
+  await page.press('m');
+  const before = await asked();
+  await new Promise((done) => setTimeout(done, 3000));
+  assert(await asked() <= before + 1, 'the mosaic is asked for while it is closed');
+  console.log(`mosaic: ${frames} frames, ${known} pixels of ground, ${tracks} tracks`);
+}
+
+async function mosaicAfter(page, frames, condition = 'true') {
+  await page.until('the mosaic grows', `Number(document.getElementById("mosaic").dataset.frames) > ${frames} && ${condition}`);
+  return page.value(`(() => {
+    const canvas = document.getElementById('mosaic');
+    const pixels = new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+    const known = pixels.reduce((sum, pixel) => sum + ((pixel & 0xff) > 24), 0);
+    return {...canvas.dataset, frames: Number(canvas.dataset.frames), known};
+  })()`);
+}
+
 async function main() {
   const browser = await Browser.start(chromium);
   try {
@@ -191,11 +218,14 @@ async function main() {
     await compareWithTargets(page);
     await replay(page);
     await record(page);
+    await mosaic(page);
     await page.screenshot(path.join(screenshots, 'desktop.png'), 1400);
     const phone = await browser.open(url, 390, 844, true);
     await goesOn(phone, 'a phone');
     const width = await phone.value('document.documentElement.scrollWidth');
     assert(width <= 390, `on a phone the page is ${width} px wide`);
+    await phone.press('m');
+    await mosaicAfter(phone, 0);
     await phone.screenshot(path.join(screenshots, 'phone.png'), 390, true);
     await page.send('Page.bringToFront');
     await surviveKills(page);

@@ -7,6 +7,7 @@
 
 #include "processes/autopilot/node.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/mavlink/attitude_message.hpp"
 #include "redbee/mavlink/encoder.hpp"
 #include "redbee/mavlink/messages.hpp"
 #include "redbee/mavlink/parser.hpp"
@@ -77,12 +78,18 @@ class SimulatedLink : public Link {
 class AutopilotNodeTest : public testing::Test {
  protected:
   AutopilotNodeTest() {
+    node_ = nodeOf(configuration());
+    subscription_ = bus_->subscribe<ins_t>("IMU", 1000, [this](const ins_t& m) { imu_.push_back(m); });
+  }
+  static Configuration configuration() {
     Configuration configuration;
     configuration.camera = intrinsics();
     configuration.autopilot.link = "serial:/dev/ttyACM0:921600";
-    node_ = std::make_unique<AutopilotNode>(*bus_, configuration, std::make_unique<SimulatedLink>(device_),
-                                            [this] { return device_.now_ns; });
-    subscription_ = bus_->subscribe<ins_t>("IMU", 1000, [this](const ins_t& m) { imu_.push_back(m); });
+    return configuration;
+  }
+  std::unique_ptr<AutopilotNode> nodeOf(const Configuration& configuration) {
+    return std::make_unique<AutopilotNode>(*bus_, configuration, std::make_unique<SimulatedLink>(device_),
+                                           [this] { return device_.now_ns; });
   }
   /// The clock of a closed link stands still: it is moved here.
   void passWhileClosed(int64_t ms) {
@@ -140,6 +147,23 @@ TEST_F(AutopilotNodeTest, SaysWhatIsMissing) {
   EXPECT_THAT(health().message, HasSubstr("PX4 sends no message of an IMU"));
   node_->health().setInputSilence(5);
   EXPECT_THAT(health().message, HasSubstr("PX4 sends no message of an IMU; no input for 5 s"));
+}
+
+TEST_F(AutopilotNodeTest, SaysThatThereIsNoPoseWhereTargetsNeedOne) {
+  Configuration with_targets = configuration();
+  with_targets.geolocation.enabled = true;
+  node_ = nodeOf(with_targets);
+  sendHeartbeat();
+  run(2500);
+  sendHeartbeat();
+  sendImu();
+  run(3);
+  EXPECT_THAT(health().message, HasSubstr("PX4 sends no attitude: there is no POSE"));
+  device_.incoming.push_back(device_.encoder.encode(
+      mavlink::Attitude{static_cast<uint32_t>((device_.now_ns - kBoot_ns) / 1'000'000)}));
+  sendImu();
+  run(3);
+  EXPECT_EQ(health().state, process_health_t::GOOD) << health().message;
 }
 
 TEST_F(AutopilotNodeTest, OpensADeviceThatGoesAgainLessAndLessOften) {

@@ -46,6 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const Configuration configuration = fuzz::smallVehicle();
   static Live live;
   static Archive archive(configuration, {folder / "flights"});
+  static LiveMosaic mosaic(configuration);
   const StackControl control{[] { return std::optional<bool>(); },
                              [](const std::string&, const std::string& process) {
                                if (process.find_first_of("<>&") != std::string::npos) abort();
@@ -55,6 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const WebRequest request = fuzz::requestOf(lines);
   for (const char* token : {"", "0123456789abcdef"}) {
     Station station(Access(*listenAddressOf("127.0.0.1:1"), token, true), archive, live, control);
+    station.showMosaic(mosaic);
     station.answer(request);
   }
   if (const auto address = listenAddressOf(lines[0]);

@@ -2,6 +2,7 @@
 // definitions, and against the documented values.
 #include <gtest/gtest.h>
 
+#include "redbee/mavlink/attitude_message.hpp"
 #include "redbee/mavlink/encoder.hpp"
 #include "redbee/mavlink/message_table.hpp"
 #include "redbee/mavlink/messages.hpp"
@@ -17,7 +18,7 @@ class MessageLayoutOf : public testing::Test {};
 using Ours =
     testing::Types<Heartbeat, Timesync, CommandLong, CommandInt, CommandAck, CameraInformation,
                    CameraSettings, MountOrientation, GimbalDeviceAttitudeStatus, CameraTrackingImageStatus,
-                   CameraTrackingGeoStatus, HighresImu, RawImu, ScaledImu2, AttitudeQuaternion,
+                   CameraTrackingGeoStatus, HighresImu, RawImu, ScaledImu2, Attitude, AttitudeQuaternion,
                    LocalPositionNed, GlobalPositionInt, GpsRawInt, DistanceSensor>;
 TYPED_TEST_SUITE(MessageLayoutOf, Ours);
 

@@ -102,6 +102,28 @@ TEST(MavlinkSession, ARebootGivesNoWrongTime) {
   EXPECT_GT(flight.session.counters().other_times, 0);
 }
 
+/// As over a telemetry link, whose streams are set by others and which hands no requests on.
+TEST(MavlinkSession, TakesTheAttitudeInAnglesWhereTheQuaternionDoesNotCome) {
+  for (const bool has_quaternion : {false, true}) {
+    Flight flight;
+    flight.autopilot.streamed_attitude = Attitude{0, 0.1F, -0.2F, 2.5F, 0, 0, 0};
+    if (!has_quaternion) flight.autopilot.has = {HighresImu::kId};
+    flight.run(4000);
+    flight.measurements.clear();
+    flight.run(2000);
+    const auto poses = flight.take<Pose>();
+    const size_t rate = has_quaternion ? static_cast<size_t>(flight.parameters.attitude_rate_hz) : 2;
+    EXPECT_NEAR(static_cast<double>(poses.size()), 2.0 * static_cast<double>(rate), 2);
+    if (has_quaternion) continue;
+    ASSERT_FALSE(poses.empty());
+    // Yaw 2.5 from north over east; pitch -0.2 is nose down; roll 0.1 lowers the right side.
+    const Eigen::Matrix3d R = poses.back().enu_from_flu.toRotationMatrix();
+    EXPECT_NEAR(std::atan2(R(0, 0), R(1, 0)), 2.5, 1e-6);
+    EXPECT_NEAR(R(2, 0), std::sin(-0.2), 1e-6);
+    EXPECT_NEAR(R(2, 1), std::sin(0.1) * std::cos(0.2), 1e-6);
+  }
+}
+
 TEST(MavlinkSession, AsksAgainAfterAReboot) {
   Flight flight;
   flight.run(4000);

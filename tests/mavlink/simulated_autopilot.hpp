@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "redbee/mavlink/attitude_message.hpp"
 #include "redbee/mavlink/messages.hpp"
 #include "redbee/mavlink/sensor_messages.hpp"
 #include "redbee/mavlink/session.hpp"
@@ -24,6 +26,7 @@ class Autopilot {
   std::vector<uint32_t> has{HighresImu::kId, AttitudeQuaternion::kId};
   int64_t boot_ns = 7'000'000'000;  ///< our clock
   Encoder encoder{1, 1};
+  std::optional<Attitude> streamed_attitude;  ///< twice a second, though nobody asks for it
   std::map<uint32_t, float> intervals_us;
   int heartbeats_heard = 0;
 
@@ -70,6 +73,10 @@ class Autopilot {
     if (is_due(RawImu::kId)) frames.push_back(encoder.encode(RawImu{microseconds(now_ns), 0, 0, -1000}));
     if (is_due(ScaledImu2::kId)) frames.push_back(encoder.encode(ScaledImu2{ms, 0, 0, -1000}));
     if (is_due(AttitudeQuaternion::kId)) frames.push_back(encoder.encode(AttitudeQuaternion{ms}));
+    if (streamed_attitude && now_ns / kMs % 500 == 0) {
+      streamed_attitude->time_boot_ms = ms;
+      frames.push_back(encoder.encode(*streamed_attitude));
+    }
     return frames;
   }
 

@@ -61,32 +61,30 @@ void runStack(LogReader& log, const std::filesystem::path& file, const Configura
 
 }  // namespace
 
-void GroundObserver::onFused(const fused_homography_t& fused) {
-  if (const auto motion = rowMotionOf(fused.row_motion)) row_motions_[fused.utime] = *motion;
+void note(const fused_homography_t& fused, GroundChain& chain) {
   if (fused.source == fused_homography_t::NONE) return;
-  chain_.addStep(fused.utime_previous, fused.utime, matrix3(fused.step.H));
+  chain.addStep(fused.utime_previous, fused.utime, matrix3(fused.step.H));
   if (fused.has_motion == 0) return;
   const plane_motion_t& m = fused.motion;
-  chain_.setPlane(fused.utime_previous, {{m.normal[0], m.normal[1], m.normal[2]}, m.distance});
+  chain.setPlane(fused.utime_previous, {{m.normal[0], m.normal[1], m.normal[2]}, m.distance});
+}
+
+void GroundObserver::onFused(const fused_homography_t& fused) {
+  if (const auto motion = rowMotionOf(fused.row_motion)) row_motions_[fused.utime] = *motion;
+  note(fused, chain_);
 }
 
 void GroundObserver::onForeground(const foreground_t& foreground) {
   if (foreground.status == foreground_t::GOOD) masks_[foreground.utime] = foreground.mask;
 }
 
-const std::vector<uint8_t>* GroundObserver::mask(int64_t utime) const {
-  const auto it = masks_.find(utime);
-  return it == masks_.end() ? nullptr : &it->second;
-}
-
-const detections_t* GroundObserver::detections(int64_t utime) const {
-  const auto it = detections_.find(utime);
-  return it == detections_.end() ? nullptr : &it->second;
-}
-
-std::optional<RowMotion> GroundObserver::rowMotion(int64_t utime) const {
-  const auto it = row_motions_.find(utime);
-  return it == row_motions_.end() ? std::nullopt : std::optional(it->second);
+ObservedFrame GroundObserver::frame(int64_t utime) const {
+  const auto mask = masks_.find(utime);
+  const auto detections = detections_.find(utime);
+  const auto motion = row_motions_.find(utime);
+  return {mask == masks_.end() ? nullptr : &mask->second,
+          detections == detections_.end() ? nullptr : &detections->second,
+          motion == row_motions_.end() ? std::nullopt : std::optional(motion->second)};
 }
 
 GroundObserver observeGround(const std::filesystem::path& file, const Configuration& configuration) {

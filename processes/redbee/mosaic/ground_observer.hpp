@@ -7,14 +7,17 @@
 #include <optional>
 #include <vector>
 
+#include "processes/redbee/mosaic/frame_painter.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
-#include "redbee/mosaic/ground_chain.hpp"
 
 namespace redbee {
+
+/// The step of the ground's homography and its plane, if it has them. Precondition: the message is plausible.
+void note(const fused_homography_t& fused, GroundChain& chain);
 
 class GroundObserver {
  public:
@@ -26,13 +29,8 @@ class GroundObserver {
   void onDamaged() { ++damaged_; }
 
   const GroundChain& chain() const { return chain_; }
-  /// PNG on the raw image's grid, 255 moving, of the frame at this time; null where there is no valid one.
-  const std::vector<uint8_t>* mask(int64_t utime) const;
-  /// Null where there are none.
-  const detections_t* detections(int64_t utime) const;
-  /// Of a rolling shutter's image at this time.
-  std::optional<RowMotion> rowMotion(int64_t utime) const;
-  const std::map<int64_t, detections_t>& detections() const { return detections_; }
+  /// At this time.
+  ObservedFrame frame(int64_t utime) const;
   /// Messages that cannot be decoded or are implausible.
   int64_t damaged() const { return damaged_; }
 

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "processes/rectified_camera.hpp"
+#include "processes/redbee/mosaic/frame_painter.hpp"
 #include "processes/redbee/mosaic/geotiff_file.hpp"
 #include "processes/redbee/mosaic/ground_observer.hpp"
 #include "processes/redbee/mosaic/ground_ties.hpp"
@@ -18,7 +18,6 @@
 #include "redbee/files/json_file.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/files/progress.hpp"
-#include "redbee/image_codec/image_codec.hpp"
 #include "redbee/mosaic/mosaic.hpp"
 #include "redbee/node/message_check.hpp"
 #include "redbee/results/png_file.hpp"
@@ -26,38 +25,11 @@
 namespace redbee {
 namespace {
 
-constexpr int kMargin_px = 6;  ///< around masks, whose edges are not sharp
-
-/// On the ideal grid: not 0 where no ground is: movers by the mask and by the boxes, which cover what a mask
-/// misses, and what the camera does not show.
-cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, int64_t utime,
-                  const std::optional<RowMotion>& row_motion) {
-  const CameraIntrinsics& raw_camera = camera.camera().intrinsics();
-  cv::Mat1b raw = cv::Mat1b::zeros(raw_camera.height, raw_camera.width);
-  if (const auto* png = ground.mask(utime)) {
-    const cv::Mat1b mask = decodeGreyImage(*png);
-    if (mask.size() == raw.size()) raw = mask.clone();
-  }
-  if (const detections_t* detections = ground.detections(utime)) {
-    for (const detection_t& d : detections->detections)
-      cv::rectangle(raw, cv::Rect(d.x, d.y, d.width, d.height), cv::Scalar(255), cv::FILLED);
-  }
-  cv::Mat1b ideal = camera.rectifier().toIdeal(raw, row_motion);
-  const int side = 2 * kMargin_px + 1;
-  cv::dilate(ideal, ideal, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
-  if (!camera.rectifier().unknown().empty()) ideal |= camera.rectifier().unknown();
-  return ideal;
-}
-
-/// Without a mask nothing says what moves.
-bool isDrawn(const GroundObserver& ground, int64_t utime) { return ground.mask(utime) != nullptr; }
-
 int64_t draw(const MosaicOptions& options, const Configuration& configuration, GroundObserver& ground,
              const GroundFrames& frames, Mosaic& mosaic, GroundTieFinder& ties) {
   std::map<int64_t, const MappedFrame*> by_time;
   for (const MappedFrame& frame : frames.frames) by_time[frame.utime] = &frame;
-  RectifiedCamera camera(configuration.camera);
-  HealthMonitor health("redbee-mosaic", "");
+  FramePainter painter(configuration.camera);
   LogReader log(options.log);
   Progress progress("drawing " + options.log.filename().string(), "MB");
   int64_t drawn = 0;
@@ -72,11 +44,10 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, G
       continue;
     }
     const auto frame = by_time.find(message.utime);
-    if (frame == by_time.end() || !isDrawn(ground, message.utime) || seen++ % options.every != 0) continue;
-    const IdealImage image = camera.ideal(message, true, health, ground.rowMotion(message.utime));
-    if (image.colour.empty()) continue;
-    mosaic.add(image.colour, leftOut(camera, ground, message.utime, image.row_motion), frame->second->to_map);
-    ++drawn;
+    if (frame == by_time.end()) continue;
+    const ObservedFrame observed = ground.frame(message.utime);
+    if (observed.mask == nullptr || seen++ % options.every != 0) continue;
+    if (painter.paint(message, observed, frame->second->to_map, mosaic)) ++drawn;
   }
   progress.finish();
   printWarning(log.damageReport());
@@ -154,7 +125,7 @@ MosaicSummary makeMosaic(const MosaicOptions& options) {
   summary.is_metric = frames.is_metric;
 
   std::filesystem::create_directories(options.out);
-  const GroundTracks tracks = tracksOnMap(camera, ground, frames);
+  const GroundTracks tracks = tracksOnMap(camera, ground, frames, grid->coarsest_area);
   summary.tracks = tracks.size();
   cv::Mat3b image = mosaic.image();
   const cv::Mat4b transparent_image = transparent(image, mosaic.known());

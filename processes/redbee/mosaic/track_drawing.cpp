@@ -43,39 +43,47 @@ void label(cv::Mat3b& image, const std::string& text, cv::Point at, const cv::Sc
 
 std::string secondsText(int64_t us) { return fmt::format("{:.1f} s", static_cast<double>(us) / 1e6); }
 
-constexpr double kCoarsest =
-    36;  ///< times the area of the reference's pixel, beyond which nothing sure can be said
+constexpr double kFurther = 4;  ///< as coarse pixels as the mosaic shows still give a place
 
 }  // namespace
 
-GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, const GroundFrames& frames) {
-  GroundTracks tracks;
+bool isDrawn(const std::vector<TrackPoint>& track) { return track.size() >= kShortest; }
+
+std::optional<Eigen::Vector2d> placeOnMap(const detection_t& detection, const Camera& camera,
+                                          const Eigen::Matrix3d& to_map, double coarsest_area) {
+  if (detection.seen == 0) return std::nullopt;
+  const auto foot = camera.undistort(lowerMiddle(detection));
   const cv::Size image(camera.ideal().width, camera.ideal().height);
-  const double coarsest =
-      kCoarsest * areaOnMap(frames.reference, {0.5 * image.width, 0.5 * image.height}, image);
+  if (!foot || areaOnMap(to_map, *foot, image) >= kFurther * coarsest_area) return std::nullopt;
+  return (to_map * foot->homogeneous()).eval().hnormalized();
+}
+
+GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, const GroundFrames& frames,
+                         double coarsest_area) {
+  GroundTracks tracks;
   for (const MappedFrame& frame : frames.frames) {
-    const detections_t* detections = ground.detections(frame.utime);
+    const detections_t* detections = ground.frame(frame.utime).detections;
     if (detections == nullptr) continue;
     for (const detection_t& d : detections->detections) {
-      if (d.seen == 0) continue;
-      const auto foot = camera.undistort(lowerMiddle(d));
-      if (!foot || areaOnMap(frame.to_map, *foot, image) >= coarsest) continue;
-      tracks[d.id].push_back({frame.utime, (frame.to_map * foot->homogeneous()).eval().hnormalized()});
+      if (const auto place = placeOnMap(d, camera, frame.to_map, coarsest_area))
+        tracks[d.id].push_back({frame.utime, *place});
     }
   }
   for (auto track = tracks.begin(); track != tracks.end();)
-    track = track->second.size() < kShortest ? tracks.erase(track) : std::next(track);
+    track = isDrawn(track->second) ? std::next(track) : tracks.erase(track);
   return tracks;
 }
 
 void drawTracks(cv::Mat3b& image, const GroundTracks& tracks, const MosaicGrid& grid, int64_t start_utime) {
   for (const auto& [id, points] : tracks) {
+    if (!isDrawn(points)) continue;
     std::vector<cv::Point> line;
     for (const TrackPoint& point : points) line.push_back(pixelOf(grid, point));
     cv::polylines(image, line, false, cv::Scalar::all(0), 4, cv::LINE_AA);
     cv::polylines(image, line, false, trackColour(id), 2, cv::LINE_AA);
   }
   for (const auto& [id, points] : tracks) {
+    if (!isDrawn(points)) continue;
     int64_t next = points.front().utime + kLabelPeriod_us;
     for (const TrackPoint& point : points) {
       if (point.utime < next || point.utime > points.back().utime - kLabelPeriod_us / 2) continue;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "processes/redbee/mosaic/ground_observer.hpp"
@@ -20,8 +21,17 @@ struct TrackPoint {
 };
 using GroundTracks = std::map<int32_t, std::vector<TrackPoint>>;  ///< by identity, in order of time
 
-/// Where the middle of each seen box's lower edge meets the ground; points towards the horizon are left out.
-GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, const GroundFrames& frames);
+/// Where the middle of a seen box's lower edge meets the ground; std::nullopt for an unseen one, and towards
+/// the horizon. `coarsest_area`: of what the mosaic shows (MosaicGrid).
+std::optional<Eigen::Vector2d> placeOnMap(const detection_t& detection, const Camera& camera,
+                                          const Eigen::Matrix3d& to_map, double coarsest_area);
+
+/// Those of a flight, by placeOnMap(), but for the shortest.
+GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, const GroundFrames& frames,
+                         double coarsest_area);
+
+/// Whether it is long enough for a path.
+bool isDrawn(const std::vector<TrackPoint>& track);
 
 /// Lines in the identities' colours, with the identity and the time at both ends and the time every two
 /// seconds between, in seconds since `start_utime`.

@@ -2,6 +2,7 @@
 import {drawHealth} from './health.js';
 import {Live} from './live.js';
 import {drawMap} from './map.js';
+import {restartMosaic, toggleMosaic, watchMosaic} from './mosaic.js';
 import {clearFrame, colourOf, drawFrame, showLayer} from './picture.js';
 import {Replay} from './replay.js';
 import {fetchJson, listen, write} from './wire.js';
@@ -121,10 +122,11 @@ const keys = {
   '-': () => changeRate(-1),
   '+': () => changeRate(1),
   l: () => choose(''),
+  m: toggleMosaic,
 };
 
 document.addEventListener('keydown', (event) => {
-  const is_of_control = ['SELECT', 'BUTTON', 'SUMMARY'].includes(event.target.tagName) && event.key !== 'l';
+  const is_of_control = ['SELECT', 'BUTTON', 'SUMMARY'].includes(event.target.tagName) && !['l', 'm'].includes(event.key);
   if (event.ctrlKey || event.altKey || event.metaKey || is_of_control) return;
   if (/^[1-5]$/.test(event.key)) return toggleLayer(Number(event.key) - 1);
   if (!(event.key in keys)) return;
@@ -194,6 +196,7 @@ listen({
     words.className = is_connected ? 'good' : 'bad';
     if (is_connected) {
       live.shown = 0;
+      restartMosaic();
       refreshState();
       refreshFlights().catch(() => {});
     }
@@ -205,4 +208,5 @@ setInterval(() => {
 }, 500);
 setInterval(refreshState, 2000);
 setInterval(() => refreshFlights().catch(() => {}), 10000);
+watchMosaic(() => !replay);
 showLiveMap();
