@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "redbee/geometry/camera.hpp"
+
 namespace redbee {
 
 Eigen::Matrix3d groundMap(const Eigen::Matrix3d& K_inverse, const GroundPlane& plane) {
@@ -19,18 +21,24 @@ Eigen::Matrix3d groundMap(const Eigen::Matrix3d& K_inverse, const GroundPlane& p
 void GroundChain::addStep(int64_t from, int64_t to, const Eigen::Matrix3d& H) {
   if (pieces_.empty() || pieces_.back().count(from) == 0) {
     pieces_.emplace_back();
-    pieces_.back()[from] = {from, Eigen::Matrix3d::Identity(), std::nullopt};
+    pieces_.back()[from] = {from, Eigen::Matrix3d::Identity(), std::nullopt, 1};
   }
   Piece& piece = pieces_.back();
   Eigen::Matrix3d composed = H * piece[from].H;
   composed /= composed(2, 2);
-  piece[to] = {to, composed, std::nullopt};
+  piece[to] = {to, composed, std::nullopt, 1};
 }
 
 void GroundChain::setPlane(int64_t utime, const GroundPlane& plane) {
   if (pieces_.empty()) return;
   const auto frame = pieces_.back().find(utime);
   if (frame != pieces_.back().end()) frame->second.plane = plane;
+}
+
+void GroundChain::setZoom(int64_t utime, double zoom) {
+  if (pieces_.empty()) return;
+  const auto frame = pieces_.back().find(utime);
+  if (frame != pieces_.back().end()) frame->second.zoom = zoom;
 }
 
 std::vector<GroundChain::Frame> GroundChain::longestPiece() const {
@@ -42,7 +50,7 @@ std::vector<GroundChain::Frame> GroundChain::longestPiece() const {
   return frames;
 }
 
-GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K_inverse) {
+GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K) {
   GroundFrames result;
   if (piece.empty()) return result;
   // The nearest to the middle that has a plane.
@@ -56,9 +64,10 @@ GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::M
   }
   const GroundChain::Frame& frame = piece[static_cast<size_t>(reference)];
   result.is_metric = frame.plane.has_value();
-  result.reference = result.is_metric ? groundMap(K_inverse, *frame.plane) : Eigen::Matrix3d::Identity();
+  result.reference = result.is_metric ? groundMap(zoomed(K, frame.zoom).inverse(), *frame.plane)
+                                      : Eigen::Matrix3d::Identity();
   for (const GroundChain::Frame& other : piece)
-    result.frames.push_back({other.utime, result.reference * frame.H * other.H.inverse()});
+    result.frames.push_back({other.utime, result.reference * frame.H * other.H.inverse(), other.zoom});
   return result;
 }
 

@@ -29,12 +29,14 @@ class GroundChain {
     int64_t utime = 0;                 ///< us
     Eigen::Matrix3d H;                 ///< from ideal pixels of the piece's first frame to those of this one
     std::optional<GroundPlane> plane;  ///< as this frame sees it
+    double zoom = 1;                   ///< focal length over the camera's
   };
 
   /// The ground's homography from the frame at `from` to the one at `to`, us.
   void addStep(int64_t from, int64_t to, const Eigen::Matrix3d& H);
   /// Of a frame that a step has led to or from.
   void setPlane(int64_t utime, const GroundPlane& plane);
+  void setZoom(int64_t utime, double zoom);
 
   /// The piece of most frames, in order of time; empty before the first step.
   std::vector<Frame> longestPiece() const;
@@ -49,6 +51,7 @@ class GroundChain {
 struct MappedFrame {
   int64_t utime = 0;
   Eigen::Matrix3d to_map;  ///< from its ideal pixels
+  double zoom = 1;         ///< focal length over the camera's
 };
 
 /// The map is that of the plane in the middle of the piece, in metres; without any plane it is the middle
@@ -58,6 +61,7 @@ struct GroundFrames {
   bool is_metric = false;
   Eigen::Matrix3d reference;  ///< to_map of the frame whose plane it is
 };
-GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K_inverse);
+/// `K`: of the ideal camera [px], at the configured focal length.
+GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K);
 
 }  // namespace redbee

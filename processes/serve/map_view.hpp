@@ -62,6 +62,7 @@ class MapBuilder {
   Eigen::Matrix3d R_IC_;
   int64_t timeshift_us_;
   bool has_gimbal_;
+  bool zooms_;  ///< the lens, which TARGETS heeds
   LocalFrame frame_;
   MapTargets targets_;
   std::optional<pose_t> pose_;

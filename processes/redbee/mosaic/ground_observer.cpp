@@ -62,9 +62,10 @@ void runStack(LogReader& log, const std::filesystem::path& file, const Configura
 }  // namespace
 
 void GroundObserver::onFused(const fused_homography_t& fused) {
-  if (const auto motion = rowMotionOf(fused.row_motion)) row_motions_[fused.utime] = *motion;
+  exposures_[fused.utime] = {rowMotionOf(fused.row_motion), zoomOf(fused)};
   if (fused.source == fused_homography_t::NONE) return;
   chain_.addStep(fused.utime_previous, fused.utime, matrix3(fused.step.H));
+  for (const int64_t utime : {fused.utime_previous, fused.utime}) chain_.setZoom(utime, exposure(utime).zoom);
   if (fused.has_motion == 0) return;
   const plane_motion_t& m = fused.motion;
   chain_.setPlane(fused.utime_previous, {{m.normal[0], m.normal[1], m.normal[2]}, m.distance});
@@ -84,9 +85,9 @@ const detections_t* GroundObserver::detections(int64_t utime) const {
   return it == detections_.end() ? nullptr : &it->second;
 }
 
-std::optional<RowMotion> GroundObserver::rowMotion(int64_t utime) const {
-  const auto it = row_motions_.find(utime);
-  return it == row_motions_.end() ? std::nullopt : std::optional(it->second);
+Exposure GroundObserver::exposure(int64_t utime) const {
+  const auto it = exposures_.find(utime);
+  return it == exposures_.end() ? Exposure() : it->second;
 }
 
 GroundObserver observeGround(const std::filesystem::path& file, const Configuration& configuration) {

@@ -12,6 +12,7 @@
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
+#include "redbee/imaging/rectifier.hpp"
 #include "redbee/mosaic/ground_chain.hpp"
 
 namespace redbee {
@@ -30,8 +31,8 @@ class GroundObserver {
   const std::vector<uint8_t>* mask(int64_t utime) const;
   /// Null where there are none.
   const detections_t* detections(int64_t utime) const;
-  /// Of a rolling shutter's image at this time.
-  std::optional<RowMotion> rowMotion(int64_t utime) const;
+  /// Of the image at this time.
+  Exposure exposure(int64_t utime) const;
   const std::map<int64_t, detections_t>& detections() const { return detections_; }
   /// Messages that cannot be decoded or are implausible.
   int64_t damaged() const { return damaged_; }
@@ -41,7 +42,7 @@ class GroundObserver {
   std::map<int64_t, std::vector<uint8_t>> masks_;
   std::map<int64_t, detections_t> detections_;
   int64_t damaged_ = 0;
-  std::map<int64_t, RowMotion> row_motions_;
+  std::map<int64_t, Exposure> exposures_;
 };
 
 /// From the log's own FUSED_HOMOGRAPHY, FOREGROUND and DETECTIONS; where it has none, from those of the stack

@@ -31,7 +31,7 @@ constexpr int kMargin_px = 6;  ///< around masks, whose edges are not sharp
 /// On the ideal grid: not 0 where no ground is: movers by the mask and by the boxes, which cover what a mask
 /// misses, and what the camera does not show.
 cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, int64_t utime,
-                  const std::optional<RowMotion>& row_motion) {
+                  const Exposure& exposure) {
   const CameraIntrinsics& raw_camera = camera.camera().intrinsics();
   cv::Mat1b raw = cv::Mat1b::zeros(raw_camera.height, raw_camera.width);
   if (const auto* png = ground.mask(utime)) {
@@ -42,10 +42,12 @@ cv::Mat1b leftOut(const RectifiedCamera& camera, const GroundObserver& ground, i
     for (const detection_t& d : detections->detections)
       cv::rectangle(raw, cv::Rect(d.x, d.y, d.width, d.height), cv::Scalar(255), cv::FILLED);
   }
-  cv::Mat1b ideal = camera.rectifier().toIdeal(raw, row_motion);
+  cv::Mat1b ideal = camera.rectifier().toIdeal(raw, exposure);
   const int side = 2 * kMargin_px + 1;
   cv::dilate(ideal, ideal, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
-  if (!camera.rectifier().unknown().empty()) ideal |= camera.rectifier().unknown();
+  for (const cv::Mat1b& nothing :
+       {camera.rectifier().unknown(exposure.zoom), camera.rectifier().ownParts(exposure)})
+    if (!nothing.empty()) ideal |= nothing;
   return ideal;
 }
 
@@ -56,7 +58,7 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, G
              const GroundFrames& frames, Mosaic& mosaic, GroundTieFinder& ties) {
   std::map<int64_t, const MappedFrame*> by_time;
   for (const MappedFrame& frame : frames.frames) by_time[frame.utime] = &frame;
-  RectifiedCamera camera(configuration.camera);
+  RectifiedCamera camera(configuration.camera, 1, configuration.own_parts);
   HealthMonitor health("redbee-mosaic", "");
   LogReader log(options.log);
   Progress progress("drawing " + options.log.filename().string(), "MB");
@@ -73,9 +75,9 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, G
     }
     const auto frame = by_time.find(message.utime);
     if (frame == by_time.end() || !isDrawn(ground, message.utime) || seen++ % options.every != 0) continue;
-    const IdealImage image = camera.ideal(message, true, health, ground.rowMotion(message.utime));
+    const IdealImage image = camera.ideal(message, true, health, ground.exposure(message.utime));
     if (image.colour.empty()) continue;
-    mosaic.add(image.colour, leftOut(camera, ground, message.utime, image.row_motion), frame->second->to_map);
+    mosaic.add(image.colour, leftOut(camera, ground, message.utime, image.exposure), frame->second->to_map);
     ++drawn;
   }
   progress.finish();
@@ -136,7 +138,7 @@ MosaicSummary makeMosaic(const MosaicOptions& options) {
   const Camera camera(configuration.camera);
   checkFolder(options.out);
   GroundObserver ground = observeGround(options.log, configuration);
-  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera.K_inverse());
+  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera.K());
   const auto grid = gridFor(frames, {camera.ideal().width, camera.ideal().height}, options.most_px);
   if (!grid)
     throw InputError(options.log, "no homography of the ground leads from one frame to another: no mosaic");

@@ -56,9 +56,10 @@ GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, con
   for (const MappedFrame& frame : frames.frames) {
     const detections_t* detections = ground.detections(frame.utime);
     if (detections == nullptr) continue;
+    const Camera lens = zoomed(camera, frame.zoom);
     for (const detection_t& d : detections->detections) {
       if (d.seen == 0) continue;
-      const auto foot = camera.undistort(lowerMiddle(d));
+      const auto foot = lens.undistort(lowerMiddle(d));
       if (!foot || areaOnMap(frame.to_map, *foot, image) >= coarsest) continue;
       tracks[d.id].push_back({frame.utime, (frame.to_map * foot->homogeneous()).eval().hnormalized()});
     }

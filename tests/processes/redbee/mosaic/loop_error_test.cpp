@@ -87,7 +87,7 @@ TEST(Mosaic, ComesBackToItselfAfterALoop) {
   const Configuration configuration = endlessVehicle();
   const GroundObserver ground = observeGround(folder / "loop.lcm", configuration);
   EXPECT_EQ(ground.chain().pieces(), 1U);
-  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera().K_inverse());
+  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera().K());
   ASSERT_TRUE(frames.is_metric);
   std::map<int64_t, Eigen::Matrix3d> to_map;
   for (const MappedFrame& frame : frames.frames) to_map[frame.utime] = frame.to_map;
