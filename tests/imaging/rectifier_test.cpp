@@ -107,7 +107,7 @@ void expectAsZoomed(const CameraIntrinsics& intrinsics, double zoom) {
   ASSERT_EQ(ideal.size(), expected.size());
   cv::Mat1b known = rectifier.ownParts(exposure) == 0;
   if (!truth.unknown().empty()) {
-    EXPECT_LT(cv::countNonZero(truth.unknown() & known), 20) << "what the lens does not show is unknown";
+    EXPECT_LT(cv::countNonZero(truth.unknown() & known), 100) << "of a border of 2000 px, 1/32 px is rounded";
   }
   cv::Mat1b difference;
   cv::absdiff(ideal, expected, difference);
