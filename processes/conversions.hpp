@@ -152,6 +152,12 @@ inline void fill(row_motion_t& message, const std::optional<RowMotion>& motion) 
   fill(message.normal, motion->normal);
 }
 
+/// Of any message that has it: 1, the configured focal length, where it is not known.
+template <typename Message>
+double zoomOf(const Message& message) {
+  return message.zoom > 0 ? message.zoom : 1;
+}
+
 inline void fill(homography_t& message, const Eigen::Matrix3d& H,
                  const Eigen::Matrix<double, 8, 8>& covariance) {
   fill(message.H, H);
@@ -166,6 +172,7 @@ earlier_step_t stepOf(const Message& message, CameraTime time, bool is_valid) {
   step.utime = toUtime(time);
   step.utime_previous = message.utime_previous;
   step.ground = message.ground;
+  step.zoom = message.zoom;
   if constexpr (std::is_same_v<Message, visual_homography_t>) {
     step.inliers = message.inliers;
     step.outliers = message.outliers;
@@ -185,6 +192,7 @@ std::optional<Message> restoredFrom(const Message& message) {
   restored.width = message.width;
   restored.height = message.height;
   restored.ground = earlier.ground;
+  restored.zoom = earlier.zoom;
   return restored;
 }
 inline std::optional<visual_homography_t> restoredVisual(const visual_homography_t& message) {

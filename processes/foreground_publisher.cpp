@@ -26,7 +26,7 @@ detections_t detectionsMessage(const DetectorOutput& output) {
 }
 
 /// Box on the raw grid around a box on the ideal grid; empty if the raw image does not show it.
-cv::Rect rawBox(const Camera& camera, const cv::Rect& box, const std::optional<RowMotion>& row_motion) {
+cv::Rect rawBox(const Camera& camera, const cv::Rect& box, const std::optional<RowMotion>& rows) {
   const cv::Rect image(0, 0, camera.intrinsics().width, camera.intrinsics().height);
   Eigen::Vector2d low(image.width, image.height);
   Eigen::Vector2d high(0, 0);
@@ -34,7 +34,7 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box, const std::optional<R
     for (const Eigen::Vector2d& edge : {Eigen::Vector2d(i / 4.0, 0), Eigen::Vector2d(i / 4.0, 1),
                                         Eigen::Vector2d(0, i / 4.0), Eigen::Vector2d(1, i / 4.0)}) {
       const Eigen::Vector2d ideal(box.x + edge.x() * (box.width - 1), box.y + edge.y() * (box.height - 1));
-      const auto raw = row_motion ? rawPixel(camera, ideal, *row_motion) : camera.distort(ideal);
+      const auto raw = rows ? rawPixel(camera, ideal, *rows) : camera.distort(ideal);
       if (!raw) continue;
       low = low.cwiseMin(*raw);
       high = high.cwiseMax(*raw);
@@ -50,20 +50,21 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box, const std::optional<R
 }  // namespace
 
 void ForegroundPublisher::publish(const image_t& image, CameraTime time_previous, DetectorOutput output,
-                                  const std::optional<RowMotion>& row_motion) {
+                                  const Exposure& exposure) {
   const Rectifier& rectifier = camera_.rectifier();
   // Of any detector: most know nothing of the vehicle's own parts.
-  if (const cv::Mat1b& own_parts = rectifier.ownParts(row_motion); !own_parts.empty()) {
+  if (const cv::Mat1b& own_parts = rectifier.ownParts(exposure); !own_parts.empty()) {
     output.probability.setTo(0, own_parts);
     output.mask.setTo(0, own_parts);
     output.unknown.setTo(kUnknown, own_parts);
   }
-  output.probability = rectifier.toRaw(output.probability, 0, row_motion);
-  output.mask = rectifier.toRaw(output.mask, 0, row_motion);
-  output.unknown = rectifier.toRaw(output.unknown, kUnknown, row_motion);
-  if (camera_.camera().isDistorted() || row_motion) {
+  output.probability = rectifier.toRaw(output.probability, 0, exposure);
+  output.mask = rectifier.toRaw(output.mask, 0, exposure);
+  output.unknown = rectifier.toRaw(output.unknown, kUnknown, exposure);
+  if (camera_.camera().isDistorted() || exposure.rows) {
+    const Camera lens = zoomed(camera_.camera(), exposure.zoom);
     for (Detection& detection : output.detections) {
-      detection.box = rawBox(camera_.camera(), detection.box, row_motion);
+      detection.box = rawBox(lens, detection.box, exposure.rows);
     }
   }
   foreground_t foreground{};

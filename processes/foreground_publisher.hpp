@@ -16,10 +16,10 @@ class ForegroundPublisher {
   ForegroundPublisher(Publisher& publisher, const Configuration& configuration, const RectifiedCamera& camera)
       : publisher_(publisher), configuration_(configuration), camera_(camera) {}
 
-  /// `image`: as received. `output`: on the ideal grid, of an image from which `row_motion` was taken out.
+  /// `image`: as received. `output`: on the ideal grid, of an image from which `exposure` was taken out.
   /// Publishes one message of each kind, and periodically an overlay.
   void publish(const image_t& image, CameraTime time_previous, DetectorOutput output,
-               const std::optional<RowMotion>& row_motion = {});
+               const Exposure& exposure = {});
 
  private:
   void publishOverlay(const image_t& image, const DetectorOutput& output);

@@ -13,7 +13,7 @@ Nodes nodesBefore(const ProcessDescription* end, Bus& bus, const Configuration& 
   Nodes nodes;
   for (const ProcessDescription* stage : kStages) {
     if (stage == end) break;
-    if (stage == &kImuIntegration && !configuration.has_imu) continue;
+    if (stage == &kImuIntegration && !configuration.expectsInertial()) continue;
     nodes.push_back(makeNode(*stage, bus, configuration));
   }
   return nodes;
@@ -27,7 +27,7 @@ Nodes motionNodes(Bus& bus, const Configuration& configuration) {
 
 bool isInput(const Channels& channels, const std::string& channel) {
   return channel == channels.camera || channel == channels.imu || channel == channels.altimeter ||
-         channel == channels.gimbal;
+         channel == channels.gimbal || channel == channels.lens;
 }
 
 InProcessStack::InProcessStack(Bus& bus, const Configuration& configuration)

@@ -29,7 +29,7 @@ RectifiedCamera::RectifiedCamera(const CameraIntrinsics& intrinsics, int downsca
       image_rectifier_(Camera(shrunk(intrinsics, downscale), shrunk(camera_.ideal(), downscale))) {}
 
 IdealImage RectifiedCamera::ideal(const image_t& message, bool wants_colour, HealthMonitor& health,
-                                  const std::optional<RowMotion>& measured) {
+                                  const Exposure& measured) {
   cv::Mat image;
   if (wants_colour) {
     image = decodeColour(message, downscale_).value_or(cv::Mat3b());
@@ -38,18 +38,19 @@ IdealImage RectifiedCamera::ideal(const image_t& message, bool wants_colour, Hea
   }
   if (image.empty()) health.noteDamaged();
   const cv::Size wanted(camera_.intrinsics().width / downscale_, camera_.intrinsics().height / downscale_);
-  if (image.size() != wanted) return {};
   IdealImage ideal;
-  if (measured) {
+  ideal.exposure.zoom = measured.zoom;
+  if (image.size() != wanted) return ideal;
+  if (measured.rows) {
     cv::Mat1b grey = image;
     if (wants_colour) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-    ideal.row_motion = row_motion_.of(grey, measured);
+    ideal.exposure.rows = row_motion_.of(grey, measured.rows);
   }
   if (wants_colour) {
-    ideal.colour = image_rectifier_.toIdeal(image, ideal.row_motion);
+    ideal.colour = image_rectifier_.toIdeal(image, ideal.exposure);
     cv::cvtColor(ideal.colour, ideal.grey, cv::COLOR_BGR2GRAY);
   } else {
-    ideal.grey = image_rectifier_.toIdeal(image, ideal.row_motion);
+    ideal.grey = image_rectifier_.toIdeal(image, ideal.exposure);
   }
   return ideal;
 }

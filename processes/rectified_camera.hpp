@@ -12,11 +12,11 @@
 
 namespace redbee {
 
-/// On the grid of the ideal camera, downscaled; both empty if there is no image.
+/// On the grid of the ideal camera, downscaled; both images empty if there is none.
 struct IdealImage {
   cv::Mat1b grey;
-  cv::Mat3b colour;                     ///< BGR; empty unless requested
-  std::optional<RowMotion> row_motion;  ///< that was taken out; as Rectifier::toRaw() wants it
+  cv::Mat3b colour;   ///< BGR; empty unless requested
+  Exposure exposure;  ///< that was taken out; as Rectifier::toRaw() wants it
 };
 
 class RectifiedCamera {
@@ -33,7 +33,7 @@ class RectifiedCamera {
   /// Empty for an image that is damaged (counted in `health`) or not of the raw camera's size. `measured`: at
   /// the image's time.
   IdealImage ideal(const image_t& message, bool wants_colour, HealthMonitor& health,
-                   const std::optional<RowMotion>& measured = {});
+                   const Exposure& measured = {});
 
  private:
   Camera camera_;

@@ -90,6 +90,9 @@ struct Configuration {
   GeolocationParameters geolocation;
   GroundLinkParameters ground_link;
   int overlay_period_frames = 4;  ///< OVERLAY is published for every n-th frame; 0: never
+
+  /// Whether INERTIAL_HOMOGRAPHY comes for each frame: of the IMU, or at least with the lens' focal length.
+  bool expectsInertial() const { return has_imu || inertial.lens.enabled; }
 };
 
 /// what() is one line: `file:line: key: what is wrong`.

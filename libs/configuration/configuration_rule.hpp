@@ -67,6 +67,10 @@ inline const Rule rate{[](double x) { return x >= 0.1 && x <= 1000; }, "must lie
 inline const Rule rateOrAny{[](double x) { return x >= 0 && x <= 1000; }, "must lie from 0 to 1000"};
 inline const Rule percent{[](int x) { return x >= 0 && x <= 100; }, "must lie from 0 to 100"};
 inline const Rule angleSigma{[](double x) { return x > 0 && x <= 180; }, "must lie between 0 and 180"};
+inline const Rule zoomRange{[](double x) { return x == 0 || (x >= 1 && x <= 100); },
+                            "must be 0, or lie from 1 to 100: the longest focal length over the shortest"};
+inline const Rule focalSigma{[](double x) { return x > 0 && x <= 0.5; },
+                             "must be above 0 and at most 0.5, of the focal length"};
 inline const Rule slopeSigma{[](double x) { return x >= 0 && x <= 45; }, "must lie from 0 to 45"};
 inline const Rule depression{[](double x) { return x >= 1 && x <= 80; }, "must lie from 1 to 80"};
 inline const Rule cameraMount{[](const std::string& x) { return x == "body" || x == "gimbal"; },

@@ -52,6 +52,12 @@ Settings vehicleSettings() {
       setting("gimbal.angle_sigma_deg", MEMBER(inertial.gimbal.angle_sigma_deg), angleSigma),
       setting("gimbal.timeshift_s", MEMBER(inertial.gimbal.timeshift_s), anything),
       setting("gimbal.max_gap_s", MEMBER(inertial.gimbal.max_gap_s), positive),
+      setting("lens.enabled", MEMBER(inertial.lens.enabled), anything),
+      setting("lens.focal_length_px", MEMBER(inertial.lens.focal_length_px), notNegative),
+      setting("lens.zoom_range", MEMBER(inertial.lens.zoom_range), zoomRange),
+      setting("lens.focal_sigma", MEMBER(inertial.lens.focal_sigma), focalSigma),
+      setting("lens.timeshift_s", MEMBER(inertial.lens.timeshift_s), anything),
+      setting("lens.max_gap_s", MEMBER(inertial.lens.max_gap_s), positive),
   };
 }
 
@@ -182,7 +188,6 @@ Settings geolocationSettings() {
   return {
       setting("geolocation.enabled", MEMBER(geolocation.enabled), anything),
       setting("geolocation.mount", MEMBER(geolocation.mount), cameraMount),
-      setting("geolocation.R_CM", MEMBER(geolocation.R_CM), rotation),
       setting("geolocation.mount_sigma_deg", MEMBER(geolocation.mount_sigma_deg), angleSigma),
       setting("geolocation.pixel_sigma_px", MEMBER(geolocation.pixel_sigma_px), positiveTo(1000)),
       setting("geolocation.foot_sigma", MEMBER(geolocation.foot_sigma), fraction),

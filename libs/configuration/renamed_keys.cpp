@@ -12,6 +12,7 @@ const std::map<std::string, std::string>& renamedKeys() {
       {"channels.kept_state", "channels.warm_start"},
       {"detection.objects.confirm_frames", "detection.objects.confirm_s"},
       {"detection.objects.max_missed_frames", "detection.objects.max_missed_s"},
+      {"geolocation.R_CM", "camera.R_CI"},
       {"front_plane.ransac.min_inlier_share", "front_plane.ransac.min_inlier_ratio"},
       {"segmentation.nearest_depth_share", "detection.parallax.nearest_depth_fraction"},
       {"segmentation.sample_grid_px", "visual.tracker.grid_px"},

@@ -35,14 +35,17 @@ struct FrameInput {
   cv::Mat1b grey;    ///< empty if the image is damaged
   cv::Mat3b colour;  ///< BGR, of grey's size; may be empty unless the detector needs it
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< camera matrix of an image of `size` [px]
-  std::optional<Eigen::Matrix3d> ground;            ///< homography previous to current [px]
-  std::optional<Eigen::Matrix3d> front;  ///< the same of the front plane; std::nullopt if there is none
-  std::optional<PlaneMotion> motion;     ///< of the camera, from an IMU: rotation, translation, plane
+  /// The same of the previous frame, where the lens zooms.
+  std::optional<Eigen::Matrix3d> K_previous;
+  std::optional<Eigen::Matrix3d> ground;  ///< homography previous to current [px]
+  std::optional<Eigen::Matrix3d> front;   ///< the same of the front plane; std::nullopt if there is none
+  std::optional<PlaneMotion> motion;      ///< of the camera, from an IMU: rotation, translation, plane
   cv::Mat1b own_parts;  ///< 255 where images show the vehicle itself, or nothing (of a rolling
                         ///< shutter beyond the border); of `size`, or empty
   PointTracks tracks;   ///< tracked sample points, for the entropy of the flow
   int sample_grid_px = TrackerParameters{}.grid_px;  ///< px between the sample points
 
+  CameraPair cameras() const { return {K_previous.value_or(K), K}; }
   cv::Size fullSize() const { return size.empty() ? grey.size() : size; }
 };
 

@@ -55,8 +55,9 @@ DetectorOutput GroundDetector::process(const FrameInput& input, bool continues, 
     reset();
   }
   const bool is_camera_known = continues && input.motion;
-  tracker_.propagate(elapsed, continues ? input.ground : std::nullopt,
-                     is_camera_known ? std::optional(CameraStep{*input.motion, input.K}) : std::nullopt);
+  tracker_.propagate(
+      elapsed, continues ? input.ground : std::nullopt,
+      is_camera_known ? std::optional(CameraStep{*input.motion, input.cameras()}) : std::nullopt);
   DetectorOutput output = DetectorOutput::empty(input.time, size_, DetectorStatus::kLearning);
   if (content == ImageContent::kUnusable || content == ImageContent::kFrozen) {
     output.status = DetectorStatus::kBadImage;

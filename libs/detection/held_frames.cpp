@@ -26,7 +26,7 @@ bool HeldFrames::covers(CameraTime time) const { return output_ && time - output
 
 DetectorOutput HeldFrames::hold(const FrameInput& repeated) {
   const FrameInput whole = sinceImage(repeated);
-  since_ = Motion{*whole.ground, whole.front, whole.motion};
+  since_ = Motion{*whole.ground, whole.front, whole.motion, whole.K_previous};
   DetectorOutput held = copyOf(*output_);
   held.time = repeated.time;
   return held;
@@ -37,6 +37,7 @@ FrameInput HeldFrames::sinceImage(FrameInput next) const {
   next.ground = composeHomographies(next.ground, since_->ground);
   next.front = composeHomographies(next.front, since_->front);
   next.motion = compose(next.motion, since_->motion);
+  next.K_previous = since_->K_previous;
   return next;
 }
 

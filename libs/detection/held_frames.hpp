@@ -25,6 +25,7 @@ class HeldFrames {
     Eigen::Matrix3d ground;
     std::optional<Eigen::Matrix3d> front;
     std::optional<PlaneMotion> motion;
+    std::optional<Eigen::Matrix3d> K_previous;
   };
   std::optional<DetectorOutput> output_;
   std::optional<Motion> since_;

@@ -6,6 +6,7 @@
 
 #include "redbee/geolocation/ground_point.hpp"
 #include "redbee/geometry/angle.hpp"
+#include "redbee/geometry/camera.hpp"
 #include "redbee/geometry/chi_square.hpp"
 
 namespace redbee {
@@ -37,7 +38,13 @@ double square(double x) { return x * x; }
 }  // namespace
 
 Geolocator::Geolocator(const CameraIntrinsics& camera, const GeolocationParameters& parameters)
-    : intrinsics_(camera), camera_(makeCameraModel(camera)), parameters_(parameters) {}
+    : configured_(camera), intrinsics_(camera), camera_(makeCameraModel(camera)), parameters_(parameters) {}
+
+void Geolocator::setZoom(double zoom) {
+  if (zoomed(configured_, zoom).fx == intrinsics_.fx) return;
+  intrinsics_ = zoomed(configured_, zoom);
+  camera_ = makeCameraModel(intrinsics_);
+}
 
 void Geolocator::restart() {
   targets_.clear();

@@ -63,6 +63,8 @@ class Geolocator {
   /// Throws std::invalid_argument as makeCameraModel() does.
   Geolocator(const CameraIntrinsics& camera, const GeolocationParameters& parameters);
 
+  /// Of the next frames: focal length over that of the camera.
+  void setZoom(double zoom);
   /// One frame, later than the one before. Without a view all targets are predicted.
   std::vector<Target> step(CameraTime time, const std::optional<GroundView>& view,
                            const std::vector<ObservedBox>& boxes);
@@ -110,7 +112,8 @@ class Geolocator {
   void stopUnseen(const std::optional<GroundView>& view);
   static TargetState stateOf(const Tracked& tracked);
 
-  CameraIntrinsics intrinsics_;
+  CameraIntrinsics configured_;
+  CameraIntrinsics intrinsics_;  ///< as the lens stands
   std::shared_ptr<const CameraModel> camera_;
   GeolocationParameters parameters_;
   std::map<int, Tracked> targets_;

@@ -1,7 +1,6 @@
 // Parameters of the geolocation: the section `geolocation` of the vehicle file.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 
 namespace redbee {
@@ -9,10 +8,8 @@ namespace redbee {
 struct GeolocationParameters {
   bool enabled = false;
   /// "body": the camera is fixed to the autopilot, turned as camera.R_CI says; "gimbal": GIMBAL says how its
-  /// mount is turned, and R_CM how the camera sits in the mount.
+  /// mount is turned, and camera.R_CI how the camera sits in it: the mount's axes are the body's at its rest.
   std::string mount = "body";
-  /// From the mount (forward, left, up) to the camera; the default looks along the mount's forward axis.
-  Eigen::Matrix3d R_CM = (Eigen::Matrix3d() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished();
   double mount_sigma_deg = 0.5;       ///< deg, of the camera against the body or the mount, about each axis
   double pixel_sigma_px = 1.5;        ///< px, of an object's foot, anew in each frame
   double foot_sigma = 0.1;            ///< of the box's extent: the same, lasting about a second

@@ -152,7 +152,7 @@ ViewEstimate ViewEstimator::at(ImuTime time) {
   if (has_gimbal_) {
     const auto R_EM = mountAt(time, pose->R_EB, estimate.age_s);
     if (!R_EM) return failed(ViewFault::kNoMount);
-    R_EC = R_EM->toRotationMatrix() * parameters_.R_CM.transpose();
+    R_EC = R_EM->toRotationMatrix() * R_CI_.transpose();
   } else {
     view.position += (pose->R_EB * p_IC_).head<2>();
   }

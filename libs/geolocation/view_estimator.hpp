@@ -33,7 +33,7 @@ struct ViewEstimate {
 /// Times may come in any order; a time that was set back forgets what came before.
 class ViewEstimator {
  public:
-  /// `R_CI`, `p_IC`: of the camera that is fixed to the body.
+  /// `R_CI`, `p_IC`: of the camera on the body; where a gimbal turns it, at its rest.
   ViewEstimator(const GeolocationParameters& parameters, const Eigen::Matrix3d& R_CI,
                 const Eigen::Vector3d& p_IC);
 

@@ -24,6 +24,22 @@ std::optional<Eigen::Vector2d> Camera::undistort(const Eigen::Vector2d& raw) con
   return (K_ * ray->hnormalized().homogeneous()).head<2>();
 }
 
+CameraIntrinsics zoomed(CameraIntrinsics camera, double zoom) {
+  camera.fx *= zoom;
+  camera.fy *= zoom;
+  return camera;
+}
+
+Camera zoomed(const Camera& camera, double zoom) {
+  return zoom == 1 ? camera : Camera(zoomed(camera.intrinsics(), zoom), zoomed(camera.ideal(), zoom));
+}
+
+Eigen::Matrix3d zoomed(Eigen::Matrix3d K, double zoom) {
+  K(0, 0) *= zoom;
+  K(1, 1) *= zoom;
+  return K;
+}
+
 CameraIntrinsics idealCamera(const CameraIntrinsics& raw) { return makeCameraModel(raw)->idealCamera(); }
 
 }  // namespace redbee

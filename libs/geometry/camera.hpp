@@ -47,6 +47,13 @@ class Camera {
   Eigen::Matrix3d K_inverse_;
 };
 
+/// With focal lengths `zoom` times as long, about the same principal point and with the same distortion of
+/// rays; as it is for 1. `zoom` > 0.
+CameraIntrinsics zoomed(CameraIntrinsics camera, double zoom);
+/// Raw and ideal camera alike.
+Camera zoomed(const Camera& camera, double zoom);
+Eigen::Matrix3d zoomed(Eigen::Matrix3d K, double zoom);
+
 /// Intrinsics of the images that the rectifier produces from this raw camera's.
 CameraIntrinsics idealCamera(const CameraIntrinsics& raw);
 

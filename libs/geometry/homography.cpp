@@ -28,6 +28,14 @@ Eigen::Matrix<double, 9, 1> stackRows(const Eigen::Matrix3d& M) {
   return Eigen::Map<const Eigen::Matrix<double, 9, 1>>(rows.data());
 }
 
+/// Pixels, by the logarithm of the focal length: x - c.
+Eigen::Matrix3d aboutPrincipalPoint(const Eigen::Matrix3d& K) {
+  Eigen::Matrix3d change = Eigen::Matrix3d::Zero();
+  change(0, 0) = change(1, 1) = 1;
+  change.block<2, 1>(0, 2) = -K.block<2, 1>(0, 2);
+  return change;
+}
+
 }  // namespace
 
 ImageScaling::ImageScaling(int width, int height) : unit_px(width / 2.0) {
@@ -99,15 +107,15 @@ Matrix8d inverseJacobian(const Eigen::Matrix3d& H) {
   return product(projectionJacobian(inverse), Matrix98d(-rowwiseProduct(inverse, inverse).leftCols<8>()));
 }
 
-Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion) {
+Eigen::Matrix3d planeHomography(const CameraPair& cameras, const PlaneMotion& motion) {
   const Eigen::Matrix3d euclidean = motion.R_ba + motion.t_ba * motion.m_a.transpose() / motion.h_a;
-  return normaliseHomography(K * euclidean * K.inverse());
+  return normaliseHomography(cameras.K_b * euclidean * cameras.K_a.inverse());
 }
 
-Eigen::Vector3d translationFromHomography(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H,
+Eigen::Vector3d translationFromHomography(const CameraPair& cameras, const Eigen::Matrix3d& H,
                                           const PlaneMotion& motion) {
   const auto& [R, t, m, h] = motion;
-  const Eigen::Matrix3d euclidean = K.inverse() * H * K;
+  const Eigen::Matrix3d euclidean = cameras.K_b.inverse() * H * cameras.K_a;
   Eigen::Matrix<double, 3, 2> within;
   within.col(0) = m.unitOrthogonal();
   within.col(1) = m.cross(within.col(0));
@@ -116,12 +124,13 @@ Eigen::Vector3d translationFromHomography(const Eigen::Matrix3d& K, const Eigen:
   return h * (scale * euclidean - R) * m;
 }
 
-PlaneHomographyJacobians planeHomographyJacobians(const Eigen::Matrix3d& K, const PlaneMotion& motion) {
+PlaneHomographyJacobians planeHomographyJacobians(const CameraPair& cameras, const PlaneMotion& motion) {
   const auto& [R, t, m, h] = motion;
-  const Eigen::Matrix3d K_inverse = K.inverse();
-  const Eigen::Matrix<double, 8, 9> project = projectionJacobian(K * (R + t * m.transpose() / h) * K_inverse);
+  const Eigen::Matrix3d K_inverse = cameras.K_a.inverse();
+  const Eigen::Matrix3d H = cameras.K_b * (R + t * m.transpose() / h) * K_inverse;
+  const Eigen::Matrix<double, 8, 9> project = projectionJacobian(H);
   const auto column = [&](const Eigen::Matrix3d& change) -> Vector8d {
-    return project * stackRows(K * change * K_inverse);
+    return project * stackRows(cameras.K_b * change * K_inverse);
   };
   PlaneHomographyJacobians J;
   for (int i = 0; i < 3; ++i) {
@@ -131,6 +140,8 @@ PlaneHomographyJacobians planeHomographyJacobians(const Eigen::Matrix3d& K, cons
     J.by_normal.col(i) = column(t * (skew(axis) * m).transpose() / h);
   }
   J.by_height = column(-t * m.transpose() / (h * h));
+  J.by_zoom_b = project * stackRows(aboutPrincipalPoint(cameras.K_b) * H);
+  J.by_zoom_a = -project * stackRows(H * aboutPrincipalPoint(cameras.K_a));
   return J;
 }
 

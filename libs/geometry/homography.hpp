@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 
 namespace redbee {
 
@@ -67,23 +68,38 @@ struct PlaneMotion {
   double h_a;
 };
 
-/// K (R + t m' / h) K^-1, h33 = 1: libs/README.md, equation (1).
-Eigen::Matrix3d planeHomography(const Eigen::Matrix3d& K, const PlaneMotion& motion);
+/// Camera matrices [px, or scaled] of two frames a, b. They differ where the lens zooms.
+struct CameraPair {
+  /// Of a lens that does not. Implicit: most callers have one.
+  template <typename Derived>
+  CameraPair(const Eigen::MatrixBase<Derived>& K) : K_a(K), K_b(K) {}  // NOLINT(google-explicit-constructor)
+  CameraPair(Eigen::Matrix3d of_a, Eigen::Matrix3d of_b) : K_a(std::move(of_a)), K_b(std::move(of_b)) {}
+
+  Eigen::Matrix3d K_a;
+  Eigen::Matrix3d K_b;
+};
+
+/// K_b (R + t m' / h) K_a^-1, h33 = 1: libs/README.md, equation (1).
+Eigen::Matrix3d planeHomography(const CameraPair& cameras, const PlaneMotion& motion);
 
 /// The translation [m] that, together with the motion's rotation and plane, gives `H` (a to b, any scale): t
-/// = h (s K^-1 H K - R) m, with s from the directions within the plane, which a translation does not change.
-Eigen::Vector3d translationFromHomography(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H,
+/// = h (s K_b^-1 H K_a - R) m, with s from the directions within the plane, which a translation does not
+/// change.
+Eigen::Vector3d translationFromHomography(const CameraPair& cameras, const Eigen::Matrix3d& H,
                                           const PlaneMotion& motion);
 
-/// Derivative of toVector(planeHomography(K, motion)) by a left rotation of R_ba (R <- exp(d) R) [rad], by
-/// t_ba [m], by a left rotation of m_a (m <- exp(d) m) [rad] and by h_a [m].
+/// Derivative of toVector(planeHomography(cameras, motion)) by a left rotation of R_ba (R <- exp(d) R) [rad],
+/// by t_ba [m], by a left rotation of m_a (m <- exp(d) m) [rad], by h_a [m] and by the logarithms of the
+/// focal lengths at a and at b.
 struct PlaneHomographyJacobians {
   Eigen::Matrix<double, 8, 3> by_rotation;
   Eigen::Matrix<double, 8, 3> by_translation;
   Eigen::Matrix<double, 8, 3> by_normal;
   Vector8d by_height;
+  Vector8d by_zoom_a;
+  Vector8d by_zoom_b;
 };
-PlaneHomographyJacobians planeHomographyJacobians(const Eigen::Matrix3d& K, const PlaneMotion& motion);
+PlaneHomographyJacobians planeHomographyJacobians(const CameraPair& cameras, const PlaneMotion& motion);
 
 /// Mean distance [px] between the points of a 16-px grid over the image mapped by A and by B. Points that
 /// either maps to infinity or behind the camera are left out; infinity if none is left.

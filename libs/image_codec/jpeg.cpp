@@ -66,9 +66,40 @@ cv::Mat decodeJpeg(const std::vector<uint8_t>& bytes, bool colour, int downscale
   return image;
 }
 
+namespace {
+
+using Exif = std::unique_ptr<ExifData, void (*)(ExifData*)>;
+
+Exif exifOf(const std::vector<uint8_t>& bytes) {
+  return {exif_data_new_from_data(bytes.data(), static_cast<unsigned>(bytes.size())), exif_data_unref};
+}
+
+/// A number above 0.
+std::optional<double> exifNumber(const Exif& exif, ExifTag tag) {
+  const ExifEntry* entry = exif_content_get_entry(exif->ifd[EXIF_IFD_EXIF], tag);
+  const ExifByteOrder order = exif_data_get_byte_order(exif.get());
+  if (!entry) return std::nullopt;
+  double value = 0;
+  if (entry->format == EXIF_FORMAT_SHORT && entry->size >= 2) {
+    value = exif_get_short(entry->data, order);
+  } else if (entry->format == EXIF_FORMAT_RATIONAL && entry->size >= 8) {
+    const ExifRational fraction = exif_get_rational(entry->data, order);
+    value = fraction.denominator == 0 ? 0 : static_cast<double>(fraction.numerator) / fraction.denominator;
+  }
+  return value > 0 ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+ExifLens jpegLens(const std::vector<uint8_t>& bytes) {
+  const Exif exif = exifOf(bytes);
+  if (!exif) return {};
+  return {exifNumber(exif, EXIF_TAG_FOCAL_LENGTH), exifNumber(exif, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM),
+          exifNumber(exif, EXIF_TAG_DIGITAL_ZOOM_RATIO).value_or(1)};
+}
+
 int jpegOrientation(const std::vector<uint8_t>& bytes) {
-  const std::unique_ptr<ExifData, void (*)(ExifData*)> exif(
-      exif_data_new_from_data(bytes.data(), static_cast<unsigned>(bytes.size())), exif_data_unref);
+  const Exif exif = exifOf(bytes);
   if (!exif) return 1;
   const ExifEntry* entry = exif_content_get_entry(exif->ifd[EXIF_IFD_0], EXIF_TAG_ORIENTATION);
   if (!entry || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 1;

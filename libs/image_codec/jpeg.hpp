@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 namespace redbee {
@@ -17,6 +18,13 @@ bool isGreyJpeg(const std::vector<uint8_t>& bytes);
 
 /// Orientation that its EXIF data states, 1 to 8; 1, which is upright, if there is none.
 int jpegOrientation(const std::vector<uint8_t>& bytes);
+/// Focal lengths that its EXIF data states, each where it does.
+struct ExifLens {
+  std::optional<double> focal_mm;       ///< of the lens
+  std::optional<double> equivalent_mm;  ///< of a camera on film of 36 mm width with the same view
+  double digital_zoom = 1;              ///< how much is cropped of what the lens shows
+};
+ExifLens jpegLens(const std::vector<uint8_t>& bytes);
 /// The image turned and mirrored as an orientation of EXIF says.
 cv::Mat upright(const cv::Mat& image, int orientation);
 

@@ -1,7 +1,9 @@
 #include "redbee/imaging/rectifier.hpp"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <vector>
 
 namespace redbee {
 namespace {
@@ -9,6 +11,7 @@ namespace {
 /// Source coordinate of pixels without a source: outside every image, but within the range of the fixed-point
 /// tables.
 constexpr float kNowhere = -16384;
+constexpr bool kNearest = true;  // of cv::convertMaps(): rounds; its other tables end in the pixel below
 
 /// Source pixel of every pixel of an image of `size`.
 template <typename Mapping>
@@ -20,6 +23,44 @@ cv::Mat2f tabulate(const CameraIntrinsics& size, const Mapping& mapping) {
       map(v, u) = source ? cv::Vec2f(static_cast<float>(source->x()), static_cast<float>(source->y()))
                          : cv::Vec2f(kNowhere, kNowhere);
     }
+  }
+  return map;
+}
+
+/// The same for a mapping that is smooth where it is defined: interpolated within cells that have a source at
+/// each corner.
+template <typename Mapping>
+cv::Mat2f interpolated(const CameraIntrinsics& size, const Mapping& mapping) {
+  constexpr int kCell_px = 8;
+  cv::Mat2f map(size.height, size.width);
+  const auto sourceAt = [&](int u, int v) -> std::optional<cv::Vec2f> {
+    const std::optional<Eigen::Vector2d> source = mapping(Eigen::Vector2d(u, v));
+    if (!source) return std::nullopt;
+    return cv::Vec2f(static_cast<float>(source->x()), static_cast<float>(source->y()));
+  };
+  const int columns = size.width / kCell_px + 2;
+  const auto cornersAt = [&](int v) {
+    std::vector<std::optional<cv::Vec2f>> corners;
+    for (int i = 0; i < columns; ++i) corners.push_back(sourceAt(i * kCell_px, v));
+    return corners;
+  };
+  auto above = cornersAt(0);
+  for (int v0 = 0; v0 < size.height; v0 += kCell_px) {
+    const auto below = cornersAt(v0 + kCell_px);
+    for (int v = v0; v < std::min(v0 + kCell_px, size.height); ++v) {
+      const float down = static_cast<float>(v - v0) / kCell_px;
+      for (int u = 0; u < size.width; ++u) {
+        const auto i = static_cast<size_t>(u / kCell_px);
+        if (above[i] && above[i + 1] && below[i] && below[i + 1]) {
+          const float right = static_cast<float>(u % kCell_px) / kCell_px;
+          map(v, u) = (1 - down) * ((1 - right) * *above[i] + right * *above[i + 1]) +
+                      down * ((1 - right) * *below[i] + right * *below[i + 1]);
+        } else {
+          map(v, u) = sourceAt(u, v).value_or(cv::Vec2f(kNowhere, kNowhere));
+        }
+      }
+    }
+    above = below;
   }
   return map;
 }
@@ -64,53 +105,74 @@ Rectifier::Rectifier(const Camera& camera, const cv::Mat1b& own_parts)
     return;
   }
   cv::convertMaps(raw_sources_, cv::noArray(), to_ideal_1_, to_ideal_2_, CV_16SC2);
-  cv::convertMaps(ideal_sources_, cv::noArray(), to_raw_1_, to_raw_2_, CV_16SC2);
+  cv::convertMaps(ideal_sources_, cv::noArray(), to_raw_, cv::noArray(), CV_16SC2, kNearest);
+  cv::Mat nearest;
+  cv::convertMaps(raw_sources_, cv::noArray(), nearest, cv::noArray(), CV_16SC2, kNearest);
   if (!is_rolling) {
     raw_sources_.release();
     ideal_sources_.release();
   }
   const cv::Mat shown(raw_size, CV_8U, cv::Scalar(0));
-  cv::remap(shown, unknown_, to_ideal_1_, to_ideal_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
+  cv::remap(shown, unknown_, nearest, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
   if (cv::countNonZero(unknown_) == 0) unknown_.release();
   if (own_parts.empty()) return;
-  cv::remap(own_parts, own_parts_, to_ideal_1_, to_ideal_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 0);
+  cv::remap(own_parts, own_parts_, nearest, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT, 0);
   unknown_ = unknown_.empty() ? own_parts_.clone() : cv::Mat1b(unknown_ | own_parts_);
 }
 
-bool Rectifier::moves(const std::optional<RowMotion>& motion) const {
-  return motion && camera_.intrinsics().line_delay_s != 0;
+bool Rectifier::rolls(const Exposure& exposure) const {
+  return exposure.rows && camera_.intrinsics().line_delay_s != 0;
 }
 
-Rectifier::Moved& Rectifier::movedBy(const RowMotion& motion) const {
-  if (!(moved_.motion == motion)) moved_ = {motion, {}, {}, {}};
+bool Rectifier::moves(const Exposure& exposure) const {
+  return rolls(exposure) || (exposure.zoom != 1 && camera_.isDistorted());
+}
+
+Rectifier::Moved& Rectifier::movedBy(const Exposure& exposure) const {
+  if (!(moved_.exposure == exposure)) moved_ = {exposure, {}, {}, {}};
   return moved_;
 }
 
-const cv::Mat2f& Rectifier::sourcesInRaw(const RowMotion& motion) const {
-  cv::Mat2f& sources = movedBy(motion).sources_in_raw;
-  if (sources.empty()) {
-    sources = shifted(
-        raw_sources_, [&](const Eigen::Vector2d& ideal) { return rawPixel(camera_, ideal, motion); },
-        [&](const Eigen::Vector2d& ideal) { return camera_.distort(ideal); });
+const cv::Mat2f& Rectifier::sourcesInRaw(const Exposure& exposure) const {
+  cv::Mat2f& sources = movedBy(exposure).sources_in_raw;
+  if (!sources.empty()) return sources;
+  if (exposure.zoom != 1) {
+    const Camera lens = zoomed(camera_, exposure.zoom);
+    return sources = interpolated(camera_.ideal(), [&](const Eigen::Vector2d& ideal) {
+             return rolls(exposure) ? rawPixel(lens, ideal, *exposure.rows) : lens.distort(ideal);
+           });
   }
-  return sources;
+  return sources = shifted(
+             raw_sources_,
+             [&](const Eigen::Vector2d& ideal) { return rawPixel(camera_, ideal, *exposure.rows); },
+             [&](const Eigen::Vector2d& ideal) { return camera_.distort(ideal); });
 }
 
-const cv::Mat2f& Rectifier::sourcesInIdeal(const RowMotion& motion) const {
-  cv::Mat2f& sources = movedBy(motion).sources_in_ideal;
-  if (sources.empty()) {
-    sources = shifted(
-        ideal_sources_, [&](const Eigen::Vector2d& raw) { return idealPixel(camera_, raw, motion); },
-        [&](const Eigen::Vector2d& raw) { return camera_.undistort(raw); });
+const cv::Mat2f& Rectifier::sourcesInIdeal(const Exposure& exposure) const {
+  cv::Mat2f& sources = movedBy(exposure).sources_in_ideal;
+  if (!sources.empty()) return sources;
+  if (exposure.zoom != 1) {
+    const Camera lens = zoomed(camera_, exposure.zoom);
+    return sources = interpolated(camera_.intrinsics(), [&](const Eigen::Vector2d& raw) {
+             return rolls(exposure) ? idealPixel(lens, raw, *exposure.rows) : lens.undistort(raw);
+           });
   }
-  return sources;
+  return sources = shifted(
+             ideal_sources_,
+             [&](const Eigen::Vector2d& raw) { return idealPixel(camera_, raw, *exposure.rows); },
+             [&](const Eigen::Vector2d& raw) { return camera_.undistort(raw); });
 }
 
-cv::Mat Rectifier::toIdeal(const cv::Mat& raw, const std::optional<RowMotion>& motion) const {
+cv::Mat Rectifier::toIdeal(const cv::Mat& raw, const Exposure& exposure) const {
   cv::Mat ideal;
-  if (moves(motion)) {
-    cv::remap(raw, ideal, sourcesInRaw(*motion), cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-    if (camera_.isDistorted() && !unknown_.empty()) ideal.setTo(0, unknown_);
+  if (moves(exposure)) {
+    const bool is_stretched = rolls(exposure);
+    cv::remap(raw, ideal, sourcesInRaw(exposure), cv::noArray(), cv::INTER_LINEAR,
+              is_stretched ? cv::BORDER_REPLICATE : cv::BORDER_CONSTANT);
+    if (is_stretched && camera_.isDistorted()) {
+      const cv::Mat1b nothing = unknown(exposure.zoom);
+      if (!nothing.empty()) ideal.setTo(0, nothing);
+    }
   } else if (to_ideal_1_.empty()) {
     return raw;
   } else {
@@ -119,27 +181,40 @@ cv::Mat Rectifier::toIdeal(const cv::Mat& raw, const std::optional<RowMotion>& m
   return ideal;
 }
 
-cv::Mat1b Rectifier::toRaw(const cv::Mat1b& ideal, uchar outside,
-                           const std::optional<RowMotion>& motion) const {
+cv::Mat1b Rectifier::toRaw(const cv::Mat1b& ideal, uchar outside, const Exposure& exposure) const {
   cv::Mat1b raw;
-  if (moves(motion)) {
-    cv::remap(ideal, raw, sourcesInIdeal(*motion), cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+  if (moves(exposure)) {
+    cv::remap(ideal, raw, sourcesInIdeal(exposure), cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT,
               outside);
-  } else if (to_raw_1_.empty()) {
+  } else if (to_raw_.empty()) {
     return ideal;
   } else {
-    cv::remap(ideal, raw, to_raw_1_, to_raw_2_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, outside);
+    cv::remap(ideal, raw, to_raw_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT, outside);
   }
   return raw;
 }
 
-cv::Mat1b Rectifier::ownParts(const std::optional<RowMotion>& motion) const {
-  if (!moves(motion)) return own_parts_;
-  cv::Mat1b& moved = movedBy(*motion).own_parts;
+cv::Mat1b Rectifier::unknown(double zoom) const {
+  return zoom == 1 ? unknown_ : ownParts({std::nullopt, zoom});
+}
+
+/// What is fixed to the lens' body grows with the focal length.
+cv::Mat1b Rectifier::rawOwnParts(double zoom) const {
+  if (zoom == 1 || raw_own_parts_.empty()) return raw_own_parts_;
+  const CameraIntrinsics& camera = camera_.intrinsics();
+  const cv::Matx23d grow(zoom, 0, (1 - zoom) * camera.cx, 0, zoom, (1 - zoom) * camera.cy);
+  cv::Mat1b grown;
+  cv::warpAffine(raw_own_parts_, grown, grow, raw_own_parts_.size(), cv::INTER_NEAREST, cv::BORDER_REPLICATE);
+  return grown;
+}
+
+cv::Mat1b Rectifier::ownParts(const Exposure& exposure) const {
+  if (!moves(exposure)) return exposure.zoom == 1 ? own_parts_ : rawOwnParts(exposure.zoom);
+  cv::Mat1b& moved = movedBy(exposure).own_parts;
   if (!moved.empty()) return moved;
-  cv::Mat1b parts = raw_own_parts_;
+  cv::Mat1b parts = rawOwnParts(exposure.zoom);
   if (parts.empty()) parts = cv::Mat1b::zeros(camera_.intrinsics().height, camera_.intrinsics().width);
-  cv::remap(parts, moved, sourcesInRaw(*motion), cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
+  cv::remap(parts, moved, sourcesInRaw(exposure), cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT, 255);
   return moved;
 }
 

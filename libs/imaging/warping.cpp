@@ -50,12 +50,12 @@ cv::Size shrunkSize(cv::Size full, double downscale) {
 }
 
 SceneMotion::SceneMotion(const Eigen::Matrix3d& ground_homography, const std::optional<PlaneMotion>& motion,
-                         const Eigen::Matrix3d& K)
+                         const CameraPair& cameras)
     : ground(ground_homography), far(ground_homography), horizon(0, 0, 1) {
   if (!motion) return;
-  far = K * motion->R_ba * K.inverse();
-  // Ground is where m' R' K^-1 x > 0, a linear function of the current pixel x.
-  horizon = motion->m_a.transpose() * motion->R_ba.transpose() * K.inverse();
+  far = cameras.K_b * motion->R_ba * cameras.K_a.inverse();
+  // Ground is where m' R' K_b^-1 x > 0, a linear function of the current pixel x.
+  horizon = motion->m_a.transpose() * motion->R_ba.transpose() * cameras.K_b.inverse();
 }
 
 SceneMotion::HorizonCut SceneMotion::cutAtHorizon(int y, int width) const {

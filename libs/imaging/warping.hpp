@@ -36,7 +36,7 @@ cv::Size shrunkSize(cv::Size full, double downscale);
 /// infinite depth above it. Without a camera motion the whole image is treated as ground.
 struct SceneMotion {
   SceneMotion(const Eigen::Matrix3d& ground, const std::optional<PlaneMotion>& motion,
-              const Eigen::Matrix3d& K);
+              const CameraPair& cameras);
 
   Eigen::Matrix3d ground;      ///< homography, earlier to current pixels
   Eigen::Matrix3d far;         ///< the same above the horizon

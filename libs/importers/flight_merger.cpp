@@ -9,6 +9,7 @@
 #include "redbee/importers/impossible_values.hpp"
 #include "redbee/importers/imu_check.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/lens_t.hpp"
 
 namespace redbee {
 namespace {
@@ -37,6 +38,15 @@ gimbal_t toMessage(const MountSample& sample) {
   message.has_body = 1;
   const double ordered[] = {sample.q_IM.w(), sample.q_IM.x(), sample.q_IM.y(), sample.q_IM.z()};
   std::copy(std::begin(ordered), std::end(ordered), std::begin(message.quat_body));
+  return message;
+}
+
+lens_t toMessage(const StatedLens& lens) {
+  lens_t message{};
+  message.utime = toUtime(lens.time);
+  message.has_focal_length = 1;
+  message.focal_length = lens.focal_px;
+  message.width = lens.width;
   return message;
 }
 
@@ -88,6 +98,7 @@ void FlightMerger::writeUpTo(Duration time) {
     return next < samples.size() && samples[next].time <= limit;
   };
   while (due(mount_, next_mount_)) log_.write(channels_.gimbal, toMessage(mount_[next_mount_++]));
+  while (due(lens_, next_lens_)) log_.write(channels_.lens, toMessage(lens_[next_lens_++]));
   while (due(imu_, next_imu_) || due(altitudes_, next_altitude_)) {
     const bool imu_first = due(imu_, next_imu_) && (!due(altitudes_, next_altitude_) ||
                                                     imu_[next_imu_].time <= altitudes_[next_altitude_].time);

@@ -39,7 +39,8 @@ LoadedImage loadJpeg(const std::filesystem::path& file, int64_t utime, std::vect
                      const ImageOptions& options) {
   const int orientation = jpegOrientation(bytes);
   const bool is_turned = orientation != 1;
-  LoadedImage loaded{untouchedJpeg(file, utime, std::move(bytes)), is_turned};
+  const ExifLens lens = jpegLens(bytes);
+  LoadedImage loaded{untouchedJpeg(file, utime, std::move(bytes)), is_turned, lens};
   if (!is_turned) return loaded;
   const cv::Mat image = decodeJpeg(loaded.message.data, true);
   if (image.empty()) throw InputError(file, "JPEG cannot be decoded");
@@ -72,8 +73,8 @@ LoadedImage imageOf(const std::filesystem::path& source, std::vector<uint8_t> by
   if (!isPng(bytes)) throw InputError(source, "is neither JPEG nor PNG");
   cv::Mat image = decodeWholePng(source, bytes);
   if (image.depth() == CV_16U) image = scaledTo8Bits(image, options.range.value_or(GreyRange{}));
-  if (image.channels() == 1 && options.lossless_grey) return {rawGreyMessage(utime, image), false};
-  return {jpegMessage(utime, image, options.jpeg_quality), false};
+  if (image.channels() == 1 && options.lossless_grey) return {rawGreyMessage(utime, image), false, {}};
+  return {jpegMessage(utime, image, options.jpeg_quality), false, {}};
 }
 
 LoadedImage loadImage(const std::filesystem::path& file, int64_t utime, const ImageOptions& options) {

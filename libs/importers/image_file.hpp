@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "redbee/image_codec/jpeg.hpp"
 #include "redbee/image_t.hpp"
 
 namespace redbee {
@@ -27,6 +28,7 @@ struct ImageOptions {
 struct LoadedImage {
   image_t message;
   bool is_turned = false;  ///< as its EXIF orientation says
+  ExifLens lens{};         ///< as its EXIF data says
 };
 
 /// A JPEG is copied unchanged, unless its EXIF orientation turns it; a PNG becomes raw grey or MJPEG, one of

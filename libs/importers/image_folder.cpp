@@ -10,6 +10,7 @@
 #include "redbee/files/natural_order.hpp"
 #include "redbee/files/progress.hpp"
 #include "redbee/importers/image_file.hpp"
+#include "redbee/importers/stated_lens.hpp"
 
 namespace redbee {
 namespace {
@@ -43,6 +44,7 @@ void addImages(const ImportOptions& options, FlightMerger& merger, ImportSummary
   const std::vector<fs::path> files = listImages(options.source);
   const ImageOptions images{true, options.jpeg_quality, rangeOf(files)};
   ResolutionCheck resolution;
+  LensRecord lens;
   size_t turned = 0;
   for (size_t i = 0; i < files.size(); ++i) {
     const int64_t utime = std::llround(1e6 * static_cast<double>(i) / options.fps);
@@ -50,10 +52,12 @@ void addImages(const ImportOptions& options, FlightMerger& merger, ImportSummary
     resolution.check(files[i], image.message);
     summary.vehicle.width = image.message.width;
     summary.vehicle.height = image.message.height;
+    lens.add(utime, image.lens, merger);
     merger.addFrame(image.message);
     turned += image.is_turned ? 1 : 0;
     progress.update(static_cast<int64_t>(i) + 1, static_cast<int64_t>(files.size()));
   }
+  lens.describe(summary);
   if (turned > 0) {
     summary.warnings.push_back(
         std::to_string(turned) + " of " + std::to_string(files.size()) +

@@ -22,6 +22,7 @@ struct ImportChannels {
   std::string imu = "IMU";
   std::string altimeter = "ALTIMETER";
   std::string gimbal = "GIMBAL";
+  std::string lens = "LENS";
 };
 
 enum class FrameFormat {
@@ -62,6 +63,8 @@ struct VehicleDescription {
   std::optional<ImuNoise> noise;
   std::optional<double>
       mount_sigma_deg;  ///< deg, of GIMBAL's angles, where the log says how the images were turned
+  /// px, where the log says the focal length of each image: what LENS has where `intrinsics` hold.
+  std::optional<double> lens_focal_px;
   bool has_imu = false;
   std::optional<AltitudeSample> start_height;  ///< altimeter at the first frame
 };

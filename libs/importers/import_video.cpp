@@ -6,6 +6,7 @@
 #include "redbee/importers/flight_merger.hpp"
 #include "redbee/importers/image_folder.hpp"
 #include "redbee/importers/imu_table.hpp"
+#include "redbee/importers/stated_lens.hpp"
 #include "redbee/importers/video_log.hpp"
 #include "redbee/importers/video_reader.hpp"
 
@@ -33,6 +34,17 @@ VideoPart addVideoFrames(const VideoSource& source, const ImportOptions& options
 
 namespace {
 
+void addSubtitles(const std::filesystem::path& video, LensRecord& lens, FlightMerger& merger,
+                  ImportSummary& summary) {
+  const auto file = subtitlesBeside(video);
+  if (!file) return;
+  const std::vector<EquivalentFocalLength> lengths = readDjiSubtitles(*file);
+  for (const EquivalentFocalLength& length : lengths) lens.add(length, merger);
+  summary.warnings.push_back(file->string() + (lengths.empty()
+                                                   ? ": states no focal length (focal_len): not used"
+                                                   : ": gives the focal length of each image (LENS)"));
+}
+
 ImportSummary importVideo(const ImportOptions& options, Progress& progress) {
   const ImuTable imu = options.imu ? readImuTable(*options.imu, options.source, options.units) : ImuTable{};
   ImportSummary summary;
@@ -43,7 +55,10 @@ ImportSummary importVideo(const ImportOptions& options, Progress& progress) {
   if (std::filesystem::is_directory(options.source)) {
     addImages(options, merger, summary, progress);
   } else {
+    LensRecord lens;
+    addSubtitles(options.source, lens, merger, summary);
     addVideoFrames({options.source}, options, merger, summary, progress);
+    lens.describe(summary);
   }
   merger.close(summary);
   return summary;

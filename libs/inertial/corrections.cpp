@@ -97,13 +97,12 @@ VisionCorrection::VisionCorrection(const InertialParameters& parameters)
 CorrectionReport VisionCorrection::correct(NavigationState& state, const HomographyObservation& observation,
                                            const Camera& camera, const Eigen::Vector3d& p_IC) {
   const ImageScaling scaling(camera.ideal().width, camera.ideal().height);
-  const Eigen::Matrix3d K_scaled = scaling.T * camera.K();
   const PlaneMotion motion = cameraMotion(state, p_IC);
-  const HomographyMeasurement z =
-      homographyMeasurement(state, motion, motionJacobians(state, motion, p_IC), K_scaled);
+  const HomographyMeasurement z = homographyMeasurement(state, motion, motionJacobians(state, motion, p_IC),
+                                                        scaledMatrices(state, camera));
   const Vector8d innovation = toVector(scaling.scale(observation.H)) - z.predicted;
   const Matrix8d R =
-      feedback_correlation_frames_ * observation.covariance + z.mount_covariance + z.second_order_covariance;
+      feedback_correlation_frames_ * observation.covariance + z.optics_covariance + z.second_order_covariance;
   const Matrix8d S = z.linear_covariance + R;
   const LdltFactors factors(S);
   if (!innovation.allFinite() || !factors.succeeded() || !factors.isPositive()) return {};

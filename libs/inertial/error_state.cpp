@@ -107,6 +107,7 @@ void clonePose(NavigationState& state) {
   state.R_GI_clone = state.R_GI;
   state.p_GI_clone = state.p_GI;
   state.mount_clone = state.mount;
+  state.zoom_clone = state.zoom;
   state.P.middleRows<6>(kCloneAttitude) = state.P.middleRows<6>(kAttitude).eval();
   state.P.middleCols<6>(kCloneAttitude) = state.P.middleCols<6>(kAttitude).eval();
 }

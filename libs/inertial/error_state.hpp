@@ -10,6 +10,7 @@
 #include "redbee/geometry/products.hpp"
 #include "redbee/inertial/imu.hpp"
 #include "redbee/inertial/imu_buffer.hpp"
+#include "redbee/inertial/lens_track.hpp"
 #include "redbee/inertial/mount_track.hpp"
 
 namespace redbee {
@@ -48,6 +49,8 @@ struct NavigationState {
   ErrorCovariance P;
   MountRotation mount;  ///< against the IMU; a gimbal turns it
   MountRotation mount_clone;
+  Zoom zoom;  ///< of the lens
+  Zoom zoom_clone;
 
   Eigen::Matrix3d cameraRotation() const { return R_CI * mount.R_MI; }  ///< IMU to camera
   Eigen::Matrix3d cameraRotationClone() const { return R_CI * mount_clone.R_MI; }

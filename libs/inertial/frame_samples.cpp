@@ -22,6 +22,7 @@ FrameSamples::FrameSamples(const InertialParameters& parameters)
       check_(parameters.imu_limits),
       imu_(parameters.max_frame_gap_s) {
   if (parameters.gimbal.enabled) mount_.emplace(parameters.gimbal);
+  if (parameters.lens.enabled) lens_.emplace(parameters.lens);
 }
 
 bool FrameSamples::add(const ImuSample& sample) {
@@ -78,6 +79,7 @@ void FrameSamples::eraseBefore(CameraTime frame) {
   imu_.eraseBefore(horizon);
   check_.eraseBefore(horizon);
   if (mount_) mount_->eraseBefore(horizon);
+  if (lens_) lens_->eraseBefore(horizon);
 }
 
 }  // namespace redbee

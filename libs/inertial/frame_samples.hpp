@@ -10,6 +10,7 @@
 #include "redbee/inertial/imu_rhythm.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
+#include "redbee/inertial/lens_track.hpp"
 #include "redbee/inertial/mount_track.hpp"
 
 namespace redbee {
@@ -35,6 +36,10 @@ class FrameSamples {
   MountRotation mountAt(CameraTime frame) const {
     return mount_ ? mount_->at(imuTime(frame)) : MountRotation();
   }
+  /// Of a lens that zooms; ignored where it does not.
+  bool addLens(const LensSample& sample) { return !lens_ || lens_->add(sample); }
+  bool coverLens(CameraTime frame) const { return !lens_ || lens_->reaches(imuTime(frame)); }
+  Zoom zoomAt(CameraTime frame) const { return lens_ ? lens_->at(imuTime(frame)) : Zoom(); }
   /// s, from a frame to the nearest sample, which may be a later one after a jump of the IMU's clock.
   double outageAt(CameraTime frame) const;
   /// True if samples were refused in the interval of two frames.
@@ -63,6 +68,7 @@ class FrameSamples {
   ImuSampleCheck check_;
   ImuBuffer imu_;
   std::optional<MountTrack> mount_;  ///< of a gimbal
+  std::optional<LensTrack> lens_;    ///< of one that zooms
 };
 
 }  // namespace redbee

@@ -15,27 +15,27 @@ constexpr double kVarianceFloor = 1e-12;
 
 /// Covariance of (translation error) (normal error)' / h in the homography's entries, the two assumed
 /// independent: the sum over their principal axes.
-Matrix8d productCovariance(const Eigen::Matrix3d& K, const PlaneMotion& motion,
+Matrix8d productCovariance(const CameraPair& cameras, const PlaneMotion& motion,
                            const Eigen::Matrix3d& translation, const Eigen::Matrix3d& normal) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shifts(translation);
   Matrix8d sum = Matrix8d::Zero();
   for (int i = 0; i < 3; ++i) {
     PlaneMotion shifted = motion;
     shifted.t_ba = std::sqrt(std::max(0.0, shifts.eigenvalues()(i))) * shifts.eigenvectors().col(i);
-    const Eigen::Matrix<double, 8, 3> by_normal = planeHomographyJacobians(K, shifted).by_normal;
+    const Eigen::Matrix<double, 8, 3> by_normal = planeHomographyJacobians(cameras, shifted).by_normal;
     sum += by_normal * normal * by_normal.transpose();
   }
   return sum;
 }
 
-/// By the errors of the mount's angles at the two frames, which turn the cameras.
-Matrix8d mountCovariance(const NavigationState& state, const PlaneMotion& motion,
-                         const PlaneHomographyJacobians& by) {
+/// By the errors at the two frames of the mount's angles, which turn the cameras, and of the focal lengths.
+Matrix8d opticsCovariance(const NavigationState& state, const PlaneMotion& motion,
+                          const PlaneHomographyJacobians& by) {
   using Jacobian = Eigen::Matrix<double, 8, 3>;
   const Jacobian at_b = by.by_rotation - by.by_translation * skew(motion.t_ba);
   const Jacobian at_a = by.by_normal - by.by_rotation * motion.R_ba;
   return state.mount.variance * (at_b * at_b.transpose()) +
-         state.mount_clone.variance * (at_a * at_a.transpose());
+         state.mount_clone.variance * (at_a * at_a.transpose()) + zoomCovariance(state, by);
 }
 
 }  // namespace
@@ -76,18 +76,17 @@ MotionJacobians motionJacobians(const NavigationState& state, const PlaneMotion&
 }
 
 HomographyMeasurement homographyMeasurement(const NavigationState& state, const PlaneMotion& motion,
-                                            const MotionJacobians& jacobians,
-                                            const Eigen::Matrix3d& K_scaled) {
-  const PlaneHomographyJacobians by = planeHomographyJacobians(K_scaled, motion);
+                                            const MotionJacobians& jacobians, const CameraPair& cameras) {
+  const PlaneHomographyJacobians by = planeHomographyJacobians(cameras, motion);
   HomographyMeasurement z;
-  z.predicted = toVector(planeHomography(K_scaled, motion));
+  z.predicted = toVector(planeHomography(cameras, motion));
   z.jacobian = product(by.by_rotation, jacobians.rotation) +
                product(by.by_translation, jacobians.translation) + product(by.by_normal, jacobians.normal) +
                by.by_height * jacobians.height;
   z.linear_covariance = mappedCovariance(z.jacobian, state.P);
-  z.mount_covariance = mountCovariance(state, motion, by);
+  z.optics_covariance = opticsCovariance(state, motion, by);
   z.second_order_covariance =
-      productCovariance(K_scaled, motion, mappedCovariance(jacobians.translation, state.P),
+      productCovariance(cameras, motion, mappedCovariance(jacobians.translation, state.P),
                         mappedCovariance(jacobians.normal, state.P));
   return z;
 }
@@ -125,17 +124,29 @@ void keepAboveGround(NavigationState& state, const Eigen::Vector3d& p_IC) {
   state.p_GI_clone.z() += missing;
 }
 
-Eigen::Matrix3d scaledMatrix(const Camera& camera) {
-  return ImageScaling(camera.ideal().width, camera.ideal().height).T * camera.K();
+Matrix8d zoomCovariance(const NavigationState& state, const PlaneHomographyJacobians& by) {
+  return state.zoom.variance * (by.by_zoom_b * by.by_zoom_b.transpose()) +
+         state.zoom_clone.variance * (by.by_zoom_a * by.by_zoom_a.transpose());
+}
+
+CameraPair cameraMatrices(const NavigationState& state, const Camera& camera) {
+  return {zoomed(camera.K(), state.zoom_clone.value), zoomed(camera.K(), state.zoom.value)};
+}
+
+CameraPair scaledMatrices(const NavigationState& state, const Camera& camera) {
+  const Eigen::Matrix3d T = ImageScaling(camera.ideal().width, camera.ideal().height).T;
+  const CameraPair cameras = cameraMatrices(state, camera);
+  return {T * cameras.K_a, T * cameras.K_b};
 }
 
 void describe(const NavigationState& state, const Camera& camera, const Eigen::Vector3d& p_IC,
               InertialHomography& result) {
   result.motion = cameraMotion(state, p_IC);
-  result.H = planeHomography(camera.K(), result.motion);
+  result.H = planeHomography(cameraMatrices(state, camera), result.motion);
   const MotionJacobians J = motionJacobians(state, result.motion, p_IC);
-  const HomographyMeasurement z = homographyMeasurement(state, result.motion, J, scaledMatrix(camera));
-  const Matrix8d covariance = z.linear_covariance + z.mount_covariance + z.second_order_covariance +
+  const HomographyMeasurement z =
+      homographyMeasurement(state, result.motion, J, scaledMatrices(state, camera));
+  const Matrix8d covariance = z.linear_covariance + z.optics_covariance + z.second_order_covariance +
                               kVarianceFloor * Matrix8d::Identity();
   result.covariance = 0.5 * (covariance + covariance.transpose());
   result.rotation_covariance = rotationCovariance(state, J);

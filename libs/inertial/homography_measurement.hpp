@@ -28,21 +28,23 @@ struct HomographyMeasurement {
   Vector8d predicted;
   MeasurementJacobian<8> jacobian;
   Matrix8d linear_covariance;  ///< J P J'
-  Matrix8d mount_covariance;   ///< by the noise of a gimbal's angles; zero where the camera is fixed
+  /// By the noise of a gimbal's angles and of a zoom's focal lengths; zero where the camera is fixed.
+  Matrix8d optics_covariance;
   /// Second-order term: the product of the translation's and the normal's errors. It is negligible against J
   /// P J' except at unknown velocity: with t = 0, J does not depend on the normal, and the filter would be
   /// overconfident without this term.
   Matrix8d second_order_covariance;
 };
-/// `K_scaled`: T K, the camera matrix with the image scaling in front.
+/// `cameras`: scaled, see scaledMatrices().
 HomographyMeasurement homographyMeasurement(const NavigationState& state, const PlaneMotion& motion,
-                                            const MotionJacobians& jacobians,
-                                            const Eigen::Matrix3d& K_scaled);
+                                            const MotionJacobians& jacobians, const CameraPair& cameras);
 
 /// Of the motion's rotation and normal by left perturbations [rad^2], the noise of a gimbal's angles
 /// included.
 Eigen::Matrix3d rotationCovariance(const NavigationState& state, const MotionJacobians& jacobians);
 Eigen::Matrix3d normalCovariance(const NavigationState& state, const MotionJacobians& jacobians);
+/// Of the scaled homography, by the errors of the focal lengths of a lens that zooms.
+Matrix8d zoomCovariance(const NavigationState& state, const PlaneHomographyJacobians& by);
 
 /// Height of the camera above the ground [m], its derivative by the error state, one standard deviation [m].
 double cameraHeight(const NavigationState& state, const Eigen::Vector3d& p_IC);
@@ -52,8 +54,10 @@ double cameraHeightSigma(const NavigationState& state, const Eigen::Vector3d& p_
 /// Lifts a camera that is lower than kMinCameraHeight.
 void keepAboveGround(NavigationState& state, const Eigen::Vector3d& p_IC);
 
-/// K with the image scaling in front: T K.
-Eigen::Matrix3d scaledMatrix(const Camera& camera);
+/// Of the clone's frame a and the current one b, as the lens stood [px].
+CameraPair cameraMatrices(const NavigationState& state, const Camera& camera);
+/// The same with the image scaling in front: T K.
+CameraPair scaledMatrices(const NavigationState& state, const Camera& camera);
 
 /// Fills a valid `result`, except for its times and status.
 void describe(const NavigationState& state, const Camera& camera, const Eigen::Vector3d& p_IC,

@@ -85,6 +85,8 @@ InertialFilter& InertialFilter::operator=(InertialFilter&&) noexcept = default;
 
 bool InertialFilter::addMount(const MountSample& sample) { return implementation_->addMount(sample); }
 bool InertialFilter::coversMount(CameraTime frame) const { return implementation_->coversMount(frame); }
+bool InertialFilter::addLens(const LensSample& sample) { return implementation_->addLens(sample); }
+bool InertialFilter::coversLens(CameraTime frame) const { return implementation_->coversLens(frame); }
 bool InertialFilter::addImu(const ImuSample& sample) { return implementation_->addImu(sample); }
 int InertialFilter::takeForeignSamples() { return implementation_->takeForeignSamples(); }
 bool InertialFilter::addAltitude(const AltitudeSample& sample) {

@@ -22,6 +22,8 @@
 #include "redbee/inertial/imu.hpp"
 #include "redbee/inertial/imu_sample_check.hpp"
 #include "redbee/inertial/inertial_homography.hpp"
+#include "redbee/inertial/lens_parameters.hpp"
+#include "redbee/inertial/lens_track.hpp"
 #include "redbee/inertial/mount_track.hpp"
 #include "redbee/inertial/timeshift_monitor.hpp"
 #include "redbee/inertial/vision_agreement.hpp"
@@ -33,6 +35,7 @@ struct InertialParameters {
   ImuNoise noise;
   ImuSampleLimits imu_limits;
   GimbalParameters gimbal;
+  LensParameters lens;
   double gravity = 9.81;              ///< m/s^2
   double start_velocity_sigma = 3.0;  ///< m/s: of the drone's velocity at the first frame
   /// Turns measured rates into those of a gyro with axes of equal scale at right angles; biases are of its
@@ -99,6 +102,8 @@ class InertialFilter {
   bool addAltitude(const AltitudeSample& sample);
   /// Of a gimbal, where the parameters enable it; otherwise it is ignored. False: refused, no rotation.
   bool addMount(const MountSample& sample);
+  /// Of a lens that zooms, where the parameters enable it; otherwise it is ignored. False: refused.
+  bool addLens(const LensSample& sample);
   /// Samples of a second IMU, which were not used, since the last call.
   int takeForeignSamples();
 
@@ -106,6 +111,8 @@ class InertialFilter {
   bool covers(CameraTime frame) const;
   /// True if the mount's samples reach the frame, or if it has no gimbal.
   bool coversMount(CameraTime frame) const;
+  /// The same of the lens.
+  bool coversLens(CameraTime frame) const;
 
   /// Advances the filter to this frame and returns the motion since the last one. Invalid times are reported
   /// in the status.

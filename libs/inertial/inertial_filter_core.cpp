@@ -120,6 +120,7 @@ void InertialFilterCore::integrate(CameraTime frame) {
   previous_frame_ = frame_;
   frame_ = frame;
   state_->mount = samples_.mountAt(frame);
+  state_->zoom = samples_.zoomAt(frame);
   corrected_ = false;
   has_moved_ = true;
 }

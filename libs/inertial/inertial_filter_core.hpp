@@ -38,6 +38,8 @@ class InertialFilterCore {
 
   bool addMount(const MountSample& sample) { return samples_.addMount(sample); }
   bool coversMount(CameraTime frame) const { return samples_.coverMount(frame); }
+  bool addLens(const LensSample& sample) { return samples_.addLens(sample); }
+  bool coversLens(CameraTime frame) const { return samples_.coverLens(frame); }
 
   bool addAltitude(const AltitudeSample& sample) { return altitude_.add(sample); }
 
@@ -48,6 +50,7 @@ class InertialFilterCore {
   InertialHomography advanceTo(CameraTime frame) {
     InertialHomography result = stepTo(frame);
     result.row_motion = rowMotionAt(frame);
+    result.zoom = samples_.zoomAt(frame);
     return result;
   }
 
@@ -109,6 +112,7 @@ class InertialFilterCore {
   void begin(CameraTime frame, const std::vector<ImuSample>& before) {
     state_ = initialState(frame, before, parameters_, known_);
     state_->mount = state_->mount_clone = samples_.mountAt(frame);
+    state_->zoom = state_->zoom_clone = samples_.zoomAt(frame);
   }
 
   void forgetFrames() {

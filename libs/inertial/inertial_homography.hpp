@@ -7,6 +7,7 @@
 #include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/rolling_shutter.hpp"
 #include "redbee/geometry/time.hpp"
+#include "redbee/inertial/lens_track.hpp"
 
 namespace redbee {
 
@@ -39,6 +40,7 @@ struct InertialHomography {
   /// During the read-out of frame b, whether `valid` or not; std::nullopt for a global shutter, without IMU
   /// samples, and while vision contradicts the IMU.
   std::optional<RowMotion> row_motion;
+  Zoom zoom;  ///< of frame b, whether `valid` or not
 };
 
 }  // namespace redbee

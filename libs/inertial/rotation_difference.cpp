@@ -8,14 +8,16 @@
 
 namespace redbee {
 
-std::optional<RotationDifference> rotationDifference(
-    const Eigen::Matrix3d& K_scaled, const PlaneMotion& motion, const Eigen::Matrix3d& rotation_covariance,
-    const Eigen::Matrix3d& normal_covariance, const Vector8d& observed, const Matrix8d& observed_covariance) {
-  const PlaneHomographyJacobians by = planeHomographyJacobians(K_scaled, motion);
+std::optional<RotationDifference> rotationDifference(const CameraPair& cameras, const PlaneMotion& motion,
+                                                     const Eigen::Matrix3d& rotation_covariance,
+                                                     const Eigen::Matrix3d& normal_covariance,
+                                                     const Vector8d& observed,
+                                                     const Matrix8d& observed_covariance) {
+  const PlaneHomographyJacobians by = planeHomographyJacobians(cameras, motion);
   const Matrix8d noise = observed_covariance + mappedCovariance(by.by_normal, normal_covariance);
   const LdltFactors factors(noise);
   if (!factors.succeeded() || !factors.isPositive()) return std::nullopt;
-  const Vector8d innovation = observed - toVector(planeHomography(K_scaled, motion));
+  const Vector8d innovation = observed - toVector(planeHomography(cameras, motion));
 
   // Weighted least squares for rotation and translation; the translation is eliminated.
   const Matrix8d W = factors.inverse();
@@ -38,8 +40,10 @@ std::optional<RotationDifference> rotationDifference(const NavigationState& stat
   const PlaneMotion motion = cameraMotion(state, p_IC);
   const MotionJacobians J = motionJacobians(state, motion, p_IC);
   const ImageScaling scaling(camera.ideal().width, camera.ideal().height);
-  return rotationDifference(scaledMatrix(camera), motion, rotationCovariance(state, J),
-                            normalCovariance(state, J), toVector(scaling.scale(H)), covariance);
+  const CameraPair cameras = scaledMatrices(state, camera);
+  const Matrix8d by_zoom = zoomCovariance(state, planeHomographyJacobians(cameras, motion));
+  return rotationDifference(cameras, motion, rotationCovariance(state, J), normalCovariance(state, J),
+                            toVector(scaling.scale(H)), covariance + by_zoom);
 }
 
 }  // namespace redbee

@@ -18,11 +18,14 @@ struct RotationDifference {
 
 /// The rotation that, with any translation, explains what `observed` differs from the motion's homography; so
 /// neither the filter's velocity nor its height counts. `observed`: vec of the scaled homography from vision,
-/// with its covariance; `K_scaled`: T K. The covariances of the motion's rotation and normal are by left
-/// perturbations [rad^2]. std::nullopt if vision's covariance is singular.
-std::optional<RotationDifference> rotationDifference(
-    const Eigen::Matrix3d& K_scaled, const PlaneMotion& motion, const Eigen::Matrix3d& rotation_covariance,
-    const Eigen::Matrix3d& normal_covariance, const Vector8d& observed, const Matrix8d& observed_covariance);
+/// with its covariance, that of the focal lengths' errors included; `cameras`: scaled, T K. The covariances
+/// of the motion's rotation and normal are by left perturbations [rad^2]. std::nullopt if vision's covariance
+/// is singular.
+std::optional<RotationDifference> rotationDifference(const CameraPair& cameras, const PlaneMotion& motion,
+                                                     const Eigen::Matrix3d& rotation_covariance,
+                                                     const Eigen::Matrix3d& normal_covariance,
+                                                     const Vector8d& observed,
+                                                     const Matrix8d& observed_covariance);
 
 /// The same between the filter's clone and its current pose. `H`: ideal pixels; `covariance`: scaled.
 std::optional<RotationDifference> rotationDifference(const NavigationState& state, const Camera& camera,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "redbee/geometry/camera.hpp"
+
 namespace redbee {
 
 Eigen::Matrix3d groundMap(const Eigen::Matrix3d& K_inverse, const GroundPlane& plane) {
@@ -20,18 +22,24 @@ Eigen::Matrix3d groundMap(const Eigen::Matrix3d& K_inverse, const GroundPlane& p
 void GroundChain::addStep(int64_t from, int64_t to, const Eigen::Matrix3d& H) {
   if (pieces_.empty() || pieces_.back().count(from) == 0) {
     pieces_.emplace_back();
-    pieces_.back()[from] = {from, Eigen::Matrix3d::Identity(), std::nullopt};
+    pieces_.back()[from] = {from, Eigen::Matrix3d::Identity(), std::nullopt, 1};
   }
   Piece& piece = pieces_.back();
   Eigen::Matrix3d composed = H * piece[from].H;
   composed /= composed(2, 2);
-  piece[to] = {to, composed, std::nullopt};
+  piece[to] = {to, composed, std::nullopt, 1};
 }
 
 void GroundChain::setPlane(int64_t utime, const GroundPlane& plane) {
   if (pieces_.empty()) return;
   const auto frame = pieces_.back().find(utime);
   if (frame != pieces_.back().end()) frame->second.plane = plane;
+}
+
+void GroundChain::setZoom(int64_t utime, double zoom) {
+  if (pieces_.empty()) return;
+  const auto frame = pieces_.back().find(utime);
+  if (frame != pieces_.back().end()) frame->second.zoom = zoom;
 }
 
 std::vector<GroundChain::Frame> GroundChain::longestPiece() const {
@@ -70,12 +78,12 @@ void GroundChain::eraseBefore(int64_t utime) {
   piece.erase(piece.begin(), piece.lower_bound(std::min(utime, piece.rbegin()->first)));
 }
 
-MapReference::MapReference(const GroundChain::Frame& frame, const Eigen::Matrix3d& K_inverse)
+MapReference::MapReference(const GroundChain::Frame& frame, const Eigen::Matrix3d& K)
     : is_metric(frame.plane.has_value()),
-      own(is_metric ? groundMap(K_inverse, *frame.plane) : Eigen::Matrix3d::Identity()),
+      own(is_metric ? groundMap(zoomed(K, frame.zoom).inverse(), *frame.plane) : Eigen::Matrix3d::Identity()),
       H(frame.H) {}
 
-GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K_inverse) {
+GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K) {
   GroundFrames result;
   if (piece.empty()) return result;
   // The nearest to the middle that has a plane.
@@ -87,10 +95,11 @@ GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::M
     reference = k;
     distance = std::abs(k - middle);
   }
-  const MapReference map(piece[static_cast<size_t>(reference)], K_inverse);
+  const MapReference map(piece[static_cast<size_t>(reference)], K);
   result.is_metric = map.is_metric;
   result.reference = map.own;
-  for (const GroundChain::Frame& other : piece) result.frames.push_back({other.utime, map.toMap(other)});
+  for (const GroundChain::Frame& other : piece)
+    result.frames.push_back({other.utime, map.toMap(other), other.zoom});
   return result;
 }
 

@@ -29,12 +29,14 @@ class GroundChain {
     int64_t utime = 0;                 ///< us
     Eigen::Matrix3d H;                 ///< from ideal pixels of the piece's first frame to those of this one
     std::optional<GroundPlane> plane;  ///< as this frame sees it
+    double zoom = 1;                   ///< focal length over the camera's
   };
 
   /// The ground's homography from the frame at `from` to the one at `to`, us.
   void addStep(int64_t from, int64_t to, const Eigen::Matrix3d& H);
   /// Of a frame that a step has led to or from.
   void setPlane(int64_t utime, const GroundPlane& plane);
+  void setZoom(int64_t utime, double zoom);
 
   /// The piece of most frames, in order of time; empty before the first step.
   std::vector<Frame> longestPiece() const;
@@ -58,7 +60,8 @@ class GroundChain {
 
 /// The map that a frame lays: in metres where its plane is known, else in its ideal pixels.
 struct MapReference {
-  MapReference(const GroundChain::Frame& frame, const Eigen::Matrix3d& K_inverse);
+  /// `K`: of the ideal camera [px], at the configured focal length.
+  MapReference(const GroundChain::Frame& frame, const Eigen::Matrix3d& K);
   /// From the ideal pixels of a frame of the same piece.
   Eigen::Matrix3d toMap(const GroundChain::Frame& frame) const { return own * H * frame.H.inverse(); }
 
@@ -71,6 +74,7 @@ struct MapReference {
 struct MappedFrame {
   int64_t utime = 0;
   Eigen::Matrix3d to_map;  ///< from its ideal pixels
+  double zoom = 1;         ///< focal length over the camera's
 };
 
 /// The map is that of the plane in the middle of the piece; without any plane that of the middle frame.
@@ -79,6 +83,7 @@ struct GroundFrames {
   bool is_metric = false;
   Eigen::Matrix3d reference;  ///< to_map of the frame whose plane it is
 };
-GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K_inverse);
+/// `K`: of the ideal camera [px], at the configured focal length.
+GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K);
 
 }  // namespace redbee

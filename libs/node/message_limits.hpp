@@ -18,6 +18,7 @@ constexpr double kMaxSpeed_m_s = 1e4;             ///< m/s
 constexpr double kMaxRotationRate = 300;          ///< rad/s; gyros end at 70
 constexpr double kMaxRotationAcceleration = 1e6;  ///< rad/s^2
 constexpr double kMaxAcceleration = 1e4;          ///< m/s^2; accelerometers end at 4000
+constexpr double kMaxZoom = 100;                  ///< focal length over the configured one
 constexpr double kMaxSigma = 1e6;                 ///< of any quantity, in its unit
 constexpr double kMaxTestRatio = 1e24;            ///< of a test that a diverged filter fails
 constexpr double kMaxEntry = 1e9;                 ///< of a homography in pixels

@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "redbee/altimeter_t.hpp"
+#include "redbee/gimbal_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/lens_t.hpp"
 #include "redbee/node/frame_queue.hpp"
 #include "redbee/node/frame_time.hpp"
 #include "redbee/node/message_check.hpp"
@@ -22,16 +24,21 @@
 #include "redbee/node/publisher.hpp"
 #include "redbee/node/publisher_choice.hpp"
 #include "redbee/node/work_timer.hpp"
+#include "redbee/pose_t.hpp"
 
 namespace redbee {
 
-/// Queue length of a subscription: some seconds of each message type.
+template <typename Type, typename... Others>
+inline constexpr bool kIsOneOf = (std::is_same_v<Type, Others> || ...);
+
+/// Queue length of a subscription: some seconds of each message type, as long as a stage may hang before it
+/// is started again (watch.hang_timeout_s). Frames come at up to 60 Hz; what a driver reads of a vehicle at
+/// up to 1 kHz (autopilot.imu_rate_hz and attitude_rate_hz), in bursts where its link stutters.
+constexpr int kFrameQueue = 64;
+constexpr int kVehicleQueue = 4000;
 template <typename Message>
-inline constexpr int kQueueLength = 64;
-template <>
-inline constexpr int kQueueLength<ins_t> = 4000;
-template <>
-inline constexpr int kQueueLength<altimeter_t> = 4000;
+inline constexpr int kQueueLength =
+    kIsOneOf<Message, ins_t, altimeter_t, gimbal_t, lens_t, pose_t> ? kVehicleQueue : kFrameQueue;
 
 /// A stage subscribes in its constructor with on(), and processes each frame inside workOn().
 class Stage : public Node {

@@ -71,7 +71,11 @@ RowMotion FlightSimulator::rowMotion(int k) const {
 
 SimulatedFrame FlightSimulator::frame(int k) const {
   return {frameTime(k), renderer_.render([this](double t_s) { return poseAt(t_s); }, exposureTime(k),
-                                         static_cast<unsigned>(k))};
+                                         static_cast<unsigned>(k), zoom(k))};
+}
+
+CameraPair FlightSimulator::cameras(int k) const {
+  return {zoomed(camera_.K(), zoom(k - 1)), zoomed(camera_.K(), zoom(k))};
 }
 
 PlaneMotion FlightSimulator::motion(int k) const {
@@ -80,14 +84,14 @@ PlaneMotion FlightSimulator::motion(int k) const {
 
 Eigen::Matrix3d FlightSimulator::homography(int k) const {
   if (k == 0) return Eigen::Matrix3d::Identity();
-  return planeHomography(camera_.K(), motion(k));
+  return planeHomography(cameras(k), motion(k));
 }
 
 Eigen::Matrix3d FlightSimulator::frontHomography(int k, size_t patch) const {
   const Patch& plane = scenario_.scene.patches.at(patch);
   if (plane.kind == PatchKind::kMover) throw std::invalid_argument("a moving patch has no homography here");
   if (k == 0) return Eigen::Matrix3d::Identity();
-  return planeHomography(camera_.K(), motionOver(plane.centre, plane.normal(), pose(k - 1), pose(k)));
+  return planeHomography(cameras(k), motionOver(plane.centre, plane.normal(), pose(k - 1), pose(k)));
 }
 
 double FlightSimulator::recordingEnd() const { return exposureTime(scenario_.frames - 1) + kRecordingMargin; }
@@ -107,6 +111,12 @@ std::vector<MountSample> FlightSimulator::gimbal() const {
   if (!scenario_.gimbal) return {};
   return simulateGimbal(*scenario_.gimbal, scenario_.trajectory, exposureTime(0) - kRecordingMargin,
                         recordingEnd(), ImuTime(scenario_.start));
+}
+
+std::vector<LensSample> FlightSimulator::lens() const {
+  if (!scenario_.lens) return {};
+  return simulateLens(*scenario_.lens, exposureTime(0) - kRecordingMargin, recordingEnd(),
+                      ImuTime(scenario_.start));
 }
 
 }  // namespace redbee::simulation

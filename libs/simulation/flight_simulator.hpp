@@ -18,6 +18,7 @@
 #include "redbee/simulation/renderer.hpp"
 #include "redbee/simulation/scene.hpp"
 #include "redbee/simulation/trajectory.hpp"
+#include "redbee/simulation/zoom_lens.hpp"
 
 namespace redbee::simulation {
 
@@ -40,6 +41,7 @@ struct Scenario {
   Duration start{
       1700000000000000};  ///< time of both clocks at the start of the trajectory, except for the time shift
   std::optional<Gimbal> gimbal{};  ///< turns the camera from the mounting of `extrinsics`
+  std::optional<ZoomLens> lens{};  ///< of the focal length of `intrinsics` times its zoom
 };
 
 struct SimulatedFrame {
@@ -61,6 +63,8 @@ class FlightSimulator {
   double exposureTime(int k) const;  ///< trajectory time [s]; with a rolling shutter of the middle row
   CameraPose pose(int k) const;      ///< at that time
   CameraPose poseAt(double t_s) const;
+  /// Focal length of frame k over the configured one.
+  double zoom(int k) const { return scenario_.lens ? scenario_.lens->zoom(exposureTime(k)) : 1; }
   /// True motion during the read-out of frame k.
   RowMotion rowMotion(int k) const;
 
@@ -78,9 +82,13 @@ class FlightSimulator {
   std::vector<AltitudeSample> altimeter() const;
   /// Empty without a gimbal.
   std::vector<MountSample> gimbal() const;
+  /// Empty without a lens that zooms.
+  std::vector<LensSample> lens() const;
 
  private:
   double recordingEnd() const;
+  /// Of the frames k - 1 and k.
+  CameraPair cameras(int k) const;
 
   Scenario scenario_;
   Camera camera_;

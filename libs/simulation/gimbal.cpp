@@ -1,28 +1,15 @@
 #include "redbee/simulation/gimbal.hpp"
 
-#include <cmath>
 #include <random>
 
-#include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/so3.hpp"
 
 namespace redbee::simulation {
-namespace {
-
-double valueOf(const Channel& channel, double t_s) {
-  double value = channel.offset + channel.rate * t_s;
-  for (const Sinusoid& wave : channel.sinusoids) {
-    value += wave.amplitude * std::sin(kTurn * wave.frequency_hz * t_s + wave.phase);
-  }
-  return value;
-}
-
-}  // namespace
 
 Eigen::Matrix3d Gimbal::R_MI(const Trajectory& trajectory, double t_s) const {
-  const Eigen::Matrix3d R_XM = expSO3({0, 0, valueOf(yaw_pitch_roll[0], t_s)}) *
-                               expSO3({0, valueOf(yaw_pitch_roll[1], t_s), 0}) *
-                               expSO3({valueOf(yaw_pitch_roll[2], t_s), 0, 0});
+  const Eigen::Matrix3d R_XM = expSO3({0, 0, yaw_pitch_roll[0].at(t_s)}) *
+                               expSO3({0, yaw_pitch_roll[1].at(t_s), 0}) *
+                               expSO3({yaw_pitch_roll[2].at(t_s), 0, 0});
   if (!is_stabilised) return R_XM.transpose();
   return R_XM.transpose() * trajectory.at(t_s).R_GI;
 }

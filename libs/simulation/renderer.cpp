@@ -7,6 +7,7 @@
 
 #include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/rolling_shutter.hpp"
+#include "redbee/simulation/camera_rays.hpp"
 #include "redbee/simulation/plane_view.hpp"
 #include "redbee/simulation/wave_field.hpp"
 
@@ -26,11 +27,18 @@ cv::Vec3f tintOf(const Eigen::Vector3d& bgr) {
 class Renderer::Implementation {
  public:
   Implementation(const Camera& camera, Scene scene, const SensorParameters& sensor)
-      : camera_(camera), scene_(std::move(scene)), sensor_(sensor) {
+      : camera_(camera), scene_(std::move(scene)), sensor_(sensor), rays_(raysOf(camera)) {
     if (scene_.patches.size() > 254) throw std::invalid_argument("a scene has at most 254 patches");
-    precomputeRays();
     addSurface(scene_.ground);
     for (const Patch& patch : scene_.patches) addSurface(patch.material);
+  }
+
+  /// The same scene through a lens of another focal length.
+  Implementation zoomedTo(double zoom) const {
+    Implementation other = *this;
+    other.camera_ = zoomed(camera_, zoom);
+    other.rays_ = raysOf(other.camera_);
+    return other;
   }
 
   RenderedImage render(const PoseAt& pose_at, double t_s, unsigned index) const {
@@ -75,20 +83,6 @@ class Renderer::Implementation {
       if (scene_.patches[i].waving) waves[i + 1].emplace(*scene_.patches[i].waving, t_s);
     }
     return waves;
-  }
-
-  void precomputeRays() {
-    const CameraIntrinsics& size = camera_.intrinsics();
-    const CameraIntrinsics& ideal = camera_.ideal();
-    rays_.create(size.height, size.width);
-    for (int y = 0; y < size.height; ++y) {
-      for (int x = 0; x < size.width; ++x) {
-        const auto pixel = camera_.undistort({x, y});
-        if (!pixel) throw std::invalid_argument("the camera has pixels outside its model's domain");
-        rays_(y, x) = {static_cast<float>((pixel->x() - ideal.cx) / ideal.fx),
-                       static_cast<float>((pixel->y() - ideal.cy) / ideal.fy)};
-      }
-    }
   }
 
   void addSurface(const Material& material) {
@@ -239,7 +233,8 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-RenderedImage Renderer::render(const PoseAt& pose_at, double t_s, unsigned index) const {
+RenderedImage Renderer::render(const PoseAt& pose_at, double t_s, unsigned index, double zoom) const {
+  if (zoom != 1) return implementation_->zoomedTo(zoom).render(pose_at, t_s, index);
   return implementation_->render(pose_at, t_s, index);
 }
 

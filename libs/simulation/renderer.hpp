@@ -44,8 +44,9 @@ class Renderer {
   /// Pose of the camera at a time of the trajectory [s].
   using PoseAt = std::function<CameraPose(double t_s)>;
   /// Renders the scene at t_s, with a rolling shutter each row at its own time (camera_intrinsics.hpp),
-  /// labels alike. The same arguments give the same image; `index` seeds the noise.
-  RenderedImage render(const PoseAt& pose_at, double t_s, unsigned index) const;
+  /// labels alike. The same arguments give the same image; `index` seeds the noise; `zoom`: focal length over
+  /// the camera's.
+  RenderedImage render(const PoseAt& pose_at, double t_s, unsigned index, double zoom = 1) const;
 
  private:
   class Implementation;

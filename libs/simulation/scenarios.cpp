@@ -135,6 +135,16 @@ Scenario gimbalWalkers(unsigned seed) {
   return s;
 }
 
+Scenario zoomWalkers(unsigned seed) {
+  Scenario s = briskWalkers(seed);
+  ZoomLens lens;
+  lens.logarithm.sinusoids = {{0.4, 0.15, 0}};
+  lens.error_sigma = 0.001;
+  lens.seed = seed + 505;
+  s.lens = lens;
+  return s;
+}
+
 Scenario withRollingShutter(Scenario scenario, double readout_s) {
   scenario.intrinsics.line_delay_s = readout_s / scenario.intrinsics.height;
   return scenario;

@@ -29,6 +29,9 @@ Scenario briskWalkers(unsigned seed);
 /// The same over the brisk drone, whose gimbal holds the camera level and pans it slowly. What it says is off
 /// by 0.3 degrees, by 0.05 degrees of noise and by 5 ms.
 Scenario gimbalWalkers(unsigned seed);
+/// The same over the brisk drone, whose lens zooms in and out, by up to 1.5 and at up to 1.6 % a frame. What
+/// it says is off by 0.1 %.
+Scenario zoomWalkers(unsigned seed);
 /// The same flight with a rolling shutter of this read-out time [s].
 Scenario withRollingShutter(Scenario scenario, double readout_s);
 

@@ -66,6 +66,8 @@ double radians(double degrees) { return degrees * kPi / 180; }
 
 }  // namespace
 
+double Channel::at(double t_s) const { return evaluate(*this, t_s).value; }
+
 TrajectoryState Trajectory::at(double t_s) const {
   TrajectoryState state;
   for (int axis = 0; axis < 3; ++axis) {

@@ -19,6 +19,8 @@ struct Channel {
   double offset = 0;
   double rate = 0;
   std::vector<Sinusoid> sinusoids;
+
+  double at(double t_s) const;
 };
 
 // The name is clang's own, in the copy of the arrays. NOLINTNEXTLINE(bugprone-reserved-identifier)

@@ -36,13 +36,17 @@ class PointTracker::Implementation {
  public:
   Implementation(const TrackerParameters& parameters, const cv::Mat1b& unknown)
       : parameters_(parameters), shape_(parameters.window_px), forward_(shape_), backward_(shape_) {
-    if (!unknown.empty()) {
-      const int side = 2 * (shape_.half + 1) + 1;
-      cv::dilate(unknown, blocked_, cv::Mat::ones(side, side, CV_8U));
-    }
+    setUnknown(unknown);
     if (parameters.grid_px < 1 || parameters.levels < 1 || parameters.iterations < 1) {
       throw std::invalid_argument("the tracker's grid, levels and iterations must be positive");
     }
+  }
+
+  void setUnknown(const cv::Mat1b& unknown) {
+    blocked_.release();
+    if (unknown.empty()) return;
+    const int side = 2 * (shape_.half + 1) + 1;
+    cv::dilate(unknown, blocked_, cv::Mat::ones(side, side, CV_8U));
   }
 
   Pyramid pyramidOf(const cv::Mat1b& grey) const {
@@ -211,6 +215,8 @@ PointTracks PointTracker::advance(Pyramid image, const std::optional<Eigen::Matr
 bool PointTracker::hasTexture(const Pyramid& image, int points) const {
   return implementation_->hasTexture(image, points);
 }
+
+void PointTracker::setUnknown(const cv::Mat1b& unknown) { implementation_->setUnknown(unknown); }
 
 void PointTracker::reset() { implementation_->reset(); }
 

@@ -51,6 +51,8 @@ class PointTracker {
   /// True if at least `points` grid points of an image have enough texture to be tracked.
   bool hasTexture(const Pyramid& image, int points) const;
   void reset();
+  /// In place of the constructor's, of the next images' and of the previous one's.
+  void setUnknown(const cv::Mat1b& unknown);
 
  private:
   class Implementation;

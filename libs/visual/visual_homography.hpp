@@ -53,6 +53,9 @@ class VisualHomographyEstimator {
   /// `unknown`: see PointTracker.
   explicit VisualHomographyEstimator(const VisualParameters& parameters, const cv::Mat1b& unknown = {});
 
+  /// In place of the constructor's, where a lens zooms; see PointTracker.
+  void setUnknown(const cv::Mat1b& unknown) { tracker_.setUnknown(unknown); }
+
   /// Time of the reference frame, from which the next one is tracked; std::nullopt before the first.
   std::optional<CameraTime> previousTime() const { return previous_time_; }
 

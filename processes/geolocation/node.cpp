@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "processes/geolocation/target_messages.hpp"
+#include "processes/lens_messages.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/geometry/angle.hpp"
@@ -15,7 +16,8 @@ namespace {
 
 constexpr size_t kMaxPendingDetections = 64;
 constexpr Duration kPoseWait = std::chrono::milliseconds(100);
-constexpr double kFocalTolerance = 0.05;  // of a lens that is the configured one
+constexpr Duration kLensMemory = std::chrono::seconds(1);  // detections come in order of time
+constexpr double kFocalTolerance = 0.05;                   // of a lens that is the configured one
 
 const Configuration& enabled(const Configuration& configuration) {
   if (configuration.geolocation.enabled) return configuration;
@@ -28,10 +30,10 @@ GeolocationNode::GeolocationNode(Bus& bus, const Configuration& configuration)
     : Stage(bus, programName(kGeolocation), configurationHash(enabled(configuration))),
       configuration_(configuration),
       timeshift_(fromSeconds(configuration.inertial.extrinsics.timeshift_s)),
-      camera_(makeCameraModel(configuration.camera)),
       views_(configuration.geolocation, configuration.inertial.extrinsics.R_CI,
              configuration.inertial.extrinsics.p_IC),
       geolocator_(configuration.camera, configuration.geolocation) {
+  if (configuration_.inertial.lens.enabled) lens_.emplace(configuration_.inertial.lens);
   const auto& channels = configuration_.channels;
   on<detections_t>(channels.detections, [this](const detections_t& m) { onDetections(m); });
   on<pose_t>(channels.pose, [this](const pose_t& m) {
@@ -54,6 +56,10 @@ void GeolocationNode::onDetections(const detections_t& message) {
 }
 
 void GeolocationNode::onLens(const lens_t& message) {
+  if (lens_) {
+    if (const auto sample = lensSampleOf(message, configuration_)) lens_->add(*sample);
+    return;
+  }
   if (message.has_focal_length == 0) return;
   const CameraIntrinsics& camera = configuration_.camera;
   const double focal_px = message.focal_length * camera.width / message.width;
@@ -70,7 +76,8 @@ void GeolocationNode::restart(CameraTime) {
 }
 
 bool GeolocationNode::isReadyFor(CameraTime time) const {
-  return isFinishing() || views_.hasPoseAt(imuTimeOf(time)) || now() >= time + kPoseWait;
+  const bool has_lens = !lens_ || lens_->reaches(imuTimeOf(time));
+  return isFinishing() || (views_.hasPoseAt(imuTimeOf(time)) && has_lens) || now() >= time + kPoseWait;
 }
 
 bool GeolocationNode::processNext() {
@@ -96,6 +103,9 @@ std::string GeolocationNode::cameraFault(const detections_t& detections) const {
 void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   const std::string camera_fault = cameraFault(detections);
   const ViewEstimate estimate = views_.at(imuTimeOf(time));
+  const double zoom = lens_ ? lens_->at(imuTimeOf(time)).value : 1;
+  if (lens_) lens_->eraseBefore(imuTimeOf(time) - kLensMemory);
+  geolocator_.setZoom(zoom);
   if (views_.frame().takeRestart()) geolocator_.restart();
   stopped_.restore(toUtime(time), views_.frame(), geolocator_);
   // A frame without a trusted mask shows nothing, not even that nobody moves.
@@ -110,7 +120,8 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   message.has_global = views_.frame().isGlobal() ? 1 : 0;
   fillView(message, estimate);
   if (estimate.view) {
-    const auto footprint = footprintOf(configuration_.camera, *camera_, *estimate.view,
+    const CameraIntrinsics camera = zoomed(configuration_.camera, zoom);
+    const auto footprint = footprintOf(camera, *makeCameraModel(camera), *estimate.view,
                                        configuration_.geolocation.min_depression_deg * kDegree);
     if (footprint) fillFootprint(message, *footprint);
   }

@@ -10,6 +10,7 @@
 #include "redbee/detections_t.hpp"
 #include "redbee/geolocation/geolocator.hpp"
 #include "redbee/geolocation/view_estimator.hpp"
+#include "redbee/inertial/lens_track.hpp"
 #include "redbee/lens_t.hpp"
 #include "redbee/node/message_clock.hpp"
 #include "redbee/node/stage.hpp"
@@ -48,13 +49,13 @@ class GeolocationNode : public Stage {
 
   Configuration configuration_;
   Duration timeshift_;
-  std::shared_ptr<const CameraModel> camera_;
   ViewEstimator views_;
   Geolocator geolocator_;
   StoppedStore stopped_;
   FrameQueue<Frame> pending_;
   MessageClock clock_;
   std::string lens_fault_;
+  std::optional<LensTrack> lens_;  ///< of one that zooms
 };
 
 }  // namespace redbee

@@ -25,7 +25,7 @@ HomographyFusionNode::HomographyFusionNode(Bus& bus, const Configuration& config
       camera_(idealCamera(configuration.camera)),
       fusion_(camera_.width, camera_.height, configuration.fusion),
       front_plane_(camera_.width, camera_.height, configuration.front),
-      inertial_(fromSeconds(configuration.waits.fusion_s), configuration.has_imu),
+      inertial_(fromSeconds(configuration.waits.fusion_s), configuration.expectsInertial()),
       visual_(fromSeconds(configuration.waits.fusion_s), true) {
   const auto& channels = configuration_.channels;
   on<inertial_homography_t>(channels.inertial_homography,
@@ -116,6 +116,7 @@ void HomographyFusionNode::fuse(CameraTime time) {
   if (inertial != nullptr) health().setCalibration(calibration_.status());
   fused_homography_t message = messageOf(fused);
   if (inertial != nullptr) message.row_motion = inertial->row_motion;
+  message.zoom = inertial != nullptr ? inertial->zoom : visual != nullptr ? visual->zoom : 0;
   if (visual != nullptr) addTracked(message, *visual, fused);
   const bool has_motion = inertial_input && inertial->motion.distance > 0;  // a restored message has none
   if (has_motion && inertial_input->time_previous == fused.time_previous) {
@@ -141,7 +142,9 @@ void HomographyFusionNode::leaveOut(CameraTime time, const visual_homography_t& 
   none.time_anchor = none.time_previous;
   none.H_step = none.H_anchor = Eigen::Matrix3d::Identity();
   none.covariance_step = none.covariance_anchor = Matrix8d::Zero();
-  publishAndForget(time, messageOf(none));
+  fused_homography_t message = messageOf(none);
+  message.zoom = visual.zoom;
+  publishAndForget(time, message);
 }
 
 void HomographyFusionNode::publishAndForget(CameraTime time, const fused_homography_t& message) {

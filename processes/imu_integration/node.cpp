@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "processes/conversions.hpp"
+#include "processes/lens_messages.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/geometry/time.hpp"
 
@@ -39,6 +40,9 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
   if (configuration_.inertial.gimbal.enabled) {
     on<gimbal_t>(channels.gimbal, [this](const gimbal_t& m) { return onGimbal(m); });
   }
+  if (configuration_.inertial.lens.enabled) {
+    on<lens_t>(channels.lens, [this](const lens_t& m) { return onLens(m); });
+  }
   on<fused_homography_t>(channels.fused_homography, [this](const fused_homography_t& m) { onFused(m); });
   on<filter_snapshot_t>(channels.warm_start, [this](const filter_snapshot_t& m) { warm_start_ = m; });
 }
@@ -67,6 +71,14 @@ bool ImuIntegrationNode::onGimbal(const gimbal_t& message) {
   const double(&q)[4] = message.quat_body;
   const bool is_used = filter_.addMount({ImuTime(fromUtime(message.utime)), {q[0], q[1], q[2], q[3]}});
   gimbal_alive_ = gimbal_alive_ || is_used;
+  return is_used;
+}
+
+bool ImuIntegrationNode::onLens(const lens_t& message) {
+  const auto sample = lensSampleOf(message, configuration_);
+  if (!sample) return true;  // of another kind of camera
+  const bool is_used = filter_.addLens(*sample);
+  lens_alive_ = lens_alive_ || is_used;
   return is_used;
 }
 
@@ -109,6 +121,7 @@ bool ImuIntegrationNode::isReadyFor(CameraTime frame) {
   if (isFinishing()) return true;
   if (isAwaited(frame, filter_.covers(frame), imu_alive_)) return false;
   if (isAwaited(frame, filter_.coversMount(frame), gimbal_alive_)) return false;
+  if (isAwaited(frame, filter_.coversLens(frame), lens_alive_)) return false;
   return !last_frame_ || !isPending(feedback_, *last_frame_);
 }
 
@@ -179,6 +192,7 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   message.valid = result.valid ? 1 : 0;
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
+  message.zoom = result.zoom.value;
   fill(message.ground, result.H, result.covariance);
   fill(message.motion, result.motion);
   fill(message.rotation_covariance, result.rotation_covariance);
@@ -195,12 +209,17 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
   publish(configuration_.channels.inertial_homography, message);
   earlier_ = stepOf(message, frame, result.valid);
   if (result.valid && agreed_ >= kAgreed) publishSnapshot();
-  if (result.valid && result.status == InertialStatus::kGood) {
-    const std::string& apart = filter_.timeshift().message();
-    health().setState(apart.empty() ? HealthState::kGood : HealthState::kDegraded, apart);
-  } else {
-    health().setState(HealthState::kDegraded, reasonOf(result.status));
-  }
+  updateState(result);
+}
+
+void ImuIntegrationNode::updateState(const InertialHomography& result) {
+  if (!result.valid || result.status != InertialStatus::kGood)
+    return health().setState(HealthState::kDegraded, reasonOf(result.status));
+  std::string reason = filter_.timeshift().message();
+  if (!result.zoom.is_known)
+    reason =
+        "no " + configuration_.channels.lens + " near the frame (lens.enabled): its focal length is a guess";
+  health().setState(reason.empty() ? HealthState::kGood : HealthState::kDegraded, reason);
 }
 
 }  // namespace redbee

@@ -1,5 +1,5 @@
-// CAMERA (its times), IMU, ALTIMETER, GIMBAL, FUSED_HOMOGRAPHY and WARM_START in; INERTIAL_HOMOGRAPHY and
-// FILTER_SNAPSHOT out.
+// CAMERA (its times), IMU, ALTIMETER, GIMBAL, LENS, FUSED_HOMOGRAPHY and WARM_START in; INERTIAL_HOMOGRAPHY
+// and FILTER_SNAPSHOT out.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,17 @@
 #include "redbee/inertial/inertial_filter.hpp"
 #include "redbee/inertial_homography_t.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/lens_t.hpp"
 #include "redbee/node/message_clock.hpp"
 #include "redbee/node/message_synchronizer.hpp"
 #include "redbee/node/stage.hpp"
 
 namespace redbee {
 
-/// Publishes one message per frame, as soon as the IMU's samples (and GIMBAL, where it turns the camera)
-/// reach its exposure and the fused homography of the previous frame has arrived. While vision agrees with
-/// the filter, a filter snapshot is published as well; at its first frame the filter is warm-started from the
-/// snapshot that the fusion has stored (processes/homography_fusion).
+/// Publishes one message per frame, as soon as the IMU's samples (and GIMBAL and LENS, where these turn and
+/// zoom the camera) reach its exposure and the fused homography of the previous frame has arrived. While
+/// vision agrees with the filter, a filter snapshot is published as well; at its first frame the filter is
+/// warm-started from the snapshot that the fusion has stored (processes/homography_fusion).
 class ImuIntegrationNode : public Stage {
  public:
   ImuIntegrationNode(Bus& bus, const Configuration& configuration);
@@ -35,6 +36,7 @@ class ImuIntegrationNode : public Stage {
   void onFrame(const image_t& message);
   bool onImu(const ins_t& message);
   bool onGimbal(const gimbal_t& message);
+  bool onLens(const lens_t& message);
   void onFused(const fused_homography_t& message);
   bool isReadyFor(CameraTime frame);
   /// Whether what `alive` is about still has to be waited for; clears it where it timed out.
@@ -42,6 +44,7 @@ class ImuIntegrationNode : public Stage {
   /// Called when a frame arrives.
   void noteClockOffset(CameraTime frame);
   std::string reasonOf(InertialStatus status) const;
+  void updateState(const InertialHomography& result);
   void warmStart();
   void applyFeedback();
   void correct(const fused_homography_t& fused);
@@ -64,6 +67,7 @@ class ImuIntegrationNode : public Stage {
   std::optional<CameraTime> agreed_until_;       ///< the last of them
   bool imu_alive_ = true;
   bool gimbal_alive_ = true;
+  bool lens_alive_ = true;
   std::optional<ImuTime> last_sample_;    ///< since the newest frame arrived
   std::optional<double> clock_offset_s_;  ///< of that frame's exposure to the newest sample then
   earlier_step_t earlier_{};              ///< of the message before

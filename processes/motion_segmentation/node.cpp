@@ -80,9 +80,9 @@ FrameInput MotionSegmentationNode::inputFor(const image_t& message) {
   FrameInput input;
   input.time = timeOf(message);
   input.time_previous = last_.value_or(input.time);
-  input.K = camera_.camera().K();
+  input.K = zoomed(camera_.camera().K(), exposureOf(input.time).zoom);
+  input.K_previous = zoomed(camera_.camera().K(), zoom_);
   input.size = {camera_.camera().ideal().width, camera_.camera().ideal().height};
-  input.own_parts = camera_.rectifier().ownParts();
   input.sample_grid_px = configuration_.visual.tracker.grid_px;
   if (!last_) return input;
   if (std::optional<FrameStep> step = stepAlong(companions(), *last_, input.time)) {
@@ -152,39 +152,45 @@ void MotionSegmentationNode::work(const image_t& message) {
     noteResultReady();
     updateState(DetectorStatus::kNoHomography, false);
     return publishOutput(message, input,
-                         DetectorOutput::empty(input.time, input.size, DetectorStatus::kNoHomography), {});
+                         DetectorOutput::empty(input.time, input.size, DetectorStatus::kNoHomography),
+                         {std::nullopt, exposureOf(input.time).zoom});
   }
-  const std::optional<RowMotion> row_motion = decodeInto(input, message);
+  const Exposure exposure = decodeInto(input, message);
   const DetectorOutput output = detector_->step(input);
   noteResultReady();
-  publishOutput(message, input, output, row_motion);
+  publishOutput(message, input, output, exposure);
   updateState(output.status, fused != nullptr);
   last_ = input.time;
+  zoom_ = exposure.zoom;
   // This frame's messages link the next one; earlier ones do where some were lost.
   companions().eraseBefore(timeOf(message) - kLinking);
   fused_path_.reset();
   visual_.eraseBefore(timeOf(message) - kLinking);
 }
 
-std::optional<RowMotion> MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {
+Exposure MotionSegmentationNode::exposureOf(CameraTime frame) const {
+  if (const fused_homography_t* fused = companions().find(frame))
+    return {rowMotionOf(fused->row_motion), zoomOf(*fused)};
+  const visual_homography_t* visual = visual_.find(frame);
+  return {std::nullopt, visual == nullptr ? zoom_ : zoomOf(*visual)};
+}
+
+Exposure MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {
   const bool is_colour = needs_.colour && message.pixelformat != image_t::GRAY;
-  const fused_homography_t* fused = companions().find(input.time);
-  const IdealImage image = camera_.ideal(message, is_colour, health(),
-                                         fused == nullptr ? std::nullopt : rowMotionOf(fused->row_motion));
+  const IdealImage image = camera_.ideal(message, is_colour, health(), exposureOf(input.time));
   input.grey = image.grey;
   input.colour = image.colour;
   if (needs_.colour && !is_colour && !input.grey.empty()) {
     cv::cvtColor(input.grey, input.colour, cv::COLOR_GRAY2BGR);
   }
-  if (image.row_motion) input.own_parts = camera_.rectifier().ownParts(image.row_motion);
-  return image.row_motion;
+  input.own_parts = camera_.rectifier().ownParts(image.exposure);
+  return image.exposure;
 }
 
 void MotionSegmentationNode::publishOutput(const image_t& message, const FrameInput& input,
-                                           DetectorOutput output,
-                                           const std::optional<RowMotion>& row_motion) {
+                                           DetectorOutput output, const Exposure& exposure) {
   for (Detection& detection : output.detections) detection.id = identities_.globalId(detection.id);
-  foreground_.publish(message, input.time_previous, std::move(output), row_motion);
+  foreground_.publish(message, input.time_previous, std::move(output), exposure);
 }
 
 void MotionSegmentationNode::updateState(DetectorStatus status, bool has_fused) {

@@ -49,11 +49,13 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   /// The homography from the last processed frame, by the fused homographies alone: asked for again and again
   /// while a frame waits, computed once for what has arrived.
   std::optional<Eigen::Matrix3d> fusedPathTo(CameraTime frame);
-  /// Leaves the images empty if the message cannot be decoded to the camera's size. Returns the rows' motion
-  /// that was taken out.
-  std::optional<RowMotion> decodeInto(FrameInput& input, const image_t& message);
+  /// As the messages about the frame say it.
+  Exposure exposureOf(CameraTime frame) const;
+  /// Leaves the images empty if the message cannot be decoded to the camera's size. Returns what was taken
+  /// out.
+  Exposure decodeInto(FrameInput& input, const image_t& message);
   void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output,
-                     const std::optional<RowMotion>& row_motion);
+                     const Exposure& exposure);
   void updateState(DetectorStatus status, bool has_fused);
   void reset(CameraTime newest) override;
 
@@ -70,6 +72,7 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   std::optional<FusedPath> fused_path_;  ///< until another fused homography arrives
   std::optional<CameraTime> unbridged_;  ///< the frame known to be, until another homography arrives
   std::optional<CameraTime> last_;       ///< the last processed frame
+  double zoom_ = 1;                      ///< of that frame
   TrackIdStore identities_;
 };
 

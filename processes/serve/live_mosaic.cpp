@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "processes/redbee/mosaic/ground_observer.hpp"
 #include "redbee/image_codec/jpeg.hpp"
 
 namespace redbee {
@@ -18,15 +17,10 @@ constexpr int kMostRefused = 20;  ///< five seconds
 
 }  // namespace
 
-LiveMosaic::LiveMosaic(const Configuration& configuration) : painter_(configuration.camera) {
-  K_inverse_ = painter_.camera().K_inverse();
-}
-
 void LiveMosaic::onFused(const fused_homography_t& fused) {
-  note(fused, chain_);
+  note(fused, exposures_, chain_);
   chain_.eraseBefore(fused.utime - kKept_us);
-  if (const auto motion = rowMotionOf(fused.row_motion)) row_motions_[fused.utime] = *motion;
-  row_motions_.erase(row_motions_.begin(), row_motions_.lower_bound(fused.utime - kKept_us));
+  exposures_.erase(exposures_.begin(), exposures_.lower_bound(fused.utime - kKept_us));
 }
 
 bool LiveMosaic::isAskedFor(Time now) {
@@ -42,7 +36,7 @@ bool LiveMosaic::layMap() {
   if (frame == nullptr && is_same_piece) return true;
   if (frame == nullptr) frame = chain_.lastFrame();
   if (frame == nullptr) return false;
-  reference_.emplace(*frame, K_inverse_);
+  reference_.emplace(*frame, painter_.camera().K());
   piece_ = chain_.pieces();
   ++number_;
   image_utime_ = 0;
@@ -59,14 +53,13 @@ void LiveMosaic::onFrame(const FrameView& view, Time now) {
   waiting.to_map = reference_->toMap(*frame);
   waiting.is_metric = reference_->is_metric;
   waiting.detections = *view.detections;
+  waiting.exposure = exposureAt(exposures_, view.utime);
   // An image of another time than the last: also where the clock was set back.
   const bool is_due = std::abs(view.utime - image_utime_) >= kImagePeriod_us;
   if (view.image && !view.mask.empty() && is_due) {
     image_utime_ = view.utime;
     waiting.image = view.image;
     waiting.mask = view.mask;
-    const auto motion = row_motions_.find(view.utime);
-    if (motion != row_motions_.end()) waiting.row_motion = motion->second;
   }
   enqueue(std::move(waiting));
 }
@@ -119,8 +112,9 @@ void LiveMosaic::paint(const Waiting& frame) {
   if (!frame.image) return;
   const bool is_first = !mosaic_ || frame.mosaic != painted_number_;
   if (is_first) {
-    const auto grid = gridFor({{{frame.utime, frame.to_map}}, frame.is_metric, frame.to_map},
-                              painter_.idealSize(), kMost_px);
+    const auto grid =
+        gridFor({{{frame.utime, frame.to_map, frame.exposure.zoom}}, frame.is_metric, frame.to_map},
+                painter_.idealSize(), kMost_px);
     if (!grid) return;
     mosaic_.emplace(*grid);
     tracks_.clear();
@@ -133,7 +127,7 @@ void LiveMosaic::paint(const Waiting& frame) {
     return;
   }
   refused_ = 0;
-  const ObservedFrame observed{&frame.mask, &frame.detections, frame.row_motion};
+  const ObservedFrame observed{&frame.mask, &frame.detections, frame.exposure};
   if (!painter_.paint(*frame.image, observed, frame.to_map, *mosaic_)) return;
   utime_ = frame.utime;
   ++frames_;
@@ -143,8 +137,9 @@ void LiveMosaic::paint(const Waiting& frame) {
 
 void LiveMosaic::addTracks(const Waiting& frame) {
   if (!mosaic_ || frame.mosaic != painted_number_) return;
+  const Camera lens = zoomed(painter_.camera(), frame.exposure.zoom);
   for (const detection_t& d : frame.detections.detections) {
-    const auto place = placeOnMap(d, painter_.camera(), frame.to_map, mosaic_->grid().coarsest_area);
+    const auto place = placeOnMap(d, lens, frame.to_map, mosaic_->grid().coarsest_area);
     if (!place) continue;
     std::vector<TrackPoint>& track = tracks_[d.id];
     if (!track.empty() && frame.utime < track.back().utime + kPointPeriod_us) continue;

@@ -5,13 +5,12 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
-#include "processes/redbee/mosaic/frame_painter.hpp"
+#include "processes/redbee/mosaic/ground_observer.hpp"
 #include "processes/redbee/mosaic/track_drawing.hpp"
 #include "processes/serve/frame_view.hpp"
 #include "redbee/configuration/configuration.hpp"
@@ -34,7 +33,8 @@ class LiveMosaic {
   static constexpr size_t kMostTracks = 200;           ///< the newest
   static constexpr size_t kMostPoints = 500;           ///< of a track; of a longer one every second goes
 
-  explicit LiveMosaic(const Configuration& configuration);
+  explicit LiveMosaic(const Configuration& configuration)
+      : painter_(configuration.camera, configuration.own_parts) {}
 
   /// By the thread of the bus.
   void onFused(const fused_homography_t& fused);
@@ -56,7 +56,7 @@ class LiveMosaic {
     detections_t detections;
     std::shared_ptr<const image_t> image;  ///< null: for the tracks alone
     std::vector<uint8_t> mask;
-    std::optional<RowMotion> row_motion;
+    Exposure exposure;
   };
 
   bool isAskedFor(Time now);
@@ -67,9 +67,8 @@ class LiveMosaic {
   std::string encode() const;
 
   // Of the bus's thread.
-  Eigen::Matrix3d K_inverse_;
   GroundChain chain_;
-  std::map<int64_t, RowMotion> row_motions_;
+  Exposures exposures_;
   std::optional<MapReference> reference_;
   size_t piece_ = 0;   ///< of the chain, that the reference belongs to
   size_t number_ = 0;  ///< of the mosaic

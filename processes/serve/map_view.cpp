@@ -56,7 +56,8 @@ MapBuilder::MapBuilder(const Configuration& configuration)
       R_IC_(configuration.inertial.extrinsics.R_CI.transpose()),
       timeshift_us_(fromSeconds(configuration.inertial.extrinsics.timeshift_s).count()),
       has_gimbal_(configuration.geolocation.mount == "gimbal" || configuration.inertial.gimbal.enabled),
-      has_autopilot_(!configuration.autopilot.link.empty()) {}
+      has_autopilot_(!configuration.autopilot.link.empty()),
+      zooms_(configuration.inertial.lens.enabled) {}
 
 void MapBuilder::onPose(const pose_t& pose) {
   pose_ = pose;
@@ -151,6 +152,10 @@ void MapBuilder::addFootprint(const std::optional<MapCamera>& camera, MapView& v
     view.own->axis_on_ground = at - axis.head<2>() / axis.z() * *view.own->height_m;
   if (camera && !camera->footprint.empty()) {
     view.footprint = camera->footprint;
+    return;
+  }
+  if (zooms_) {
+    if (view.note.empty()) view.note = "the lens zooms: no footprint but that of TARGETS";
     return;
   }
   for (const Eigen::Vector2d& corner : footprintOf(camera_, R_GC, *view.own->height_m))

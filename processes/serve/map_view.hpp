@@ -63,6 +63,7 @@ class MapBuilder {
   int64_t timeshift_us_;
   bool has_gimbal_;
   bool has_autopilot_;
+  bool zooms_;  ///< the lens, which TARGETS heeds
   LocalFrame frame_;
   MapTargets targets_;
   std::optional<pose_t> pose_;

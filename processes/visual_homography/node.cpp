@@ -9,7 +9,7 @@ namespace redbee {
 VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& configuration)
     : ImageStage(bus, programName(kVisualHomography), configurationHash(configuration),
                  configuration.channels.camera, {configuration.camera.width, configuration.camera.height},
-                 fromSeconds(configuration.waits.visual_s), configuration.has_imu),
+                 fromSeconds(configuration.waits.visual_s), configuration.expectsInertial()),
       configuration_(configuration),
       camera_(configuration.camera),
       rectifier_(camera_, configuration.own_parts),
@@ -23,7 +23,7 @@ VisualHomographyNode::VisualHomographyNode(Bus& bus, const Configuration& config
 }
 
 void VisualHomographyNode::reset(CameraTime) {
-  estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unknown());
+  estimator_ = std::make_unique<VisualHomographyEstimator>(configuration_.visual, rectifier_.unknown(zoom_));
   earlier_ = {};
   row_motion_.reset();
 }
@@ -62,9 +62,19 @@ void VisualHomographyNode::work(const image_t& message) {
 }
 
 cv::Mat1b VisualHomographyNode::rectified(const cv::Mat1b& raw, CameraTime time) {
+  followLens(time);
   const inertial_homography_t* inertial = companions().find(time);
   const auto measured = inertial == nullptr ? std::nullopt : rowMotionOf(inertial->row_motion);
-  return rectifier_.toIdeal(raw, row_motion_.of(raw, measured));
+  return rectifier_.toIdeal(raw, {row_motion_.of(raw, measured), zoom_});
+}
+
+/// Where nothing says it, the lens stands as it stood.
+void VisualHomographyNode::followLens(CameraTime time) {
+  const inertial_homography_t* inertial = companions().find(time);
+  const double zoom = inertial == nullptr ? zoom_ : zoomOf(*inertial);
+  if (zoom == zoom_) return;
+  zoom_ = zoom;
+  estimator_->setUnknown(rectifier_.unknown(zoom));
 }
 
 void VisualHomographyNode::publishNone(CameraTime frame, int8_t status) {
@@ -73,6 +83,7 @@ void VisualHomographyNode::publishNone(CameraTime frame, int8_t status) {
   message.status = status;
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
+  message.zoom = zoom_;
   message.earlier = earlier_;
   publish(configuration_.channels.visual_homography, message);
 }
@@ -93,6 +104,7 @@ void VisualHomographyNode::publishResult(const VisualHomography& result) {
   message.status = static_cast<int8_t>(result.status);
   message.width = camera_.ideal().width;
   message.height = camera_.ideal().height;
+  message.zoom = zoom_;
   message.sampled = result.tracks.sampled;
   fill(message.tracks, result.tracks, result.ground ? result.ground->inlier : std::vector<uint8_t>{});
   if (result.ground) {

@@ -31,6 +31,7 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
   void noteLeftOut(CameraTime frame) override;
   void noteMissing(CameraTime frame) override;
   cv::Mat1b rectified(const cv::Mat1b& raw, CameraTime time);
+  void followLens(CameraTime time);
   void publishNone(CameraTime frame, int8_t status);
   void publishResult(const VisualHomography& result);
   void reset(CameraTime newest) override;
@@ -40,6 +41,7 @@ class VisualHomographyNode : public ImageStage<inertial_homography_t> {
   Rectifier rectifier_;
   ImageRowMotion row_motion_;
   std::unique_ptr<VisualHomographyEstimator> estimator_;
+  double zoom_ = 1;           ///< of the last image
   earlier_step_t earlier_{};  ///< of the message before
 };
 

@@ -43,6 +43,7 @@ TEST(ConfigurationCoverage, EveryParameterHasAKey) {
   EXPECT_EQ(keysIn("geolocation"), fieldCount<GeolocationParameters>());
   EXPECT_EQ(keysIn("ground_link"), fieldCount<GroundLinkParameters>());
   EXPECT_EQ(keysIn("gimbal"), fieldCount<GimbalParameters>());
+  EXPECT_EQ(keysIn("lens"), fieldCount<LensParameters>());
   EXPECT_EQ(keysIn("watch"), fieldCount<WatchParameters>());
 }
 
@@ -50,7 +51,7 @@ TEST(ConfigurationCoverage, EveryParameterBesideANestedStructHasAKey) {
   const size_t nested_visual = 2;  // tracker, ransac
   EXPECT_EQ(keysIn("visual"), fieldCount<VisualParameters>() - nested_visual);
   // The biases and the gyro's axes stand with the IMU's noise; the extrinsics with camera and plane.
-  const size_t nested_inertial = 4;  // extrinsics, noise, limits, gimbal
+  const size_t nested_inertial = 5;  // extrinsics, noise, limits, gimbal, lens
   const size_t errors = 5;
   EXPECT_EQ(keysIn("inertial") + errors, fieldCount<InertialParameters>() - nested_inertial);
   const size_t presence = 1;

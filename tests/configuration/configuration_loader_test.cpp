@@ -48,6 +48,8 @@ TEST_F(ConfigurationLoader, FaultsAreReportedWithFileLineAndKey) {
        "3: segmentation.threshold: ", "was renamed to detection.objects.threshold"},
       {"segmentation: {sample_grid_px: 16}\n",
        "2: segmentation.sample_grid_px: ", "was renamed to visual.tracker.grid_px"},
+      {"geolocation: {R_CM: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n",
+       "2: geolocation.R_CM: ", "was renamed to camera.R_CI"},
       {"channels: {kept_state: A}\n", "2: channels.kept_state: ", "was renamed to channels.warm_start"},
       {"segmentation: {nonsense: 1}\n", "2: segmentation.nonsense: ", "unknown key"},
       {"channels: {imu: ''}\n", "2: channels.imu: ", "1 to 63"},

@@ -1,7 +1,8 @@
-// The CSV files that a user hands over: an IMU beside a video, corners and IMU of a calibration target.
+// Text that a user hands over: an IMU or subtitles beside a video, corners and IMU of a calibration target.
 #include "processes/redbee/calibrate/calibration_target_csv.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/importers/imu_csv.hpp"
+#include "redbee/importers/stated_lens.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -17,5 +18,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   attempt([](const auto& f) { return readImuCsv(f); });
   attempt([](const auto& f) { return readTargetCorners(f); });
   attempt([](const auto& f) { return readTargetImu(f); });
+  attempt([](const auto& f) { return readDjiSubtitles(f); });
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "redbee/geometry/camera.hpp"
 #include "tests/geolocation/simulated_watch.hpp"
 
 namespace redbee::test {
@@ -124,6 +125,20 @@ TEST_F(GeolocatorTest, AClockThatWasSetForgets) {
   walkTo(3, {2, 5});
   time_s_ -= 50;
   EXPECT_TRUE(step({}).empty());
+}
+
+TEST_F(GeolocatorTest, ALensThatZoomsMovesNobody) {
+  for (int k = 0; k < 30; ++k) {
+    const double zoom = 1 + 0.05 * k;
+    camera_ = makeCameraModel(zoomed(watchingCamera(), zoom));
+    geolocator_.setZoom(zoom);
+    const auto pixel = pixelOf(*camera_, view_, {2, 5, 0}).value();
+    const auto targets = step({{3, boxStandingAt(pixel, 30 * zoom, *camera_, view_, 1), true}});
+    ASSERT_EQ(targets.size(), 1U);
+    EXPECT_NEAR((targets[0].position - Eigen::Vector2d(2, 5)).norm(), 0, 0.05) << zoom;
+    EXPECT_NEAR(targets[0].velocity.norm(), 0, 0.05) << zoom;
+    EXPECT_NEAR(targets[0].size.x(), 30 * targets[0].range_m / 1000, 0.1) << zoom;
+  }
 }
 
 }  // namespace

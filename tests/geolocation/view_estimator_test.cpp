@@ -20,8 +20,11 @@ VehiclePose turningPose(double time_s) {
   return pose;
 }
 
+/// The camera looks along the forward axis of body and mount.
 ViewEstimator estimatorOf(const GeolocationParameters& parameters) {
-  return {parameters, parameters.R_CM, Eigen::Vector3d::Zero()};
+  Eigen::Matrix3d R_CI;
+  R_CI << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return {parameters, R_CI, Eigen::Vector3d::Zero()};
 }
 
 TEST(ViewEstimator, InterpolatesAndCarriesOn) {

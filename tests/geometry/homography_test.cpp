@@ -87,6 +87,36 @@ TEST(Homography, PlaneMotionJacobiansMatchDifferences) {
   EXPECT_LT((J.by_height - height).norm(), 1e-8);
 }
 
+/// By a ray of frame a that meets the plane, seen by each camera.
+TEST(Homography, TheCamerasMayDiffer) {
+  const PlaneMotion motion = someMotion();
+  const CameraPair cameras{camera().K(), zoomed(camera().K(), 1.7)};
+  const Eigen::Matrix3d H = planeHomography(cameras, motion);
+  for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(100, 300), {320, 240}, {600, 450}}) {
+    const Eigen::Vector3d ray = camera().K_inverse() * pixel.homogeneous();
+    const Eigen::Vector3d X_b = motion.R_ba * (motion.h_a / motion.m_a.dot(ray) * ray) + motion.t_ba;
+    const Eigen::Vector2d seen = 1.7 * 500 * X_b.hnormalized() + Eigen::Vector2d(319.5, 239.5);
+    EXPECT_LT((transfer(H, pixel) - seen).norm(), 1e-9);
+  }
+  EXPECT_LT((translationFromHomography(cameras, H, motion) - motion.t_ba).norm(), 1e-9);
+}
+
+TEST(Homography, ItsDerivativeByTheFocalLengthsMatchesDifferences) {
+  const Eigen::Matrix3d T = ImageScaling(kWidth, kHeight).T;
+  const auto scaled = [&](double log_a, double log_b) {
+    const CameraPair cameras{T * zoomed(camera().K(), 1.2 * std::exp(log_a)),
+                             T * zoomed(camera().K(), 0.8 * std::exp(log_b))};
+    return std::pair(toVector(planeHomography(cameras, someMotion())),
+                     planeHomographyJacobians(cameras, someMotion()));
+  };
+  constexpr double kStep = 1e-6;
+  const auto J = scaled(0, 0).second;
+  const Vector8d by_a = (scaled(kStep, 0).first - scaled(-kStep, 0).first) / (2 * kStep);
+  const Vector8d by_b = (scaled(0, kStep).first - scaled(0, -kStep).first) / (2 * kStep);
+  EXPECT_LT((J.by_zoom_a - by_a).norm(), 1e-8);
+  EXPECT_LT((J.by_zoom_b - by_b).norm(), 1e-8);
+}
+
 TEST(Homography, ScalingIsUndoneByUnscaling) {
   const ImageScaling scaling(kWidth, kHeight);
   const Eigen::Matrix3d H = planeHomography(camera().K(), someMotion());

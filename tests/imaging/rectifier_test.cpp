@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace redbee::test {
@@ -77,6 +78,60 @@ TEST(Rectifier, OwnPartsOfALensAreUnknownBesideWhatItDoesNotShow) {
 TEST(Rectifier, OwnPartsOfAnotherSizeAreRefused) {
   const Camera camera({64, 48, 50, 50, 31.5, 23.5, {}});
   EXPECT_THROW(Rectifier(camera, cornerOfParts()), std::invalid_argument);
+}
+
+/// The mean of what rounding leaves is 0.
+TEST(Rectifier, MapsComeBackWithoutAShift) {
+  const Camera camera({640, 480, 500, 500, 319.5, 239.5, {-0.25, 0.06, 0, 0, 0}});
+  cv::Mat1b columns(480, 640);
+  for (int u = 0; u < 640; ++u) columns.col(u).setTo(u % 200);
+  const cv::Mat1b raw = Rectifier(camera).toRaw(columns);
+  double sum = 0;
+  int count = 0;
+  for (int v = 100; v < 380; v += 3) {
+    for (int u = 210; u < 390; ++u, ++count) sum += raw(v, u) - (camera.undistort({u, v})->x() - 200);
+  }
+  EXPECT_NEAR(sum / count, 0, 0.05);
+}
+
+/// As a camera of that focal length, and its ideal camera, would be.
+void expectAsZoomed(const CameraIntrinsics& intrinsics, double zoom) {
+  const Camera camera(intrinsics), lens = zoomed(camera, zoom);
+  const Rectifier rectifier(camera, cornerOfParts()), truth(lens);
+  cv::Mat1b image(480, 640);
+  for (int v = 0; v < 480; ++v)
+    for (int u = 0; u < 640; ++u)
+      image(v, u) = static_cast<uchar>(128 + 60 * std::sin(u / 9.0) + 60 * std::cos(v / 7.0));
+  const Exposure exposure{std::nullopt, zoom};
+  const cv::Mat1b ideal = rectifier.toIdeal(image, exposure), expected = truth.toIdeal(image);
+  ASSERT_EQ(ideal.size(), expected.size());
+  cv::Mat1b known = rectifier.ownParts(exposure) == 0;
+  if (!truth.unknown().empty()) {
+    EXPECT_LT(cv::countNonZero(truth.unknown() & known), 100) << "of a border of 2000 px, 1/32 px is rounded";
+  }
+  cv::Mat1b difference;
+  cv::absdiff(ideal, expected, difference);
+  EXPECT_LT(cv::mean(difference, known)[0], 0.5) << zoom;
+  EXPECT_GT(cv::mean(rectifier.toIdeal(image) != expected, known)[0], 100) << "the zoom shows";
+  cv::absdiff(rectifier.toRaw(expected, 0, exposure), truth.toRaw(expected, 0), difference);
+  EXPECT_LT(cv::mean(difference)[0], 0.5) << "pixels have the same nearest neighbours but for a few";
+}
+
+TEST(Rectifier, ALensThatZoomsIsRectifiedAtItsFocalLength) {
+  for (const double zoom : {0.8, 1.3, 2.0})
+    expectAsZoomed({640, 480, 500, 500, 319.5, 239.5, {-0.25, 0.06, 0, 0, 0}}, zoom);
+  for (const double zoom : {1.3, 2.0}) expectAsZoomed(fisheye(), zoom);
+}
+
+TEST(Rectifier, OwnPartsGrowWithTheFocalLength) {
+  const Rectifier rectifier(Camera({640, 480, 500, 500, 319.5, 239.5, {}}), cornerOfParts());
+  const cv::Mat1b parts = rectifier.ownParts({std::nullopt, 2});
+  EXPECT_EQ(cv::countNonZero(rectifier.unknown(2) != parts), 0);
+  EXPECT_EQ(parts(0, 78), 0) << "(200 - 319.5) * 2 + 319.5 = 80.5 is its edge, but 100 lies above the image";
+  const cv::Mat1b wide = rectifier.ownParts({std::nullopt, 0.5});
+  EXPECT_EQ(wide(160, 250), 255) << "its corner lies at (259.75, 169.75)";
+  EXPECT_EQ(wide(160, 270), 0);
+  EXPECT_EQ(wide(20, 20), 255) << "and goes on beyond what the mask shows";
 }
 
 }  // namespace

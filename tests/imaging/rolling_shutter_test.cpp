@@ -37,9 +37,9 @@ TEST_P(RollingShutterRectifier, ImagesBecomeThoseOfAGlobalShutter) {
   const Rectifier lens(global.camera()), rectifier(rolling.camera());
   const simulation::RenderedImage truth = global.frame(kFrame).image, image = rolling.frame(kFrame).image;
   const cv::Mat1b ideal_truth = lens.toIdeal(truth.grey);
-  cv::Mat1b inside = rectifier.ownParts(motion) == 0;
+  cv::Mat1b inside = rectifier.ownParts({motion}) == 0;
   cv::erode(inside, inside, cv::Mat::ones(5, 5, CV_8U), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
-  const double corrected = meanDifference(rectifier.toIdeal(image.grey, motion), ideal_truth, inside);
+  const double corrected = meanDifference(rectifier.toIdeal(image.grey, {motion}), ideal_truth, inside);
   const double uncorrected = meanDifference(rectifier.toIdeal(image.grey), ideal_truth, inside);
   std::cout << "mean grey difference " << corrected << ", uncorrected " << uncorrected << '\n';
   EXPECT_LT(corrected, uncorrected / 5);
@@ -49,7 +49,7 @@ TEST_P(RollingShutterRectifier, ImagesBecomeThoseOfAGlobalShutter) {
   const cv::Mat1b ideal_mask = lens.toIdeal(mask) > 127;
   const auto differing = [&](const cv::Mat1b& raw) { return cv::countNonZero(raw != raw_truth); };
   ASSERT_GT(cv::countNonZero(raw_truth), 500);
-  const int back = differing(rectifier.toRaw(ideal_mask, 0, motion)),
+  const int back = differing(rectifier.toRaw(ideal_mask, 0, {motion})),
             without = differing(rectifier.toRaw(ideal_mask));
   std::cout << back << " px of the labels differ, uncorrected " << without << ", of "
             << cv::countNonZero(raw_truth) << '\n';
@@ -67,7 +67,7 @@ TEST(RollingShutterRectifier, WithoutMotionOrLineDelayNothingChanges) {
   RowMotion motion;
   motion.rate = {0.5, 0.5, 0.5};
   const cv::Mat1b image(48, 64, uchar{7});
-  EXPECT_EQ(Rectifier(Camera(camera)).toIdeal(image, motion).data, image.data) << "global shutter";
+  EXPECT_EQ(Rectifier(Camera(camera)).toIdeal(image, {motion}).data, image.data) << "global shutter";
   camera.line_delay_s = 1e-4;
   EXPECT_EQ(Rectifier(Camera(camera)).toIdeal(image).data, image.data) << "motion unknown";
 }
@@ -78,7 +78,7 @@ TEST(RollingShutterRectifier, WhatTheMotionTakesBeyondTheBorderIsNotShown) {
   RowMotion motion;
   motion.rate = {0, 1, 0};  // to the right: at the edges the last row sees 9 px further
   const Rectifier rectifier{Camera(camera)};
-  const cv::Mat1b parts = rectifier.ownParts(motion);
+  const cv::Mat1b parts = rectifier.ownParts({motion});
   EXPECT_EQ(parts(470, 1), 255) << "was out of view when the last row was exposed";
   EXPECT_EQ(parts(470, 14), 0);
   EXPECT_EQ(parts(240, 1), 0);

@@ -3,20 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
-#include <random>
 
 #include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/so3.hpp"
-#include "redbee/inertial/inertial_filter.hpp"
 #include "redbee/simulation/scenarios.hpp"
-#include "tests/support/camera.hpp"
-#include "tests/support/noisy_homography.hpp"
+#include "tests/support/filter_errors.hpp"
 
 namespace redbee::test {
 namespace {
 
 constexpr int kFrames = 120;
-constexpr int kSettled = 48;
 
 simulation::Scenario gimbalFlight(double noise_deg) {
   simulation::Scenario scenario = simulation::gimbalWalkers(3);
@@ -27,49 +23,14 @@ simulation::Scenario gimbalFlight(double noise_deg) {
 }
 
 InertialParameters parametersOf(const simulation::Scenario& scenario, double noise_deg) {
-  InertialParameters parameters;
-  parameters.extrinsics = scenario.extrinsics;
-  parameters.noise = scenario.imu.noise;
-  parameters.feedback_correlation_frames = 1;  // errors of the simulated corrections are independent
+  InertialParameters parameters = filterParameters(scenario);
   parameters.gimbal.enabled = true;
   parameters.gimbal.angle_sigma_deg = noise_deg;
   return parameters;
 }
 
-InertialFilter filterOf(const simulation::FlightSimulator& flight, const InertialParameters& parameters) {
-  InertialFilter filter(flight.camera(), parameters);
-  for (const ImuSample& sample : flight.imu()) filter.addImu(sample);
-  for (const AltitudeSample& sample : flight.altimeter()) filter.addAltitude(sample);
-  return filter;
-}
-
 void addGimbal(const simulation::FlightSimulator& flight, InertialFilter& filter) {
   for (const MountSample& sample : flight.gimbal()) EXPECT_TRUE(filter.addMount(sample));
-}
-
-struct Errors {
-  double px = 0;          ///< mean transfer error
-  double normalised = 0;  ///< mean squared error by the covariance; 8 expected
-};
-
-Errors errorsOf(const simulation::FlightSimulator& flight, InertialFilter& filter) {
-  std::mt19937 random(5);
-  Errors errors;
-  for (int k = 0; k < kFrames; ++k) {
-    const InertialHomography result = filter.advanceTo(flight.frameTime(k));
-    if (k == 0) continue;
-    EXPECT_TRUE(result.valid) << k << ' ' << toString(result.status);
-    const Eigen::Matrix3d exact = flight.homography(k);
-    if (k >= kSettled) {
-      errors.px += meanTransferError(result.H, exact, kWidth, kHeight) / (kFrames - kSettled);
-      errors.normalised += normalisedErrorSquared(result.H, result.covariance, exact) / (kFrames - kSettled);
-    }
-    HomographyObservation observation = noisyHomography(exact, 0.3, random);
-    observation.time_previous = result.time_previous;
-    observation.time = result.time;
-    filter.correct(observation);
-  }
-  return errors;
 }
 
 TEST(GimbalFilter, ExactAnglesGiveTheHomographyOfAFixedCamera) {
@@ -84,7 +45,7 @@ TEST(GimbalFilter, TheNoiseOfTheAnglesIsPartOfTheCovariance) {
     const simulation::FlightSimulator flight(gimbalFlight(noise_deg));
     InertialFilter filter = filterOf(flight, parametersOf(flight.scenario(), noise_deg));
     addGimbal(flight, filter);
-    const Errors errors = errorsOf(flight, filter);
+    const FilterErrors errors = errorsOf(flight, filter);
     std::cout << noise_deg << " deg: " << errors.px << " px, normalised error squared " << errors.normalised
               << " (8 expected)\n";
     EXPECT_GT(errors.normalised, 3);

@@ -18,7 +18,7 @@ TEST_F(MosaicTest, TheMapIsInMetresAndHasNoShear) {
 TEST_F(MosaicTest, IsTheTextureWithoutWhatMoved) {
   const auto piece = chain().longestPiece();
   ASSERT_EQ(piece.size(), static_cast<size_t>(kFrames));
-  const GroundFrames frames = mapped(piece, camera().K_inverse());
+  const GroundFrames frames = mapped(piece, camera().K());
   ASSERT_TRUE(frames.is_metric);
   const auto grid = gridFor(frames, {kWidth, kHeight}, 4000);
   ASSERT_TRUE(grid);
@@ -57,7 +57,7 @@ TEST_F(MosaicTest, EndsBelowTheHorizon) {
   level.addStep(1, 2, Eigen::Matrix3d::Identity());
   const Eigen::Matrix3d pitched = expSO3({20 * M_PI / 180, 0, 0}) * R_CG;
   level.setPlane(1, {pitched * Eigen::Vector3d(0, 0, -1), 10});
-  const GroundFrames frames = mapped(level.longestPiece(), camera().K_inverse());
+  const GroundFrames frames = mapped(level.longestPiece(), camera().K());
   const auto grid = gridFor(frames, {kWidth, kHeight}, 4000);
   ASSERT_TRUE(grid);
   // Three times the side of the centre's pixel: 3^(2/3) times its distance along the ground at most.
@@ -86,7 +86,7 @@ TEST_F(MosaicTest, WithoutAPlaneIsInPixelsOfTheMiddleFrame) {
   GroundChain pixels;
   pixels.addStep(1, 2, Eigen::Matrix3d::Identity());
   pixels.addStep(2, 3, Eigen::Matrix3d::Identity());
-  const GroundFrames frames = mapped(pixels.longestPiece(), camera().K_inverse());
+  const GroundFrames frames = mapped(pixels.longestPiece(), camera().K());
   EXPECT_FALSE(frames.is_metric);
   const auto grid = gridFor(frames, {kWidth, kHeight}, 4000);
   ASSERT_TRUE(grid);

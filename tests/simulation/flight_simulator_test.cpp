@@ -209,5 +209,31 @@ TEST(FlightSimulator, ImpossibleScenariosAreRefused) {
   EXPECT_THROW(FlightSimulator(twoPlanes(1)).frontHomography(3, 1), std::invalid_argument);
 }
 
+TEST(FlightSimulator, ALensThatZoomsShowsWhatACameraOfThatFocalLengthDoes) {
+  const Scenario scenario = zoomWalkers(3);
+  const FlightSimulator flight(scenario);
+  constexpr int kFrame = 30;
+  Scenario fixed = scenario;
+  fixed.lens.reset();
+  fixed.intrinsics = zoomed(scenario.intrinsics, flight.zoom(kFrame));
+  EXPECT_GT(flight.zoom(kFrame), 1.2);
+  EXPECT_TRUE(same(flight.frame(kFrame).image.grey, FlightSimulator(fixed).frame(kFrame).image.grey));
+  fixed.intrinsics = scenario.intrinsics;
+  EXPECT_FALSE(same(flight.frame(kFrame).image.grey, FlightSimulator(fixed).frame(kFrame).image.grey));
+  expectExact(flight, kFrame, flight.homography(kFrame), kSurfaceGround, "ground of a lens that zooms");
+}
+
+TEST(FlightSimulator, TheLensSaysItsFocalLength) {
+  Scenario scenario = zoomWalkers(3);
+  scenario.lens->error_sigma = 0;
+  scenario.lens->lag_s = 0.04;
+  const FlightSimulator flight(scenario);
+  for (const LensSample& said : flight.lens()) {
+    const double t_s = seconds(said.time - ImuTime(scenario.start));
+    EXPECT_NEAR(said.zoom, scenario.lens->zoom(t_s - 0.04), 1e-4);
+  }
+  EXPECT_TRUE(FlightSimulator(walkers(3)).lens().empty());
+}
+
 }  // namespace
 }  // namespace redbee::simulation

@@ -11,8 +11,10 @@
 #include "redbee/gimbal_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/inertial/imu.hpp"
+#include "redbee/inertial/lens_track.hpp"
 #include "redbee/inertial/mount_track.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/lens_t.hpp"
 
 namespace redbee::test {
 
@@ -39,6 +41,16 @@ inline gimbal_t message(const MountSample& sample) {
   return m;
 }
 
+/// Of a lens of this focal length [px] at rest, in an image of this width.
+inline lens_t message(const LensSample& sample, double focal_px, int width) {
+  lens_t m{};
+  m.utime = toUtime(sample.time);
+  m.has_focal_length = 1;
+  m.focal_length = sample.zoom * focal_px;
+  m.width = width;
+  return m;
+}
+
 /// One message of a sensor, encoded.
 struct SensorMessage {
   int64_t utime = 0;  ///< us
@@ -49,6 +61,7 @@ struct SensorMessage {
 inline SensorMessage encoded(const image_t& m) { return {m.utime, "CAMERA", encodeMessage(m)}; }
 inline SensorMessage encoded(const ins_t& m) { return {m.utime, "IMU", encodeMessage(m)}; }
 inline SensorMessage encoded(const gimbal_t& m) { return {m.utime, "GIMBAL", encodeMessage(m)}; }
+inline SensorMessage encoded(const lens_t& m) { return {m.utime, "LENS", encodeMessage(m)}; }
 inline SensorMessage encoded(const altimeter_t& m) { return {m.utime, "ALTIMETER", encodeMessage(m)}; }
 
 }  // namespace redbee::test

@@ -48,6 +48,9 @@ inline StackFlight stackFlight(const simulation::Scenario& scenario, int frames)
   flight.configuration.inertial.gimbal.enabled = scenario.gimbal.has_value();
   for (const MountSample& sample : rendered.simulator().gimbal())
     flight.messages.push_back(encoded(message(sample)));
+  flight.configuration.inertial.lens.enabled = scenario.lens.has_value();
+  for (const LensSample& sample : rendered.simulator().lens())
+    flight.messages.push_back(encoded(message(sample, scenario.intrinsics.fx, scenario.intrinsics.width)));
   for (const AltitudeSample& sample : rendered.simulator().altimeter()) {
     flight.messages.push_back(encoded(message(sample)));
   }

@@ -87,16 +87,17 @@ void CameraPath::propagate(double elapsed_s, const std::optional<Eigen::Matrix3d
     frames_.clear();
     return;
   }
-  const Eigen::Matrix3d& K = step->K;
-  const auto frameOf = [&](double age_s, const Eigen::Matrix3d& H, const PlaneMotion& motion) {
-    const Eigen::Vector3d epipole = K * motion.t_ba / (nearest_depth_fraction_ * motion.h_a);
-    return Frame{age_s, SceneMotion(H, motion, K), motion, epipole};
+  const Eigen::Matrix3d& K_now = step->cameras.K_b;
+  const auto frameOf = [&](double age_s, const Eigen::Matrix3d& H, const PlaneMotion& motion,
+                           const Eigen::Matrix3d& K) {
+    const Eigen::Vector3d epipole = K_now * motion.t_ba / (nearest_depth_fraction_ * motion.h_a);
+    return Frame{age_s, SceneMotion(H, motion, {K, K_now}), motion, K, epipole};
   };
   for (Frame& frame : frames_) {
     frame = frameOf(frame.age_s + elapsed_s, normaliseHomography(*ground * frame.scene.ground),
-                    compose(step->motion, frame.motion));
+                    compose(step->motion, frame.motion), frame.K);
   }
-  frames_.push_back(frameOf(elapsed_s, *ground, step->motion));
+  frames_.push_back(frameOf(elapsed_s, *ground, step->motion, step->cameras.K_a));
   while (!frames_.empty() && frames_.front().age_s > kSpan_s) frames_.pop_front();
 }
 

@@ -13,10 +13,10 @@
 
 namespace redbee {
 
-/// The camera's motion over one step, and the camera matrix [px].
+/// The camera's motion over one step, and the camera matrices before and after it [px].
 struct CameraStep {
   PlaneMotion motion;
-  Eigen::Matrix3d K;
+  CameraPair cameras;
 };
 
 /// The camera's motion over the latest 1.5 s: from each of these frames to the current one.
@@ -50,6 +50,7 @@ class CameraPath {
     double age_s;
     SceneMotion scene;  ///< from it to the current frame
     PlaneMotion motion;
+    Eigen::Matrix3d K;        ///< its own
     Eigen::Vector3d epipole;  ///< [px]: of a surface at the smallest plausible depth
   };
 

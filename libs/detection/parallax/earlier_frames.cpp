@@ -42,13 +42,14 @@ void EarlierFrames::propagate(const Eigen::Matrix3d& ground, const std::optional
   }
 }
 
-void EarlierFrames::store(CameraTime time, const cv::Mat1b& grey, double span_s) {
+void EarlierFrames::store(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K, double span_s) {
   while (!frames_.empty() && static_cast<double>((time - frames_.front().time).count()) > span_s * 1e6) {
     frames_.pop_front();
   }
   EarlierFrame frame;
   frame.time = time;
   frame.grey = grey;
+  frame.K = K;
   frames_.push_back(frame);
 }
 
@@ -63,7 +64,7 @@ const EarlierFrame* EarlierFrames::aged(CameraTime now, double age_s) const {
 }
 
 AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px) {
-  const SceneMotion scene(frame.ground, frame.motion, K);
+  const SceneMotion scene(frame.ground, frame.motion, {frame.K, K});
   const std::array<double, 9> ground = inverseOf(scene.ground), far = inverseOf(scene.far);
   const cv::Size size = frame.grey.size();
   AlignedImage aligned{cv::Mat1b(size), cv::Mat1b(size)};

@@ -30,15 +30,15 @@ void ForegroundEvidence::reset() {
 }
 
 void ForegroundEvidence::propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
-                                   const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K) {
+                                   const std::optional<PlaneMotion>& motion, const CameraPair& cameras) {
   // The IMU's translation drifts and is wrong until its filter has converged; the fused homography gives a
   // better one.
   std::optional<PlaneMotion> consistent = motion;
-  if (consistent) consistent->t_ba = translationFromHomography(K, ground, *motion);
+  if (consistent) consistent->t_ba = translationFromHomography(cameras, ground, *motion);
   motion_.propagate(ground, front, consistent);
   if (!appearance_.enabled) return;
   background_.propagate(SceneMotion(normaliseHomography(to_background_ * ground * to_background_.inverse()),
-                                    motion, to_background_ * K));
+                                    motion, {to_background_ * cameras.K_a, to_background_ * cameras.K_b}));
 }
 
 cv::Mat4f ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour,

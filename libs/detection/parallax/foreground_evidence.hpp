@@ -23,7 +23,7 @@ class ForegroundEvidence {
   void reset();
   /// Propagates images and background by the camera's motion (previous to current; full-size pixels).
   void propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
-                 const std::optional<PlaneMotion>& motion, const Eigen::Matrix3d& K);
+                 const std::optional<PlaneMotion>& motion, const CameraPair& cameras);
 
   /// Classifies the image, then learns it. Returns maps of the size `full`, empty if there is no earlier
   /// frame. `grey` may be smaller; `colour`: of grey's size, or empty if the camera is grey.

@@ -18,7 +18,8 @@ ParallaxDetector::ParallaxDetector(const DetectionParameters& parameters)
 void ParallaxDetector::warpBackground(const FrameInput& input) {
   const bool is_structure =
       input.front && runsOutOfImage(input.tracks, *input.ground, *input.front, input.fullSize());
-  evidence_.propagate(*input.ground, is_structure ? input.front : std::nullopt, input.motion, input.K);
+  evidence_.propagate(*input.ground, is_structure ? input.front : std::nullopt, input.motion,
+                      input.cameras());
 }
 
 ForegroundMaps ParallaxDetector::learn(const FrameInput& input) {

@@ -111,7 +111,7 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
     const double frames = seconds(time - frame->time) / elapsed_s_;
     found = evidence(*frame, small, work_ * K, frames);
   }
-  frames_.store(time, small, parameters_.baseline_s);
+  frames_.store(time, small, work_ * K, parameters_.baseline_s);
   if (parameters_.use_point_paths) paths_.update(time, small, work_ * K, own_parts_);
   return found;
 }

@@ -80,11 +80,11 @@ void PointPaths::propagate(const Eigen::Matrix3d& ground, const std::optional<Pl
 void PointPaths::update(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
                         const cv::Mat1b& excluded) {
   constexpr int kLeastSide_px = 24;
-  if (size_ != grey.size()) reset();
-  size_ = grey.size();
-  const double elapsed_s = last_time_ ? seconds(time - *last_time_) : 0;
+  if (std::exchange(size_, grey.size()) != grey.size()) reset();
+  const double elapsed_s = seconds(time - last_time_.value_or(time));
   const bool continues = !previous_.empty() && ground_ && motion_;
-  camera_.propagate(elapsed_s, ground_, motion_ ? std::optional(CameraStep{*motion_, K}) : std::nullopt);
+  const CameraPair K_pair(last_time_ ? K_ : K, K);
+  camera_.propagate(elapsed_s, ground_, motion_ ? std::optional(CameraStep{*motion_, K_pair}) : std::nullopt);
   if (ground_ && !motion_) return reset();  // no path can be told from a static one's
   Pyramid image(grey, 1, shape_.margin(), kLeastSide_px);
   tensor_ = structureTensor(grey, kWindow_px);
@@ -99,6 +99,7 @@ void PointPaths::update(CameraTime time, const cv::Mat1b& grey, const Eigen::Mat
   sample(elapsed_s, continues);
   previous_ = std::move(image);
   last_time_ = time;
+  K_ = K;
   ground_.reset();
   motion_.reset();
 }

@@ -80,6 +80,7 @@ class PointPaths {
   std::optional<CameraTime> last_time_;
   std::optional<Eigen::Matrix3d> ground_;  ///< since the last image
   std::optional<PlaneMotion> motion_;      ///< since then
+  Eigen::Matrix3d K_;                      ///< of that image [px]
   std::vector<PointPath> paths_, kept_;
   std::vector<PathObservation> observations_;
 };

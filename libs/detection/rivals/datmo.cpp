@@ -109,7 +109,7 @@ RivalScore Datmo::scoreFrame(const FrameInput& input) {
   if (first) return scored;
   std::optional<cv::Matx33d> H;
   if (input.motion) {
-    cv::eigen2cv(planeHomography(input.K, *input.motion), H.emplace());
+    cv::eigen2cv(planeHomography(input.cameras(), *input.motion), H.emplace());
   } else {
     H = registerTracks(tracks);
   }

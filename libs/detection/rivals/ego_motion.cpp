@@ -16,13 +16,13 @@ constexpr size_t kMinPoints = 16;
 
 }  // namespace
 
-EgoMotion::EgoMotion(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const Eigen::Matrix3d& K)
-    : rotation_(K * R * K.inverse()), epipole_(K * t) {}
+EgoMotion::EgoMotion(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const CameraPair& cameras)
+    : rotation_(cameras.K_b * R * cameras.K_a.inverse()), epipole_(cameras.K_b * t) {}
 
-EgoMotion::EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_fraction,
+EgoMotion::EgoMotion(const PlaneMotion& motion, const CameraPair& cameras, double nearest_fraction,
                      double ground_slack)
-    : EgoMotion(motion.R_ba, motion.t_ba, K) {
-  ground_ = (1 - ground_slack) / motion.h_a * K.inverse().transpose() * motion.m_a;
+    : EgoMotion(motion.R_ba, motion.t_ba, cameras) {
+  ground_ = (1 - ground_slack) / motion.h_a * cameras.K_a.inverse().transpose() * motion.m_a;
   nearest_inverse_depth_ = 1 / (nearest_fraction * motion.h_a);
 }
 

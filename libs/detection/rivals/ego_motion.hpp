@@ -15,7 +15,7 @@ class EgoMotion {
  public:
   /// From an IMU. The scene is no nearer than `nearest_fraction` of the height, and no deeper than the ground
   /// plane, whose depth is accurate to `ground_slack`.
-  EgoMotion(const PlaneMotion& motion, const Eigen::Matrix3d& K, double nearest_fraction,
+  EgoMotion(const PlaneMotion& motion, const CameraPair& cameras, double nearest_fraction,
             double ground_slack);
   /// From the tracks alone: essential matrix (Nister's five points, RANSAC). Depth is only known to be
   /// positive, and is taken to be at least `nearest_baselines` times the length of travel. std::nullopt if
@@ -31,10 +31,10 @@ class EgoMotion {
   std::optional<Segment> segmentOf(const cv::Point2f& previous) const;
 
  private:
-  EgoMotion(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const Eigen::Matrix3d& K);
+  EgoMotion(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const CameraPair& cameras);
 
-  Eigen::Matrix3d rotation_;  ///< K R K^-1
-  Eigen::Vector3d epipole_;   ///< K t
+  Eigen::Matrix3d rotation_;  ///< K_b R K_a^-1
+  Eigen::Vector3d epipole_;   ///< K_b t
   Eigen::Vector3d ground_ =
       Eigen::Vector3d::Zero();  ///< inverse depth of the ground at a pixel x is ground_' x
   double nearest_inverse_depth_ = 0;

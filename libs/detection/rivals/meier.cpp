@@ -56,8 +56,8 @@ RivalScore Meier::scoreFrame(const FrameInput& input) {
   std::optional<EgoMotion> motion;
   std::optional<cv::Matx33d> background;
   if (input.motion) {
-    motion.emplace(*input.motion, input.K, kNearestFraction, kGroundSlack);
-    cv::eigen2cv(planeHomography(input.K, *input.motion), background.emplace());
+    motion.emplace(*input.motion, input.cameras(), kNearestFraction, kGroundSlack);
+    cv::eigen2cv(planeHomography(input.cameras(), *input.motion), background.emplace());
   } else {
     motion = EgoMotion::fromTracks(tracks, input.K, kNearestBaselines);
     background = registerTracks(tracks);

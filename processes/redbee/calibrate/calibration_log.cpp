@@ -1,11 +1,13 @@
 #include "processes/redbee/calibrate/calibration_log.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <deque>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "processes/lens_messages.hpp"
 #include "processes/warnings.hpp"
 #include "redbee/altimeter_t.hpp"
 #include "redbee/bus/image.hpp"
@@ -15,6 +17,7 @@
 #include "redbee/image_t.hpp"
 #include "redbee/imaging/rectifier.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/lens_t.hpp"
 #include "redbee/node/message_check.hpp"
 #include "redbee/visual/homography_estimation.hpp"
 #include "redbee/visual/point_tracker.hpp"
@@ -99,6 +102,7 @@ class LogIntake {
     if (event.channel == channels.imu) return onImu(event);
     if (event.channel == channels.altimeter && configuration_.has_altimeter) return takeAltitude(event);
     if (event.channel == channels.camera) return takeImage(event);
+    if (event.channel == channels.lens && configuration_.inertial.lens.enabled) return checkLens(event);
   }
 
   void finish() const {
@@ -121,6 +125,19 @@ class LogIntake {
     altimeter_t message;
     if (!decodePlausible(event.data, message)) return noteDamaged();
     input_.altimeter.push_back({ImuTime(fromUtime(message.utime)), message.height, message.sigma});
+  }
+
+  /// One focal length is calibrated.
+  void checkLens(const LogEvent& event) const {
+    constexpr double kSame = 0.01;  // an error of the focal length that a calibration can bear
+    lens_t message;
+    if (!decodePlausible(event.data, message)) return;
+    const auto lens = lensSampleOf(message, configuration_);
+    if (!lens || std::abs(lens->zoom - 1) <= kSame) return;
+    throw InputError(
+        log_, "event " + std::to_string(event.number) + ": " + configuration_.channels.lens + " says " +
+                  std::to_string(lens->zoom) +
+                  " times the focal length of camera.fx: calibrate at that one (lens.focal_length_px)");
   }
 
   void takeImage(const LogEvent& event) {

@@ -1,9 +1,12 @@
 #include "processes/redbee/detect/input_survey.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "redbee/bus/image.hpp"
 #include "redbee/bus/message_name.hpp"
+#include "redbee/lens_t.hpp"
 #include "redbee/node/message_check.hpp"
 
 namespace redbee {
@@ -23,6 +26,14 @@ void InputSurvey::add(const LogEvent& event) {
   } else if (event.channel == configuration_.channels.imu) {
     ins_t sample;
     imu_.add(decodePlausible(event.data, sample) ? sample.utime : event.utime);
+  } else if (event.channel == configuration_.channels.lens) {
+    ++lens_messages_;
+    lens_t lens;
+    if (!decodePlausible(event.data, lens) || lens.has_focal_length == 0) return;
+    const double focal_px = lens.focal_length / lens.width * configuration_.camera.width;
+    if (longest_focal_px_ == 0) shortest_focal_px_ = focal_px;
+    shortest_focal_px_ = std::min(shortest_focal_px_, focal_px);
+    longest_focal_px_ = std::max(longest_focal_px_, focal_px);
   }
 }
 
@@ -42,7 +53,22 @@ std::vector<std::string> InputSurvey::warnings() const {
                     " us, the images' " + std::to_string(camera_.first_utime) + " to " +
                     std::to_string(camera_.last_utime) + " us: check their clocks");
   }
+  if (const std::string lens = lensWarning(); !lens.empty()) lines.push_back(lens);
   return lines;
+}
+
+std::string InputSurvey::lensWarning() const {
+  constexpr double kZooms = 1.02;  // an error of the focal length that distorts every homography
+  const std::string& channel = configuration_.channels.lens;
+  if (configuration_.inertial.lens.enabled) {
+    if (lens_messages_ > 0) return "";
+    return "lens.enabled is true, but the log holds no message on " + channel +
+           ": the configured focal length holds for all images";
+  }
+  if (longest_focal_px_ <= kZooms * shortest_focal_px_) return "";
+  return fmt::format(
+      "{} says focal lengths from {:.0f} to {:.0f} px, but lens.enabled is false: a zoom looks like a climb",
+      channel, shortest_focal_px_, longest_focal_px_);
 }
 
 std::string InputSurvey::faultOfFirstImage() const {

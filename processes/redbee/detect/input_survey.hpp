@@ -19,7 +19,8 @@ class InputSurvey {
   void add(const LogEvent& event);
 
   int64_t images() const { return camera_.count; }
-  /// Where configuration and log contradict each other about the IMU, one line each; empty if they do not.
+  /// Where configuration and log contradict each other about IMU and lens, one line each; empty if they do
+  /// not.
   std::vector<std::string> warnings() const;
   /// Why the first image cannot be read: another type of message, a pixel format, sizes. Empty if it can.
   std::string faultOfFirstImage() const;
@@ -32,9 +33,13 @@ class InputSurvey {
     void add(int64_t utime);
   };
 
+  std::string lensWarning() const;
+
   const Configuration& configuration_;
   Span camera_;
   Span imu_;
+  int64_t lens_messages_ = 0;
+  double shortest_focal_px_ = 0, longest_focal_px_ = 0;  ///< that they state; 0: none
   std::vector<uint8_t> first_image_;
 };
 

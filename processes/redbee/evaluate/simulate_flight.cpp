@@ -27,6 +27,7 @@ const std::map<std::string, ScenarioMaker>& scenarios() {
       {"walkers", simulation::walkers},
       {"brisk_walkers", simulation::briskWalkers},
       {"gimbal_walkers", simulation::gimbalWalkers},
+      {"zoom_walkers", simulation::zoomWalkers},
   };
   return makers;
 }
@@ -67,6 +68,7 @@ Configuration configurationOf(const simulation::Scenario& scenario, const Simula
   configuration.inertial.extrinsics = scenario.extrinsics;
   configuration.inertial.noise = scenario.imu.noise;
   configuration.inertial.gimbal.enabled = scenario.gimbal.has_value();
+  configuration.inertial.lens.enabled = scenario.lens.has_value();
   return configuration;
 }
 
@@ -94,6 +96,8 @@ void runSimulate(const SimulateOptions& options) {
   Progress progress("simulating " + options.scenario, "frames");
   FlightMerger merger(options.log, ImportChannels(), simulator.imu(), simulator.altimeter());
   merger.addMount(simulator.gimbal());
+  for (const LensSample& sample : simulator.lens())
+    merger.addLens({sample.time, sample.zoom * scenario.intrinsics.fx, scenario.intrinsics.width});
   TruthFolder truth(options.truth);
   for (int k = 0; k < scenario.frames; ++k) {
     const simulation::SimulatedFrame frame = simulator.frame(k);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "processes/rectified_camera.hpp"
@@ -16,12 +15,13 @@ struct ObservedFrame {
   const std::vector<uint8_t>* mask =
       nullptr;                               ///< PNG on the raw image's grid, 255 moving; null: no valid one
   const detections_t* detections = nullptr;  ///< null: none
-  std::optional<RowMotion> row_motion;       ///< of a rolling shutter's image
+  Exposure exposure{};
 };
 
 class FramePainter {
  public:
-  explicit FramePainter(const CameraIntrinsics& camera) : camera_(camera) {}
+  /// `own_parts`: see Rectifier.
+  FramePainter(const CameraIntrinsics& camera, const cv::Mat1b& own_parts) : camera_(camera, 1, own_parts) {}
 
   const Camera& camera() const { return camera_.camera(); }
   cv::Size idealSize() const { return {camera().ideal().width, camera().ideal().height}; }
@@ -31,7 +31,7 @@ class FramePainter {
   bool paint(const image_t& image, const ObservedFrame& frame, const Eigen::Matrix3d& to_map, Mosaic& mosaic);
 
  private:
-  cv::Mat1b leftOut(const ObservedFrame& frame, const std::optional<RowMotion>& row_motion) const;
+  cv::Mat1b leftOut(const ObservedFrame& frame, const Exposure& exposure) const;
 
   RectifiedCamera camera_;
   HealthMonitor health_{"redbee-mosaic", ""};

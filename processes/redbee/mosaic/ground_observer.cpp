@@ -61,18 +61,23 @@ void runStack(LogReader& log, const std::filesystem::path& file, const Configura
 
 }  // namespace
 
-void note(const fused_homography_t& fused, GroundChain& chain) {
+Exposure exposureAt(const Exposures& exposures, int64_t utime) {
+  const auto found = exposures.find(utime);
+  return found == exposures.end() ? Exposure() : found->second;
+}
+
+void note(const fused_homography_t& fused, Exposures& exposures, GroundChain& chain) {
+  exposures[fused.utime] = {rowMotionOf(fused.row_motion), zoomOf(fused)};
   if (fused.source == fused_homography_t::NONE) return;
   chain.addStep(fused.utime_previous, fused.utime, matrix3(fused.step.H));
+  for (const int64_t utime : {fused.utime_previous, fused.utime})
+    chain.setZoom(utime, exposureAt(exposures, utime).zoom);
   if (fused.has_motion == 0) return;
   const plane_motion_t& m = fused.motion;
   chain.setPlane(fused.utime_previous, {{m.normal[0], m.normal[1], m.normal[2]}, m.distance});
 }
 
-void GroundObserver::onFused(const fused_homography_t& fused) {
-  if (const auto motion = rowMotionOf(fused.row_motion)) row_motions_[fused.utime] = *motion;
-  note(fused, chain_);
-}
+void GroundObserver::onFused(const fused_homography_t& fused) { note(fused, exposures_, chain_); }
 
 void GroundObserver::onForeground(const foreground_t& foreground) {
   if (foreground.status == foreground_t::GOOD) masks_[foreground.utime] = foreground.mask;
@@ -81,10 +86,8 @@ void GroundObserver::onForeground(const foreground_t& foreground) {
 ObservedFrame GroundObserver::frame(int64_t utime) const {
   const auto mask = masks_.find(utime);
   const auto detections = detections_.find(utime);
-  const auto motion = row_motions_.find(utime);
   return {mask == masks_.end() ? nullptr : &mask->second,
-          detections == detections_.end() ? nullptr : &detections->second,
-          motion == row_motions_.end() ? std::nullopt : std::optional(motion->second)};
+          detections == detections_.end() ? nullptr : &detections->second, exposureAt(exposures_, utime)};
 }
 
 GroundObserver observeGround(const std::filesystem::path& file, const Configuration& configuration) {

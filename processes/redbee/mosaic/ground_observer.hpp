@@ -13,11 +13,18 @@
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/fused_homography_t.hpp"
+#include "redbee/mosaic/ground_chain.hpp"
 
 namespace redbee {
 
-/// The step of the ground's homography and its plane, if it has them. Precondition: the message is plausible.
-void note(const fused_homography_t& fused, GroundChain& chain);
+/// Of the images, by their times [us].
+using Exposures = std::map<int64_t, Exposure>;
+/// As the camera is configured where nothing is known.
+Exposure exposureAt(const Exposures& exposures, int64_t utime);
+
+/// The image's exposure; the step of the ground's homography and its plane, if it has them. Precondition: the
+/// message is plausible.
+void note(const fused_homography_t& fused, Exposures& exposures, GroundChain& chain);
 
 class GroundObserver {
  public:
@@ -39,7 +46,7 @@ class GroundObserver {
   std::map<int64_t, std::vector<uint8_t>> masks_;
   std::map<int64_t, detections_t> detections_;
   int64_t damaged_ = 0;
-  std::map<int64_t, RowMotion> row_motions_;
+  Exposures exposures_;
 };
 
 /// From the log's own FUSED_HOMOGRAPHY, FOREGROUND and DETECTIONS; where it has none, from those of the stack

@@ -32,7 +32,6 @@ GroundTieFinder::GroundTieFinder(const Configuration& configuration, const Camer
                                  const GroundFrames& frames, const MosaicGrid& grid)
     : configuration_(configuration),
       ideal_(camera.ideal()),
-      model_(makeCameraModel(ideal_)),
       frames_(frames.frames),
       grid_(grid),
       views_(configuration.geolocation, configuration.inertial.extrinsics.R_CI,
@@ -63,13 +62,14 @@ void GroundTieFinder::add(const MappedFrame& frame) {
   fault_ = estimate.fault;
   if (!estimate.view || !views_.frame().isGlobal()) return;
   const cv::Size image(ideal_.width, ideal_.height);
+  const auto model = makeCameraModel(zoomed(ideal_, frame.zoom));
   for (int i = 0; i < kSamples * kSamples; ++i) {
     const int column = i % kSamples, row = i / kSamples;
     const Eigen::Vector2d pixel((0.5 + column) * image.width / kSamples - 0.5,
                                 (0.5 + row) * image.height / kSamples - 0.5);
     if (areaOnMap(frame.to_map, pixel, image) > grid_.coarsest_area) continue;
-    const auto point = groundPointOf(*model_, pixel, *estimate.view,
-                                     configuration_.geolocation.min_depression_deg * kDegree);
+    const auto point =
+        groundPointOf(*model, pixel, *estimate.view, configuration_.geolocation.min_depression_deg * kDegree);
     if (!point) continue;
     if (const auto place = onGrid(point->position))
       found_.ties.push_back({(frame.to_map * pixel.homogeneous()).eval().hnormalized(), *place,

@@ -47,7 +47,6 @@ class GroundTieFinder {
 
   const Configuration& configuration_;
   CameraIntrinsics ideal_;
-  std::unique_ptr<const CameraModel> model_;
   const std::vector<MappedFrame>& frames_;
   MosaicGrid grid_;
   ViewEstimator views_;

@@ -29,7 +29,7 @@ int64_t draw(const MosaicOptions& options, const Configuration& configuration, G
              const GroundFrames& frames, Mosaic& mosaic, GroundTieFinder& ties) {
   std::map<int64_t, const MappedFrame*> by_time;
   for (const MappedFrame& frame : frames.frames) by_time[frame.utime] = &frame;
-  FramePainter painter(configuration.camera);
+  FramePainter painter(configuration.camera, configuration.own_parts);
   LogReader log(options.log);
   Progress progress("drawing " + options.log.filename().string(), "MB");
   int64_t drawn = 0;
@@ -107,7 +107,7 @@ MosaicSummary makeMosaic(const MosaicOptions& options) {
   const Camera camera(configuration.camera);
   checkFolder(options.out);
   GroundObserver ground = observeGround(options.log, configuration);
-  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera.K_inverse());
+  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera.K());
   const auto grid = gridFor(frames, {camera.ideal().width, camera.ideal().height}, options.most_px);
   if (!grid)
     throw InputError(options.log, "no homography of the ground leads from one frame to another: no mosaic");

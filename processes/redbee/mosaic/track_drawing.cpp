@@ -64,8 +64,9 @@ GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, con
   for (const MappedFrame& frame : frames.frames) {
     const detections_t* detections = ground.frame(frame.utime).detections;
     if (detections == nullptr) continue;
+    const Camera lens = zoomed(camera, frame.zoom);
     for (const detection_t& d : detections->detections) {
-      if (const auto place = placeOnMap(d, camera, frame.to_map, coarsest_area))
+      if (const auto place = placeOnMap(d, lens, frame.to_map, coarsest_area))
         tracks[d.id].push_back({frame.utime, *place});
     }
   }

@@ -72,9 +72,14 @@ void LiveCheck::compareRotations(const inertial_homography_t& inertial, const fu
   const PlaneMotion motion = motionOf(inertial.motion);
   const ImageScaling scaling(camera_.ideal().width, camera_.ideal().height);
   const Eigen::Matrix3d normal = kNormalSigma * kNormalSigma * Eigen::Matrix3d::Identity();
-  const auto difference = rotationDifference(
-      scaledMatrix(camera_), motion, matrix3(inertial.rotation_covariance), normal,
-      toVector(scaling.scale(matrix3(fused.observed.H))), matrix8(fused.observed.covariance));
+  const Eigen::Matrix3d K_now = zoomed(camera_.K(), zoomOf(inertial));
+  // The frame before is that of the message's earlier step.
+  const bool is_next = inertial.earlier.valid != 0 && inertial.earlier.utime == inertial.utime_previous;
+  const Eigen::Matrix3d K_before = is_next ? zoomed(camera_.K(), zoomOf(inertial.earlier)) : K_now;
+  const CameraPair cameras{scaling.T * K_before, scaling.T * K_now};
+  const auto difference = rotationDifference(cameras, motion, matrix3(inertial.rotation_covariance), normal,
+                                             toVector(scaling.scale(matrix3(fused.observed.H))),
+                                             matrix8(fused.observed.covariance));
   if (!difference) return;
   timeshift_.addVision(previousTimeOf(fused), timeOf(fused), expSO3(difference->difference) * motion.R_ba);
 }

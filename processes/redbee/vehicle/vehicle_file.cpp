@@ -50,6 +50,11 @@ std::string vehicleYaml(const VehicleDescription& vehicle) {
     configuration.inertial.gimbal.angle_sigma_deg = *vehicle.mount_sigma_deg;
     append(keys, {"gimbal.enabled", "gimbal.angle_sigma_deg"});
   }
+  if (vehicle.lens_focal_px) {
+    configuration.inertial.lens.enabled = true;
+    configuration.inertial.lens.focal_length_px = *vehicle.lens_focal_px;
+    append(keys, {"lens.enabled", "lens.focal_length_px"});
+  }
   if (vehicle.start_height) {
     configuration.inertial.extrinsics.start_height_m = vehicle.start_height->height_m;
     configuration.inertial.extrinsics.start_height_sigma_m = vehicle.start_height->sigma_m;

@@ -50,11 +50,9 @@ TEST(TrackBeforeDetect, WhereAllMovesUnlikeAStaticSurfaceMoreEvidenceIsNeeded) {
 
 /// A camera that looks straight down from 20 m; the parallax lies along x.
 CameraStep lookingDown(double x_m) {
-  CameraStep step{{Eigen::Matrix3d::Identity(), {-x_m, 0, 0}, Eigen::Vector3d::UnitZ(), 20},
-                  Eigen::Matrix3d::Identity()};
-  step.K.diagonal() << 500, 500, 1;
-  step.K.topRightCorner<2, 1>() << 320, 240;
-  return step;
+  Eigen::Matrix3d K;
+  K << 500, 0, 320, 0, 500, 240, 0, 0, 1;
+  return {{Eigen::Matrix3d::Identity(), {-x_m, 0, 0}, Eigen::Vector3d::UnitZ(), 20}, K};
 }
 
 /// s until an object that moves by px_s over the ground is reported; 2 if
@@ -63,7 +61,7 @@ double reportedAt(const Eigen::Vector2d& px_s, double probability) {
   TrackerFlight flight(shipped());
   const CameraStep step = lookingDown(0.05);
   flight.setCamera(step);
-  const Eigen::Matrix3d ground = planeHomography(step.K, step.motion);
+  const Eigen::Matrix3d ground = planeHomography(step.cameras, step.motion);
   for (int k = 0; k < 48; ++k) {
     const double time_s = k / 24.0;
     const cv::Point at(static_cast<int>(500 + ground(0, 2) * k + px_s.x() * time_s),

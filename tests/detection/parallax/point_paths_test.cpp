@@ -53,10 +53,14 @@ class Flight {
         motion.h_a = kHeight_m;
         paths_.propagate(planeHomography(camera(), motion), motion);
       }
-      paths_.update(CameraTime(fromSeconds(1 + t)), render(ground, patch, now, velocity * t, depth),
-                    camera());
+      paths_.update(CameraTime(fromSeconds(1 + t)), render(ground, patch, now, velocity * t, depth), camera(),
+                    excluded_);
       before = now;
     }
+  }
+  void exclude(const cv::Rect& box) {
+    excluded_ = cv::Mat1b::zeros(kSize);
+    excluded_(box).setTo(255);
   }
   std::vector<cv::Point> moving() const { return movingPoints(paths_.paths(), 2); }
   const std::vector<PointPath>& paths() const { return paths_.paths(); }
@@ -83,6 +87,7 @@ class Flight {
   double rate_hz_;
   PointPaths paths_{ParallaxParameters{}};
   cv::Rect patch_;
+  cv::Mat1b excluded_;
 };
 
 int inside(const std::vector<cv::Point>& points, cv::Rect box) {
@@ -101,6 +106,21 @@ TEST_P(PointPathsAt, WhatMovesSlowlyOverTheGroundIsFoundAndNothingElse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, PointPathsAt, testing::Values(12.0, 24.0, 60.0));
+
+/// As the vehicle's own parts are.
+TEST(PointPaths, WhatIsExcludedIsNotFollowed) {
+  const cv::Rect box(100, 60, 120, 80);
+  const auto followed = [&](bool is_excluded) {
+    Flight flight;
+    if (is_excluded) flight.exclude(box);
+    flight.run(0.5, kHeight_m, {0, 0});
+    return std::count_if(flight.paths().begin(), flight.paths().end(), [&](const PointPath& path) {
+      return box.contains(cv::Point(cvRound(path.at.x()), cvRound(path.at.y())));
+    });
+  };
+  EXPECT_GT(followed(false), 10);
+  EXPECT_EQ(followed(true), 0);
+}
 
 TEST(PointPaths, WhatStandsAboveTheGroundRests) {
   for (const double depth : {8.0, 5.0}) {

@@ -87,7 +87,7 @@ TEST(Mosaic, ComesBackToItselfAfterALoop) {
   const Configuration configuration = endlessVehicle();
   const GroundObserver ground = observeGround(folder / "loop.lcm", configuration);
   EXPECT_EQ(ground.chain().pieces(), 1U);
-  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera().K_inverse());
+  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera().K());
   ASSERT_TRUE(frames.is_metric);
   std::map<int64_t, Eigen::Matrix3d> to_map;
   for (const MappedFrame& frame : frames.frames) to_map[frame.utime] = frame.to_map;
@@ -161,7 +161,7 @@ TEST(Mosaic, LiesWhereThePosesHaveIt) {
 
   // A point of the ground that a frame in the middle shows: by the mosaic's grid, and in truth.
   const GroundObserver ground = observeGround(folder / "loop.lcm", configuration);
-  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera().K_inverse());
+  const GroundFrames frames = mapped(ground.chain().longestPiece(), camera().K());
   const auto grid =
       gridFor(frames, {camera().ideal().width, camera().ideal().height}, MosaicOptions().most_px);
   ASSERT_TRUE(grid);
@@ -174,7 +174,7 @@ TEST(Mosaic, LiesWhereThePosesHaveIt) {
       s.trajectory.at(static_cast<double>(k) / kFps + s.extrinsics.timeshift_s), s.extrinsics);
   double worst_m = 0;
   for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(160, 300), {480, 300}, {160, 460}, {480, 460}}) {
-    const Eigen::Vector3d ray = pose.R_CG.transpose() * camera().K_inverse() * pixel.homogeneous();
+    const Eigen::Vector3d ray = pose.R_CG.transpose() * camera().K() * pixel.homogeneous();
     const Eigen::Vector2d truth = (pose.p_GC - pose.p_GC.z() / ray.z() * ray).head<2>();
     const Geodetic expected = TargetFlight::placeOf(truth);
     const auto place = placeByGdal(folder / "out" / "mosaic.tif",
