@@ -31,7 +31,8 @@ ImuIntegrationNode::ImuIntegrationNode(Bus& bus, const Configuration& configurat
       feedback_(fromSeconds(configuration.waits.inertial_s), true) {
   const auto& channels = configuration_.channels;
   on<image_t>(channels.camera, [this](const image_t& m) { onFrame(m); });
-  on<ins_t>(channels.imu, [this](const ins_t& m) { return onImu(m); });
+  // Without it, the process still says what the lens does.
+  if (configuration_.has_imu) on<ins_t>(channels.imu, [this](const ins_t& m) { return onImu(m); });
   if (configuration_.has_altimeter) {
     on<altimeter_t>(channels.altimeter, [this](const altimeter_t& m) {
       return filter_.addAltitude({ImuTime(fromUtime(m.utime)), m.height, m.sigma});

@@ -10,8 +10,7 @@
 namespace redbee {
 namespace {
 
-constexpr double kSampleEvery_s = 0.08;
-constexpr double kTimeTolerance_s = 1e-3;
+constexpr double kSampleEvery_s = 0.079;  // two frames at 24 Hz, and times are rounded
 constexpr size_t kFewestSamples = 4;
 constexpr double kCorrelatedSamples = 2;  // samples whose errors are about as good as one independent one
 
@@ -88,15 +87,19 @@ void PointPaths::update(CameraTime time, const cv::Mat1b& grey, const Eigen::Mat
   if (ground_ && !motion_) return reset();  // no path can be told from a static one's
   Pyramid image(grey, 1, shape_.margin(), kLeastSide_px);
   tensor_ = structureTensor(grey, kWindow_px);
+  since_sample_s_ += elapsed_s;
+  const bool is_sampled = !continues || samples_.empty() || since_sample_s_ >= kSampleEvery_s;
   if (continues) {
     follow(image, *ground_, excluded);
-    registerSamples();
-    for (PointPath& path : paths_) test(path);
+    if (is_sampled) registerSamples();
+    for (PointPath& path : paths_) {
+      if (is_sampled) test(path);  // in between it says little more
+    }
   } else {
     reset();
   }
   begin(excluded);
-  sample(elapsed_s, continues);
+  if (is_sampled) sample();
   previous_ = std::move(image);
   last_time_ = time;
   K_ = K;
@@ -134,10 +137,9 @@ bool PointPaths::advance(PointPath& path, const Pyramid& image, const Eigen::Mat
   if (!isInside(found) || (found - on_ground).norm() > kFarthest_px / scale_) return false;
   if (forward_.residual(image[0], found) > kMostDifference) return false;
   const Eigen::Vector2d displacement = found - nearest;
-  const Eigen::Vector2d there = found.array().round();
-  const cv::Point to = pixelAt(there);
-  backward_.extract(image[0], to.x, to.y);
-  const Eigen::Vector2d expected = there - displacement;
+  const cv::Point there = pixelAt(found);
+  backward_.extract(image[0], there.x, there.y);
+  const Eigen::Vector2d expected = Eigen::Vector2d(there.x, there.y) - displacement;
   Eigen::Vector2d back = expected;
   if (backward_.align(previous_[0], back, kLimits) == Alignment::kLost) return false;
   if ((back - expected).norm() > kForwardBackward_px) return false;
@@ -234,9 +236,7 @@ void PointPaths::begin(const cv::Mat1b& excluded) {
   }
 }
 
-void PointPaths::sample(double elapsed_s, bool continues) {
-  since_sample_s_ += elapsed_s;
-  if (continues && !samples_.empty() && since_sample_s_ < kSampleEvery_s - kTimeTolerance_s) return;
+void PointPaths::sample() {
   since_sample_s_ = 0;
   samples_.push_front({camera_.current(), HomographyFlow(size_)});
   if (samples_.size() > PointPath::kMostSamples) samples_.pop_back();

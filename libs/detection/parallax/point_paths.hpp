@@ -62,7 +62,7 @@ class PointPaths {
   void registerSamples();
   void test(PointPath& path);
   void begin(const cv::Mat1b& excluded);
-  void sample(double elapsed_s, bool continues);
+  void sample();
   /// Of a point's earlier position in the current image, the registration's error removed.
   CameraPath::Sighting sighting(const Sample& sample, const Eigen::Vector2d& at) const;
   bool isInside(const Eigen::Vector2d& p) const;
