@@ -9,7 +9,7 @@ const cv::Size kImage{kWidth, kHeight};
 
 class GrowingMosaic : public TexturedGround {
  protected:
-  GrowingMosaic() : frames_(mapped(chain().longestPiece(), camera().K_inverse())) {}
+  GrowingMosaic() : frames_(mapped(chain().longestPiece(), camera().K())) {}
 
   const Eigen::Matrix3d& toMap(int k) const { return frames_.frames[static_cast<size_t>(k)].to_map; }
   Mosaic begun(int k, int most_px = 4000) const {
