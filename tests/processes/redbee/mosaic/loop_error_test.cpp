@@ -174,7 +174,7 @@ TEST(Mosaic, LiesWhereThePosesHaveIt) {
       s.trajectory.at(static_cast<double>(k) / kFps + s.extrinsics.timeshift_s), s.extrinsics);
   double worst_m = 0;
   for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(160, 300), {480, 300}, {160, 460}, {480, 460}}) {
-    const Eigen::Vector3d ray = pose.R_CG.transpose() * camera().K() * pixel.homogeneous();
+    const Eigen::Vector3d ray = pose.R_CG.transpose() * camera().K_inverse() * pixel.homogeneous();
     const Eigen::Vector2d truth = (pose.p_GC - pose.p_GC.z() / ray.z() * ray).head<2>();
     const Geodetic expected = TargetFlight::placeOf(truth);
     const auto place = placeByGdal(folder / "out" / "mosaic.tif",
