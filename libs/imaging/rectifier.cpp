@@ -41,6 +41,7 @@ cv::Mat2f interpolated(const CameraIntrinsics& size, const Mapping& mapping) {
   const int columns = size.width / kCell_px + 2;
   const auto cornersAt = [&](int v) {
     std::vector<std::optional<cv::Vec2f>> corners;
+    corners.reserve(static_cast<size_t>(columns));
     for (int i = 0; i < columns; ++i) corners.push_back(sourceAt(i * kCell_px, v));
     return corners;
   };
