@@ -72,6 +72,9 @@ Zoom LensTrack::at(ImuTime time) const {
   return {first.zoom * std::exp(fraction * std::log(later->zoom / first.zoom)), variance, true};
 }
 
-void LensTrack::eraseBefore(ImuTime time) { eraseUpTo(samples_, time); }
+void LensTrack::eraseBefore(ImuTime time) {
+  // Two stay: it takes them to see that the lens stands still.
+  while (samples_.size() > 2 && samples_[1].time <= time) samples_.pop_front();
+}
 
 }  // namespace redbee

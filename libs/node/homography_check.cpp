@@ -26,6 +26,9 @@ bool isRotation(const double (&entries)[9]) {
          R.determinant() > 0;
 }
 
+/// 0 where it is not known.
+bool isZoom(double zoom) { return zoom == 0 || isFrom(1 / kMaxZoom, zoom, kMaxZoom); }
+
 bool isUnit(const double (&v)[3]) {
   return areFrom(-2, v, 2) && std::abs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= kUnitTolerance;
 }
@@ -79,7 +82,7 @@ const char* faultOf(const earlier_step_t& m) {
   if (m.valid == 0) return nullptr;
   return firstOf(firstFault({{isFlag(m.valid), "flag"},
                              {hasFrameTimes(m) && m.utime_previous < m.utime, "time of the earlier step"},
-                             {isFrom(0, m.zoom, kMaxZoom), "zoom"},
+                             {isZoom(m.zoom), "zoom"},
                              {hasPointCounts(m), "points"}}),
                  faultOf(m.ground));
 }
@@ -91,7 +94,7 @@ const char* faultOf(const inertial_homography_t& m) {
                   {isFrom(inertial_homography_t::GOOD, m.status, inertial_homography_t::NO_GIMBAL), "status"},
                   {isFlag(m.valid), "flag"},
                   {hasImageSize(m), "image size"},
-                  {isFrom(0, m.zoom, kMaxZoom), "zoom"},
+                  {isZoom(m.zoom), "zoom"},
                   {isFrom(0, m.feedback_test_ratio, kMaxTestRatio), "test ratio"}});
   fault = firstOf(fault, firstOf(faultOf(m.row_motion), faultOf(m.earlier)));
   if (fault != nullptr || m.valid == 0) return fault;
@@ -110,7 +113,7 @@ const char* faultOf(const visual_homography_t& m) {
                   {m.sequence >= 0, "sequence"},
                   {isFrom(visual_homography_t::GOOD, m.status, visual_homography_t::NO_IMAGE), "status"},
                   {hasImageSize(m), "image size"},
-                  {isFrom(0, m.zoom, kMaxZoom), "zoom"},
+                  {isZoom(m.zoom), "zoom"},
                   {hasPointCounts(m) && isFrom(0, m.sampled, kMaxPoints), "points"},
                   {isFrom(0, m.rms, kMaxCoordinate_px), "residual"}});
   fault = firstOf(fault, firstOf(faultOf(m.tracks), faultOf(m.earlier)));
@@ -127,7 +130,7 @@ const char* faultOf(const fused_homography_t& m) {
        {isFrom(fused_homography_t::NONE, m.source, fused_homography_t::FUSED), "source"},
        {m.epoch >= 0, "epoch"},
        {hasImageSize(m), "image size"},
-       {isFrom(0, m.zoom, kMaxZoom), "zoom"},
+       {isZoom(m.zoom), "zoom"},
        {isFlag(m.has_front) && isFlag(m.has_innovation) && isFlag(m.has_observation) && isFlag(m.has_motion),
         "flag"},
        {isTextShort(m.calibration), "text"},

@@ -214,7 +214,8 @@ void ImuIntegrationNode::integrate(CameraTime frame) {
 }
 
 void ImuIntegrationNode::updateState(const InertialHomography& result) {
-  if (!result.valid || result.status != InertialStatus::kGood)
+  const bool is_good = result.valid && result.status == InertialStatus::kGood;
+  if (configuration_.has_imu && !is_good)
     return health().setState(HealthState::kDegraded, reasonOf(result.status));
   std::string reason = filter_.timeshift().message();
   if (!result.zoom.is_known)

@@ -169,10 +169,14 @@ void MotionSegmentationNode::work(const image_t& message) {
 }
 
 Exposure MotionSegmentationNode::exposureOf(CameraTime frame) const {
-  if (const fused_homography_t* fused = companions().find(frame))
-    return {rowMotionOf(fused->row_motion), zoomOf(*fused)};
-  const visual_homography_t* visual = visual_.find(frame);
-  return {std::nullopt, visual == nullptr ? zoom_ : zoomOf(*visual)};
+  Exposure exposure{std::nullopt, zoom_};  // the lens stands as it stood
+  if (const visual_homography_t* visual = visual_.find(frame); visual != nullptr && visual->zoom > 0)
+    exposure.zoom = visual->zoom;
+  if (const fused_homography_t* fused = companions().find(frame)) {
+    exposure.rows = rowMotionOf(fused->row_motion);
+    if (fused->zoom > 0) exposure.zoom = fused->zoom;
+  }
+  return exposure;
 }
 
 Exposure MotionSegmentationNode::decodeInto(FrameInput& input, const image_t& message) {

@@ -72,6 +72,17 @@ TEST(LensTrack, ALensThatSeldomSpeaksStandsStillUntilItSaysOtherwise) {
   EXPECT_FALSE(lens.at(at(1.5)).is_known);
 }
 
+/// Also once what is older than a second has been erased, as the filter does.
+TEST(LensTrack, ALensThatStandsStillIsKnownBetweenRareMessages) {
+  LensTrack lens{LensParameters()};
+  for (const double t_s : {0.0, 2.0}) lens.add({at(t_s), 1.5});
+  for (const double t_s : {2.5, 3.5, 4.5}) {
+    lens.eraseBefore(at(t_s - 1));
+    EXPECT_TRUE(lens.reaches(at(t_s))) << t_s;
+    EXPECT_TRUE(lens.at(at(t_s)).is_known) << t_s;
+  }
+}
+
 TEST(LensTrack, WithoutAnyMessageTheConfiguredFocalLengthHolds) {
   const Zoom zoom = LensTrack(LensParameters()).at(at(0));
   EXPECT_EQ(zoom.value, 1);

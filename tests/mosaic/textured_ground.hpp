@@ -66,7 +66,7 @@ class TexturedGround : public testing::Test {
     cv::Mat1b ground = texture_.clone();
     cv::Mat1b where = cv::Mat1b::zeros(texture_.size());
     if (has_mover) {
-      const cv::Rect square(kTexels / 2 + 3 * k, kTexels / 2 + 10 * k, 75, 75);
+      const cv::Rect square(kTexels / 2.0 + 3 * k, kTexels / 2.0 + 10 * k, 75, 75);
       ground(square) = 255;
       where(square) = 255;
     }
@@ -97,8 +97,8 @@ class TexturedGround : public testing::Test {
         const Eigen::Vector2d on_map = grid.origin + grid.units_per_px * Eigen::Vector2d(x, y);
         const Eigen::Vector2d g = (to_ground * on_map.homogeneous()).eval().hnormalized();
         cv::Mat1f texel;
-        const cv::Point2f at(static_cast<float>(g.x() / kTexel_m + kTexels / 2),
-                             static_cast<float>(g.y() / kTexel_m + kTexels / 2));
+        const cv::Point2f at(static_cast<float>(g.x() / kTexel_m + kTexels / 2.0),
+                             static_cast<float>(g.y() / kTexel_m + kTexels / 2.0));
         cv::getRectSubPix(texture_, {1, 1}, at, texel, CV_32F);
         const double off = std::abs(image(y, x)[0] - texel(0, 0));
         sum += off;

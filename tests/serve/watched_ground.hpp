@@ -25,6 +25,7 @@ inline constexpr int kMargin = 7;  ///< px, of the mask and of a JPEG's blocks
 
 inline int64_t utimeOf(int k) { return 1'000'000'000 + k * 50'000; }
 
+// What json may throw where it is moved ends the test. NOLINTNEXTLINE(bugprone-exception-escape)
 struct Bundle {
   nlohmann::json head;
   cv::Mat3b image;

@@ -93,7 +93,10 @@ std::vector<Sample> significantFlow(const EpipoleInput& input, Coverage& known) 
 /// without knowing the plane.
 std::vector<cv::Vec3f> directionsOfTravel(const EpipoleInput& input) {
   std::vector<cv::Mat> rotations, translations, normals;
-  cv::decomposeHomographyMat(input.ground, input.K, rotations, translations, normals);
+  // As if the lens had not zoomed in between: the decomposition knows one camera matrix.
+  const cv::Matx33d ground =
+      input.K_earlier == input.K ? input.ground : input.ground * input.K_earlier * input.K.inv();
+  cv::decomposeHomographyMat(ground, input.K, rotations, translations, normals);
   std::vector<cv::Vec3f> directions;
   for (size_t i = 0; i < translations.size(); ++i) {
     const cv::Vec3d normal(normals[i]);

@@ -13,12 +13,13 @@ namespace redbee {
 
 /// What the epipole is estimated from, between an earlier frame and the current one.
 struct EpipoleInput {
-  cv::Mat2f flow;        ///< px, from the current image to the earlier one aligned to it
-  FlowCovariance noise;  ///< px^2, of the flow
-  cv::Mat1b unknown;     ///< not 0 where the flow is undefined
-  HomographyFlow error;  ///< of the alignment, earlier image to current one
-  cv::Matx33d ground;    ///< homography of the ground, earlier frame to current one [px]
-  cv::Matx33d K;         ///< camera matrix [px]; its focal length may be a guess
+  cv::Mat2f flow;         ///< px, from the current image to the earlier one aligned to it
+  FlowCovariance noise;   ///< px^2, of the flow
+  cv::Mat1b unknown;      ///< not 0 where the flow is undefined
+  HomographyFlow error;   ///< of the alignment, earlier image to current one
+  cv::Matx33d ground;     ///< homography of the ground, earlier frame to current one [px]
+  cv::Matx33d K;          ///< camera matrix [px]; its focal length may be a guess
+  cv::Matx33d K_earlier;  ///< the same of the earlier image, where the lens may have had another zoom
 };
 
 /// Robust fit (RANSAC, then least squares) to the residual flow. Moving objects may have an epipole of their

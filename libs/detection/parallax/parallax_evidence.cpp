@@ -170,7 +170,7 @@ std::optional<ParallaxSegment> ParallaxEvidence::segmentWithoutMotion(const Earl
                                                                       const FlowCovariance& noise,
                                                                       const HomographyFlow& error) {
   if (parameters_.use_epipolar && parameters_.use_epipole) {
-    const EpipoleInput input{flow, noise, unknown_, error, toMatx(frame.ground), toMatx(K)};
+    const EpipoleInput input{flow, noise, unknown_, error, toMatx(frame.ground), toMatx(K), toMatx(frame.K)};
     if (const auto epipole = epipole_.update(input, elapsed_s_))
       return ParallaxSegment(*epipole, parameters_);
   }

@@ -28,6 +28,7 @@ EpipoleInput emptyGround() {
                      cv::Mat1b::zeros(kSize),
                      HomographyFlow(kSize),
                      kCamera * (cv::Matx33d::eye() + kTravel * kNormal.t()) * kCamera.inv(),
+                     kCamera,
                      kCamera};
   cv::RNG random(7);
   random.fill(input.flow, cv::RNG::NORMAL, 0, kNoise_px);
@@ -71,6 +72,18 @@ TEST(EpipoleEstimator, FindsTheEpipoleOfStaticSurfacesAtAnyDepth) {
 TEST(EpipoleEstimator, ToleratesAGuessedFocalLength) {
   EpipoleInput input = posts(trueEpipole());
   input.K(0, 0) = input.K(1, 1) = 1.3 * kCamera(0, 0);
+  input.K_earlier = input.K;
+  EXPECT_TRUE(EpipoleEstimator().update(input, kFrame_s));
+}
+
+/// What a lens does that zooms in is no travel along the optical axis.
+TEST(EpipoleEstimator, HeedsALensThatZooms) {
+  EpipoleInput input = posts(trueEpipole());
+  cv::Matx33d zoomed = kCamera;
+  zoomed(0, 0) = zoomed(1, 1) = 0.9 * kCamera(0, 0);
+  input.ground = input.ground * kCamera * zoomed.inv();
+  EXPECT_FALSE(EpipoleEstimator().update(input, kFrame_s));
+  input.K_earlier = zoomed;
   EXPECT_TRUE(EpipoleEstimator().update(input, kFrame_s));
 }
 
