@@ -73,8 +73,8 @@ Zoom LensTrack::at(ImuTime time) const {
 }
 
 void LensTrack::eraseBefore(ImuTime time) {
-  // Two stay: it takes them to see that the lens stands still.
-  while (samples_.size() > 2 && samples_[1].time <= time) samples_.pop_front();
+  constexpr size_t kToStandStill = 2;  // it takes as many to see that the lens does
+  eraseUpTo(samples_, time, kToStandStill);
 }
 
 }  // namespace redbee

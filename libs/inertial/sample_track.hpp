@@ -31,10 +31,11 @@ void insertInOrder(std::deque<Sample>& samples, const Sample& sample) {
   if (samples.size() > kMost) samples.pop_front();
 }
 
-/// All but the last one before `time`, which is still one end of an interpolation.
+/// Those before `time` but the last, which is still one end of an interpolation, and in any case the newest
+/// `kept`.
 template <typename Sample>
-void eraseUpTo(std::deque<Sample>& samples, ImuTime time) {
-  while (samples.size() > 1 && samples[1].time <= time) samples.pop_front();
+void eraseUpTo(std::deque<Sample>& samples, ImuTime time, std::size_t kept = 1) {
+  while (samples.size() > kept && samples[1].time <= time) samples.pop_front();
 }
 
 }  // namespace redbee
