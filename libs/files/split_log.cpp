@@ -13,8 +13,18 @@
 
 namespace redbee {
 
-SplitLog::SplitLog(std::filesystem::path prefix, int64_t split_bytes, int64_t min_free_bytes)
-    : prefix_(std::move(prefix)), split_bytes_(split_bytes), min_free_bytes_(min_free_bytes) {
+int64_t freeBytes(int file) {
+  struct statvfs disk {};
+  if (fstatvfs(file, &disk) != 0) return -1;
+  return static_cast<int64_t>(disk.f_bavail) * static_cast<int64_t>(disk.f_frsize);
+}
+
+SplitLog::SplitLog(std::filesystem::path prefix, int64_t split_bytes, int64_t min_free_bytes,
+                   std::function<int64_t(int)> free_bytes)
+    : prefix_(std::move(prefix)),
+      split_bytes_(split_bytes),
+      min_free_bytes_(min_free_bytes),
+      free_bytes_(std::move(free_bytes)) {
   openNext();
 }
 
@@ -40,9 +50,8 @@ void SplitLog::write(const ReceivedMessage& message) {
 
 void SplitLog::requireRoomFor(int64_t bytes) const {
   if (min_free_bytes_ <= 0) return;
-  struct statvfs disk {};
-  if (fstatvfs(file_.get(), &disk) != 0) fail();
-  const auto free = static_cast<int64_t>(disk.f_bavail) * static_cast<int64_t>(disk.f_frsize);
+  const int64_t free = free_bytes_(file_.get());
+  if (free < 0) fail();
   // An event ends within a block of the disk, and the name of the file and the tables of the disk take some,
   // too.
   constexpr int64_t kMargin = 64 << 10;
