@@ -29,6 +29,7 @@ static_assert(is(InertialStatus::kClockJump, inertial_homography_t::CLOCK_JUMP))
 static_assert(is(InertialStatus::kBadSamples, inertial_homography_t::IMPLAUSIBLE_SAMPLES));
 static_assert(is(InertialStatus::kDisagreement, inertial_homography_t::VISION_DISAGREES));
 static_assert(is(InertialStatus::kNoMount, inertial_homography_t::NO_GIMBAL));
+static_assert(is(InertialStatus::kUncertain, inertial_homography_t::UNCERTAIN));
 
 static_assert(is(VisualStatus::kGood, visual_homography_t::GOOD));
 static_assert(is(VisualStatus::kFirstFrame, visual_homography_t::FIRST_FRAME));

@@ -1,27 +1,17 @@
 #include "redbee/fusion/estimate.hpp"
 
 #include <Eigen/LU>
-#include <cmath>
 
 #include "redbee/geometry/products.hpp"
 #include "redbee/geometry/small_decompositions.hpp"
 
 namespace redbee {
-namespace {
-
-constexpr double kMinDeterminant = 1e-6;
-
-}  // namespace
 
 Estimate identityEstimate() { return {Eigen::Matrix3d::Identity(), Matrix8d::Zero()}; }
 
 Matrix8d symmetric(const Matrix8d& P) { return 0.5 * (P + P.transpose()); }
 
 Matrix8d transformed(const Matrix8d& J, const Matrix8d& P) { return symmetric(mappedCovariance(J, P)); }
-
-bool isUsable(const Eigen::Matrix3d& H) {
-  return H.allFinite() && std::abs(H(2, 2)) > 1e-9 && normaliseHomography(H).determinant() > kMinDeterminant;
-}
 
 bool isCovariance(const Matrix8d& P) {
   if (!P.allFinite() || P.diagonal().minCoeff() < 0) return false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "redbee/geometry/homography.hpp"
+#include "redbee/geometry/homography_quality.hpp"
 
 namespace redbee {
 
@@ -18,8 +19,6 @@ Matrix8d symmetric(const Matrix8d& P);
 /// J P J'.
 Matrix8d transformed(const Matrix8d& J, const Matrix8d& P);
 
-/// True if H is finite and neither mirrors the image nor collapses it.
-bool isUsable(const Eigen::Matrix3d& H);
 bool isCovariance(const Matrix8d& P);
 inline bool isUsable(const Estimate& estimate) { return isUsable(estimate.H) && isCovariance(estimate.P); }
 

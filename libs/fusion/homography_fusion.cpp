@@ -212,7 +212,10 @@ std::optional<MeasuredStep> HomographyFusion::measuredStep(const std::optional<V
   const std::optional<Estimate> step = stepFrom(visual->time_previous, visual->H, covariance);
   if (!step) return std::nullopt;
   if (visual->time_previous == chain_.newest()) return MeasuredStep{visual->H, covariance};
-  return MeasuredStep{units_.unscale(step->H), toScaled(*step)};
+  const MeasuredStep measured{units_.unscale(step->H), toScaled(*step)};
+  // Across steps that are not known nothing is measured.
+  if (!isUsable(measured.H) || !isInformative(measured.covariance)) return std::nullopt;
+  return measured;
 }
 
 FusedHomography HomographyFusion::beginChain(CameraTime time) {

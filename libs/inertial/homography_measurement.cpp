@@ -93,7 +93,9 @@ HomographyMeasurement homographyMeasurement(const NavigationState& state, const 
 
 Eigen::Matrix3d rotationCovariance(const NavigationState& state, const MotionJacobians& jacobians) {
   const double mounts = state.mount.variance + state.mount_clone.variance;
-  return mappedCovariance(jacobians.rotation, state.P) + mounts * Eigen::Matrix3d::Identity();
+  // What two frames have in common cancels out, and leaves a rounding that is not small against the rest.
+  const Eigen::Matrix3d covariance = mappedCovariance(jacobians.rotation, state.P);
+  return 0.5 * (covariance + covariance.transpose()) + mounts * Eigen::Matrix3d::Identity();
 }
 
 Eigen::Matrix3d normalCovariance(const NavigationState& state, const MotionJacobians& jacobians) {

@@ -17,7 +17,8 @@ constexpr Duration kLatest = std::chrono::milliseconds(750);
 }  // namespace
 
 /// Where an observation of an earlier frame arrives, the filter returns to that frame, is corrected, and
-/// passes the frames since then once more: its state is the one that it would have, had nothing been late.
+/// passes the frames since then once more: its state is the one that it would have, had nothing been late. Of
+/// several that arrive together each is given to it on the same way back.
 class InertialFilter::Implementation : public InertialFilterCore {
  public:
   using InertialFilterCore::InertialFilterCore;
@@ -33,22 +34,27 @@ class InertialFilter::Implementation : public InertialFilterCore {
     return result;
   }
 
-  CorrectionReport correct(const HomographyObservation& observation) {
-    const auto at = std::find_if(passed_.begin(), passed_.end(), [&](const Passed& passed) {
-      return passed.checkpoint.frame == observation.time;
-    });
-    if (at == passed_.end() || std::next(at) == passed_.end()) return correctNow(observation);
-    if (at->observation || at->checkpoint.previous_frame != observation.time_previous) return {};
-    if (!at->checkpoint.state.isMountKnown()) return {};
-    const std::vector<Passed> again(std::next(at), passed_.end());
-    returnTo(at->checkpoint);
-    passed_.erase(std::next(at), passed_.end());
-    const CorrectionReport report = correctNow(observation);
-    for (const Passed& passed : again) {
-      advanceTo(passed.checkpoint.frame);
-      if (passed.observation) correctNow(*passed.observation, Comparison::kDone);
+  std::vector<CorrectionReport> correct(const std::vector<HomographyObservation>& observations) {
+    std::vector<CorrectionReport> reports(observations.size());
+    CameraTime given = CameraTime::min();  // of the newest observation that was given on the way back
+    for (size_t i = 0; i < observations.size(); ++i) {
+      const HomographyObservation& observation = observations[i];
+      if (observation.time <= given) continue;
+      const auto at = std::find_if(passed_.begin(), passed_.end(), [&](const Passed& passed) {
+        return passed.checkpoint.frame == observation.time;
+      });
+      if (at == passed_.end() || std::next(at) == passed_.end()) {
+        reports[i] = correctNow(observation);
+        continue;
+      }
+      if (!isWanted(*at, observation)) continue;
+      const std::vector<Passed> again(std::next(at), passed_.end());
+      returnTo(at->checkpoint);
+      passed_.erase(std::next(at), passed_.end());
+      reports[i] = correctNow(observation);
+      given = passAgain(again, observations, reports);
     }
-    return report;
+    return reports;
   }
 
  private:
@@ -56,6 +62,31 @@ class InertialFilter::Implementation : public InertialFilterCore {
     FilterCheckpoint checkpoint;
     std::optional<HomographyObservation> observation;  ///< that it was given
   };
+
+  static bool isWanted(const Passed& passed, const HomographyObservation& observation) {
+    return !passed.observation && passed.checkpoint.previous_frame == observation.time_previous &&
+           passed.checkpoint.state.isMountKnown();
+  }
+
+  /// Passes the frames, with their observations and, on the way, those of `observations` that are due; the
+  /// newest frame's is left. Returns the last frame before that.
+  CameraTime passAgain(const std::vector<Passed>& frames,
+                       const std::vector<HomographyObservation>& observations,
+                       std::vector<CorrectionReport>& reports) {
+    CameraTime last = CameraTime::min();
+    for (size_t k = 0; k < frames.size(); ++k) {
+      const CameraTime frame = frames[k].checkpoint.frame;
+      advanceTo(frame);
+      if (frames[k].observation) correctNow(*frames[k].observation, Comparison::kDone);
+      if (k + 1 == frames.size()) break;
+      last = frame;
+      const auto due = std::find_if(observations.begin(), observations.end(),
+                                    [&](const HomographyObservation& z) { return z.time == frame; });
+      if (due == observations.end() || passed_.empty() || !isWanted(passed_.back(), *due)) continue;
+      reports[static_cast<size_t>(due - observations.begin())] = correctNow(*due);
+    }
+    return last;
+  }
 
   void remember() {
     std::optional<FilterCheckpoint> now = checkpoint();
@@ -95,7 +126,11 @@ bool InertialFilter::addAltitude(const AltitudeSample& sample) {
 bool InertialFilter::covers(CameraTime frame) const { return implementation_->covers(frame); }
 InertialHomography InertialFilter::advanceTo(CameraTime frame) { return implementation_->advanceTo(frame); }
 CorrectionReport InertialFilter::correct(const HomographyObservation& observation) {
-  return implementation_->correct(observation);
+  return implementation_->correct({observation}).front();
+}
+std::vector<CorrectionReport> InertialFilter::correct(
+    const std::vector<HomographyObservation>& observations) {
+  return implementation_->correct(observations);
 }
 std::optional<NominalState> InertialFilter::state() const { return implementation_->state(); }
 const std::optional<FilterSnapshot>& InertialFilter::snapshot() const { return implementation_->snapshot(); }

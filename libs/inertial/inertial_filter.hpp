@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "redbee/geometry/angle.hpp"
 #include "redbee/geometry/camera.hpp"
@@ -120,6 +121,8 @@ class InertialFilter {
 
   /// Corrects the state at the last frame; of an earlier one within 0.75 s, as if it had come in time. Once.
   CorrectionReport correct(const HomographyObservation& observation);
+  /// The same of several, in order of time: late ones that arrive together cost one way back.
+  std::vector<CorrectionReport> correct(const std::vector<HomographyObservation>& observations);
 
   std::optional<NominalState> state() const;
 

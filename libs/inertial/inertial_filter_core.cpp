@@ -1,5 +1,6 @@
 #include "redbee/inertial/inertial_filter_core.hpp"
 
+#include "redbee/geometry/homography_quality.hpp"
 #include "redbee/inertial/homography_measurement.hpp"
 #include "redbee/inertial/initial_state.hpp"
 
@@ -97,6 +98,10 @@ InertialHomography InertialFilterCore::move(CameraTime frame, const ImuSpan& spa
   if (!result.H.allFinite() || !result.covariance.allFinite()) return startAfresh(frame);
   if (!comparison_.agreement.agrees()) {
     result.status = InertialStatus::kDisagreement;
+    return result;
+  }
+  if (!isUsable(result.H) || !isInformative(result.covariance)) {
+    result.status = InertialStatus::kUncertain;
     return result;
   }
   result.valid = true;

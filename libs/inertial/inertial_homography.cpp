@@ -20,6 +20,8 @@ const char* toString(InertialStatus status) {
       return "IMU and camera disagree";
     case InertialStatus::kNoMount:
       return "no attitude of the gimbal near the frame";
+    case InertialStatus::kUncertain:
+      return "the motion by the IMU is too uncertain";
   }
   return "unknown";
 }

@@ -20,6 +20,7 @@ enum class InertialStatus {
   kBadSamples,    ///< samples in the interval were refused (ImuSampleCheck) and not used
   kDisagreement,  ///< vision contradicts the IMU (VisionAgreement): left out, no homography
   kNoMount,       ///< the gimbal did not say how the camera's mount was turned at both frames: no homography
+  kUncertain,     ///< the motion since the last frame is not known to any use: no homography
 };
 const char* toString(InertialStatus status);
 

@@ -4,6 +4,7 @@
 #include <sys/un.h>
 
 #include <chrono>
+#include <functional>
 #include <string_view>
 
 namespace redbee {
@@ -24,8 +25,17 @@ class Heartbeat {
   void beat();
   /// Any other message of sd_notify(3), at once.
   void send(std::string_view message) const;
+  /// A message that no later one makes up for: waits until the receiver has taken it, for `patience` at most,
+  /// and returns whether it has. systemd leaves out what it reads only after its sender has ended
+  /// (sd_notify_barrier(3)). `meanwhile` is called every 20 ms.
+  bool deliver(std::string_view message, std::chrono::milliseconds patience,
+               const std::function<void()>& meanwhile) const;
 
  private:
+  enum class Sent { kYes, kReceiverIsBehind, kNo };
+  /// With a copy of the descriptor `attached`, unless it is negative.
+  Sent trySending(std::string_view message, int attached) const;
+
   int socket_ = -1;
   sockaddr_un address_{};
   std::chrono::steady_clock::time_point next_;

@@ -91,7 +91,7 @@ const char* faultOf(const inertial_homography_t& m) {
   const char* fault =
       firstFault({{hasFrameTimes(m), "time"},
                   {m.sequence >= 0, "sequence"},
-                  {isFrom(inertial_homography_t::GOOD, m.status, inertial_homography_t::NO_GIMBAL), "status"},
+                  {isFrom(inertial_homography_t::GOOD, m.status, inertial_homography_t::UNCERTAIN), "status"},
                   {isFlag(m.valid), "flag"},
                   {hasImageSize(m), "image size"},
                   {isZoom(m.zoom), "zoom"},

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "processes/conversions.hpp"
 #include "processes/lens_messages.hpp"
@@ -151,21 +152,26 @@ void ImuIntegrationNode::warmStart() {
 void ImuIntegrationNode::applyFeedback() {
   feedback_report_ = {};
   if (!last_frame_) return;
-  feedback_.forEach([this](CameraTime time, const fused_homography_t& fused) {
-    if (time < *last_frame_) correct(fused);  // a late one
+  std::vector<HomographyObservation> observations;
+  const auto take = [&](const fused_homography_t& fused) {
+    if (fused.has_observation == 0) return;
+    observations.push_back({previousTimeOf(fused), timeOf(fused), matrix3(fused.observed.H),
+                            matrix8(fused.observed.covariance)});
+  };
+  feedback_.forEach([&](CameraTime time, const fused_homography_t& fused) {
+    if (time < *last_frame_) take(fused);  // a late one
   });
-  if (const fused_homography_t* fused = feedback_.find(*last_frame_)) correct(*fused);
+  if (const fused_homography_t* fused = feedback_.find(*last_frame_)) take(*fused);
+  const std::vector<CorrectionReport> reports = filter_.correct(observations);
+  for (size_t i = 0; i < reports.size(); ++i) noteCorrection(observations[i], reports[i]);
 }
 
-void ImuIntegrationNode::correct(const fused_homography_t& fused) {
-  if (fused.has_observation == 0) return;
-  const CameraTime previous = previousTimeOf(fused), time = timeOf(fused);
-  const CorrectionReport report =
-      filter_.correct({previous, time, matrix3(fused.observed.H), matrix8(fused.observed.covariance)});
+void ImuIntegrationNode::noteCorrection(const HomographyObservation& observation,
+                                        const CorrectionReport& report) {
   if (!report.applied && report.test_ratio == 0) return;  // of frames that the filter does not know
   feedback_report_ = report;
-  agreed_ = report.applied ? agreed_ + (time - previous) : Duration(0);
-  agreed_until_ = time;
+  agreed_ = report.applied ? agreed_ + (observation.time - observation.time_previous) : Duration(0);
+  agreed_until_ = observation.time;
 }
 
 void ImuIntegrationNode::publishSnapshot() {

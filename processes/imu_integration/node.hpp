@@ -47,7 +47,7 @@ class ImuIntegrationNode : public Stage {
   void updateState(const InertialHomography& result);
   void warmStart();
   void applyFeedback();
-  void correct(const fused_homography_t& fused);
+  void noteCorrection(const HomographyObservation& observation, const CorrectionReport& report);
   void publishSnapshot();
   void integrate(CameraTime frame);
   void restart(CameraTime newest) override;

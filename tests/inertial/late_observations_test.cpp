@@ -59,6 +59,58 @@ TEST(LateObservations, LeaveTheStateThatTheyWouldHaveLeftInTime) {
   }
 }
 
+/// As after a hang of vision: those of `together` frames arrive at once, after the last of them or after the
+/// frame that follows.
+Flown flyInParts(int together, bool after_next) {
+  const FilteredFlight flight(1, 8, ConsumerImu(1));
+  InertialFilter filter = flight.filter(flight.parameters());
+  for (const AltitudeSample& sample : flight.altimeter(0, 8, 1)) filter.addAltitude(sample);
+  std::mt19937 random(7);
+  std::vector<HomographyObservation> waiting;
+  Flown flown;
+  const auto give = [&] {
+    for (const CorrectionReport& report : filter.correct(waiting)) flown.applied += report.applied ? 1 : 0;
+    waiting.clear();
+  };
+  for (int k = 0; k < kFrames; ++k) {
+    const InertialHomography result = filter.advanceTo(frameTime(k));
+    if (after_next && k % together == 0) give();
+    const HomographyObservation z = flight.observe(result, random);
+    if (k > 0) waiting.push_back(z);
+    if (!after_next && (k + 1) % together == 0) give();
+  }
+  give();
+  flown.state = *filter.state();
+  return flown;
+}
+
+TEST(LateObservations, ThatArriveTogetherLeaveTheStateOfThoseInTime) {
+  const Flown in_time = fly(0);
+  for (const int together : {1, 2, 5, 12, 18}) {
+    for (const bool after_next : {false, true}) {
+      const Flown flown = flyInParts(together, after_next);
+      EXPECT_EQ(flown.applied, in_time.applied) << together;
+      expectEqual(flown.state, in_time.state);
+    }
+  }
+}
+
+TEST(LateObservations, ThatArriveTogetherAreEachUsedOnce) {
+  const FilteredFlight flight(1, 8, ConsumerImu(1));
+  InertialFilter filter = flight.filter(flight.parameters());
+  std::mt19937 random(7);
+  std::vector<HomographyObservation> all;
+  filter.advanceTo(frameTime(0));
+  for (int k = 1; k < 10; ++k) {
+    all.push_back(flight.observe(filter.advanceTo(frameTime(k)), random));
+    all.push_back(all.back());
+  }
+  int applied = 0;
+  for (const CorrectionReport& report : filter.correct(all)) applied += report.applied ? 1 : 0;
+  EXPECT_EQ(applied, 9);
+  for (const CorrectionReport& report : filter.correct(all)) EXPECT_FALSE(report.applied);
+}
+
 TEST(LateObservations, AreOfUseFromTheNextFrameOn) {
   const FilteredFlight flight(1, 8, ConsumerImu(1));
   const auto error = [&](const Flown& flown) {

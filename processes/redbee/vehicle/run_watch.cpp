@@ -21,6 +21,7 @@ constexpr std::chrono::milliseconds kShortestPause{100};  ///< between two quest
 constexpr std::chrono::seconds kLongestPause{1};
 constexpr std::chrono::milliseconds kWaking{500};
 constexpr std::chrono::minutes kReportPeriod{1};
+constexpr std::chrono::seconds kFarewell{5};            ///< a busy systemd may take; supervisor waits ten
 constexpr std::chrono::seconds kSupervisorTimeout{20};  ///< without its answer systemd starts it again
 
 /// All of the table but the watch itself, whose two halves watch each other.
@@ -69,8 +70,9 @@ class Worker {
           return;
       }
     }
-    // Who stops the watch does not mean to stop the flight.
-    systemd_.send("WATCHDOG_USEC=0");
+    // Who stops the watch does not mean to stop the flight. systemd must have taken it before this process
+    // ends.
+    systemd_.deliver("WATCHDOG_USEC=0", kFarewell, [&] { guard.exchange(Clock::now()); });
   }
 
  private:

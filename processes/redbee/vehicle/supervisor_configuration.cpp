@@ -12,7 +12,8 @@ constexpr const char* kHead =
 ;   REDBEE_RECORD   true: record from the start       REDBEE_RECORDINGS  folder of the recordings
 ;   NOTIFY_SOCKET   socket of the processes' heartbeats
 ;
-; Any process that ends is started again, whatever its exit status; one that ends within a second waits a second longer each time.
+; Any process that ends is started again, whatever its exit status; one that was started less than a second before waits for a second
+; (scripts/paced). supervisor's own pause (startsecs) grows by a second with each end at the start, without a bound.
 ; Debian's supervisor looks after its processes once a second only: `redbee watch` notices a death, reports it, and wakes supervisor by
 ; a question. scripts/limited: a process that leaks ends (and is started again) before the others starve; no core files on the drone's
 ; disk; no process outlives supervisor, or a second set of them would publish beside the first. No TCP port is opened.
@@ -38,7 +39,8 @@ serverurl=unix://supervisor.sock
 
 /// By way of a shell, which expands the variables: supervisor has no quotes that hold for any path.
 std::string commandOf(const ProcessDescription& process) {
-  std::string command = "exec \"$REDBEE_SCRIPTS/limited\" " + std::to_string(process.memory_limit);
+  std::string command = "exec \"$REDBEE_SCRIPTS/limited\" " + std::to_string(process.memory_limit) +
+                        " \"$REDBEE_SCRIPTS/paced\" " + std::string(process.name);
   if (process.niceness != 0) command += " nice -n " + std::to_string(process.niceness);
   const bool has_program = process.subcommand.empty();
   command += " \"$REDBEE_BIN/" + (has_program ? programName(process) : "redbee") + "\"";
@@ -60,8 +62,8 @@ std::string sectionOf(const ProcessDescription& process) {
   } else {
     section += "autorestart=true\n";
   }
-  return section + "startretries=1000000000\nredirect_stderr=true\nstdout_logfile=output/" + name +
-         ".log\nstdout_logfile_maxbytes=1MB\nstdout_logfile_backups=3\n";
+  return section + "startsecs=0\nstartretries=1000000000\nredirect_stderr=true\nstdout_logfile=output/" +
+         name + ".log\nstdout_logfile_maxbytes=1MB\nstdout_logfile_backups=3\n";
 }
 
 }  // namespace
