@@ -125,7 +125,7 @@ void checkTurns(const std::vector<ImuSample>& imu, const ImuUnits& read_as, ImuF
   const auto now = turnDisagreement(imu, period_s, 1);
   if (!now || *now < kDisagreement) return;
   const std::string unit = firstUnit(gyroUnits(), read_as.gyro, "--gyro-unit", [&](double factor) {
-    return *turnDisagreement(imu, period_s, factor) < *now / kRatio;
+    return *turnDisagreement(imu, period_s, factor) < std::min(kDisagreement, *now / kRatio);
   });
   const std::string what = fmt::format(
       "the gyro turns {:.0f} degrees away from the accelerometer's gravity within 0.2 s", *now * 180 / M_PI);
