@@ -89,7 +89,7 @@ void addMeans(Table& table, const std::vector<ClipMeasures>& clips) {
   double error = 0, f1 = 0;
   int count = 0;
   for (const ClipMeasures& clip : clips) {
-    if (!clip.pixels.movingPixels() > 0) continue;
+    if (clip.pixels.movingPixels() == 0) continue;
     error += clip.pixels.errorAtHalfRecall();
     f1 += clip.pixels.bestF1();
     ++count;
