@@ -74,6 +74,7 @@ struct Unit {
 
 Unit unitOf(const std::vector<ImuSample>& samples) {
   std::vector<double> lengths;
+  lengths.reserve(samples.size());
   for (const ImuSample& sample : samples) lengths.push_back(sample.accel.norm());
   const double length = median(lengths);
   const double mean = meanGravity(samples).value_or(length);
