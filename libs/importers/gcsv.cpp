@@ -4,13 +4,13 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <string>
 
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
 #include "redbee/geometry/median.hpp"
+#include "redbee/importers/gravity.hpp"
 #include "redbee/importers/row_times.hpp"
 
 namespace redbee {
@@ -27,6 +27,8 @@ struct GcsvHeader {
 };
 
 /// "YxZ": the first axis is Y, the second x turned round, the third Z.
+///
+/// A mirroring one is kept out: no gyro is mirrored, but loggers write "xyz" where nobody has set another.
 Eigen::Matrix3d orientationOf(const std::string& text, const CsvReader& csv) {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   if (text.size() != 3) csv.fail("orientation '" + text + "' has not three letters");
@@ -36,9 +38,8 @@ Eigen::Matrix3d orientationOf(const std::string& text, const CsvReader& csv) {
     if (axis < 0 || axis > 2) csv.fail("orientation '" + text + "' has another letter than x, y and z");
     matrix(row, axis) = std::isupper(static_cast<unsigned char>(letter)) != 0 ? 1 : -1;
   }
-  if (std::abs(matrix.determinant() - 1) > 0.5)
-    csv.fail("orientation '" + text + "' is no rotation: an axis is repeated, or one is mirrored");
-  return matrix;
+  if (matrix.determinant() == 0) csv.fail("orientation '" + text + "' repeats an axis");
+  return matrix.determinant() > 0 ? matrix : Eigen::Matrix3d::Identity();
 }
 
 double positiveScale(const CsvReader& csv) {
@@ -65,18 +66,57 @@ GcsvHeader readGcsvHeader(CsvReader& csv) {
   throw InputError(csv.path(), "has no line with the names of the columns (t,gx,gy,gz,ax,ay,az)");
 }
 
-/// The format's scale gives g; loggers have been seen that give m/s^2, as the format's own example does.
-void fixAccelUnit(const std::filesystem::path& file, ImuTable& table) {
+/// Whether there is gravity in the values, in g or, as the format's own example has it, in m/s^2.
+struct Unit {
+  bool is_g = false;
+  bool is_metric = false;
+};
+
+Unit unitOf(const std::vector<ImuSample>& samples) {
   std::vector<double> lengths;
-  for (const ImuSample& sample : table.samples) lengths.push_back(sample.accel.norm());
-  const double length = median(lengths);  // in units of the file's scale
-  constexpr double kLeastForce = 6.5, kMostForce = 14.5;
-  const bool is_metric = length > kLeastForce && length < kMostForce;
+  lengths.reserve(samples.size());
+  for (const ImuSample& sample : samples) lengths.push_back(sample.accel.norm());
+  const double length = median(lengths);
+  const double mean = meanGravity(samples).value_or(length);
+  const auto fits = [&](double scale) { return isGravity(scale * length) || isGravity(scale * mean); };
+  return {fits(kStandardGravityOfGcsv), fits(1)};
+}
+
+/// A camera is known (RunCam's Thumb, firmware 2.0.0) that writes the one's counts under the other's name.
+void fixSwappedColumns(const std::filesystem::path& file, const GcsvHeader& header, ImuTable& table) {
+  const Unit unit = unitOf(table.samples);
+  if (unit.is_g || unit.is_metric) return;
+  std::vector<ImuSample> swapped = table.samples;
+  for (ImuSample& sample : swapped) {
+    const Eigen::Vector3d gyro = sample.gyro;
+    sample.gyro = header.gyro / header.accel * sample.accel;
+    sample.accel = header.accel / header.gyro * gyro;
+  }
+  if (!unitOf(swapped).is_g) return;
+  table.samples = swapped;
+  table.warnings.push_back(file.string() + ": gravity stands in the gyro's columns: read as swapped");
+}
+
+/// The format's scale gives g.
+void fixAccelUnit(const std::filesystem::path& file, ImuTable& table) {
+  const Unit unit = unitOf(table.samples);
+  const bool is_metric = unit.is_metric && !unit.is_g;
   for (ImuSample& sample : table.samples) {
     if (!is_metric) sample.accel *= kStandardGravityOfGcsv;
   }
   table.units.accel = is_metric ? "m/s2" : "g";
   if (is_metric) table.warnings.push_back(file.string() + ": ascale gives m/s^2, not g as the format has it");
+}
+
+/// What was done with the axes.
+void noteOrientation(const std::filesystem::path& file, const GcsvHeader& header, ImuTable& table) {
+  const std::string& text = header.orientation_text;
+  if (text.empty() || text == "XYZ") return;
+  const std::string what = header.orientation.isIdentity()
+                               ? "its orientation " + text +
+                                     " would mirror the axes, which no sensor does: they are left as they are"
+                               : "axes are turned by its orientation " + text;
+  table.warnings.push_back(file.string() + ": " + what + "; camera.R_CI must relate the camera to those");
 }
 
 }  // namespace
@@ -94,7 +134,8 @@ ImuTable readGcsv(const std::filesystem::path& file) {
   CsvReader csv(file);
   const GcsvHeader header = readGcsvHeader(csv);
   const std::vector<std::string> names = csv.fields();
-  if (names.size() < 7 || names[1] != "gx" || names[4] != "ax")
+  const bool has_both = names.size() >= 7 && (names[1] == "gx" || names[1] == "rx") && names[4] == "ax";
+  if (!has_both)
     csv.fail(
         "names not the columns t,gx,gy,gz,ax,ay,az: without an accelerometer there is no gravity to fly by");
   ImuTable table;
@@ -113,11 +154,9 @@ ImuTable readGcsv(const std::filesystem::path& file) {
   }
   if (table.samples.empty()) throw InputError(file, "holds no samples");
   times.check(table.samples, table.warnings);
+  fixSwappedColumns(file, header, table);
   fixAccelUnit(file, table);
-  if (!header.orientation_text.empty()) {
-    table.warnings.push_back(file.string() + ": axes are turned by its orientation " +
-                             header.orientation_text + "; camera.R_CI must relate the camera to those");
-  }
+  noteOrientation(file, header, table);
   return table;
 }
 

@@ -92,6 +92,7 @@ struct StreamContext {
   std::string orin;
   std::string orio;
   std::vector<double> matrix;
+  std::string device;  ///< which has this stream
 };
 
 using Axes = std::array<std::array<double, 3>, 3>;
@@ -110,6 +111,8 @@ Axes axisMapping(const StreamContext& context, size_t offset) {
     }
   } else if (context.matrix.size() == 9) {
     for (size_t i = 0; i < 9; ++i) mapping[i / 3][i % 3] = context.matrix[i];
+  } else if (context.device == "Fusion") {
+    mapping = {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}};  // states none; by GoPro's documentation it is -Y, X, Z
   } else {
     mapping[0][0] = mapping[1][1] = mapping[2][2] = 1;
   }
@@ -153,6 +156,7 @@ GpmfSamples scaled(const StreamContext& context, const GpmfRecord& record) {
 
 void describe(StreamContext& context, const GpmfRecord& record) {
   const std::string& key = record.key;
+  if (key == "DVNM") context.device = text(record);
   if (key == "STNM") context.samples.name = text(record);
   if (key == "SIUN" || key == "UNIT") {
     // One unit per axis may be listed; they are the same for all axes of these sensors.
@@ -175,12 +179,14 @@ using TakeStream = std::function<void(const StreamContext&, const GpmfRecord&)>;
 
 /// Calls `take` for each record of this key, with the description that precedes it.
 void forEachStream(const std::vector<GpmfRecord>& records, const std::string& key, int depth,
-                   const TakeStream& take) {
+                   const TakeStream& take, const std::string& device = "") {
   StreamContext context;
+  context.device = device;
   for (const GpmfRecord& record : records) {
     if (record.isContainer()) {
       if (depth >= kMaxGpmfDepth) throw GpmfError(at(record.offset) + "containers are nested too deep");
-      forEachStream(gpmfRecords(record.data, record.size(), record.offset), key, depth + 1, take);
+      forEachStream(gpmfRecords(record.data, record.size(), record.offset), key, depth + 1, take,
+                    context.device);
     } else if (record.key == key) {
       take(context, record);
     } else {

@@ -43,6 +43,17 @@ TEST(GpmfTest, AMatrixTurnsTheAxesWhereThereAreNoNames) {
   EXPECT_EQ(found[0].values[0], (std::array<double, 3>{3, -2, 1}));
 }
 
+/// It states none; a public payload of one has gravity in the third of the numbers.
+TEST(GpmfTest, AFusionHasAxesOfItsOwn) {
+  Bytes inside = text("DVNM", "Fusion");
+  append(inside, stream("ACCL", "m/s\xB2", 1, 4, 4, {1, 2, 3}));
+  const auto found = gpmfSensor(container("DEVC", inside), "ACCL");
+  ASSERT_EQ(found.size(), 1u);
+  // Stored as (-Y, X, Z) = (1, 2, 3).
+  EXPECT_EQ(found[0].values[0], (std::array<double, 3>{3, 2, -1}));
+  EXPECT_EQ(found[0].axes, "ZXY");
+}
+
 TEST(GpmfTest, EveryTruncationIsAnErrorOrShorter) {
   const Bytes whole = payload(0, 8);
   for (size_t size = 0; size < whole.size(); ++size) {

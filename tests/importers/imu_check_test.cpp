@@ -55,6 +55,43 @@ TEST(ImuCheckTest, AnAccelerometerWithoutGravityIsAFault) {
   EXPECT_TRUE(says(findingsOf([](ImuSample& s) { s.accel.setZero(); }).faults, "median length is 0"));
 }
 
+/// In the sensor's frame, where a hand shakes it five times a second, in circles.
+Eigen::Vector3d shakingAt(const ImuSample& sample) {
+  const double angle = 2 * M_PI * 5 * seconds(sample.time.time_since_epoch());
+  return 14 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+}
+
+void shake(ImuSample& sample) { sample.accel += shakingAt(sample); }
+
+/// A phone in the hand of somebody who runs was refused.
+TEST(ImuCheckTest, AShakenSensorHasGravityInItsMean) {
+  const ImuFindings findings = findingsOf(shake);
+  EXPECT_TRUE(findings.faults.empty()) << findings.faults[0];
+  EXPECT_TRUE(says(findings.warnings, "shaken hard (gravity is in its mean, 9."));
+}
+
+TEST(ImuCheckTest, ShakingHidesNoWrongUnit) {
+  const auto faultsOf = [](const Change& change) {
+    return findingsOf([&](ImuSample& sample) {
+             shake(sample);
+             change(sample);
+           })
+        .faults;
+  };
+  EXPECT_TRUE(says(faultsOf([](ImuSample& s) { s.accel /= 9.80665; }), "give --accel-unit g"));
+  EXPECT_TRUE(says(faultsOf([](ImuSample& s) { s.accel *= 1000 / 9.80665; }), "give --accel-unit mg"));
+  EXPECT_TRUE(says(faultsOf([](ImuSample& s) { s.gyro *= 180 / M_PI; }), "give --gyro-unit deg/s"));
+  EXPECT_TRUE(says(faultsOf([](ImuSample& s) { s.accel *= 16384 / 9.80665; }), "in no known unit"));
+  EXPECT_TRUE(says(faultsOf([](ImuSample& s) { s.accel = 1.2 * shakingAt(s); }), "linear acceleration"));
+}
+
+/// As of a logger whose driver reads the gyro's registers wrongly.
+TEST(ImuCheckTest, AGyroThatContradictsGravityInEveryUnitIsAWarning) {
+  EXPECT_TRUE(says(findingsOf([](ImuSample& s) { s.gyro = {17, 0, 17}; }).warnings, "the gyro is broken"));
+  EXPECT_TRUE(says(findingsOf([](ImuSample& s) { s.gyro = 12 * s.gyro.reverse().eval(); }).warnings,
+                   "signs or axes of one of them are wrong"));
+}
+
 TEST(ImuCheckTest, AHandfulOfSamplesIsAWarning) {
   std::vector<ImuSample> imu = swingingImu(200, 4);
   imu.resize(9);

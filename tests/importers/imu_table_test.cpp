@@ -120,9 +120,7 @@ TEST_F(ImuTableTest, GyroflowsScalesAndOrientationCount) {
     write("v.gcsv", text.replace(text.find(what), what.size(), by) + "0,2,4,6,0,0,2048\n");
   };
   replaced("YxZ", "XXZ");
-  expectError("v.gcsv", "v.gcsv:4: orientation 'XXZ' is no rotation");
-  replaced("YxZ", "xYZ");
-  expectError("v.gcsv", "is no rotation");
+  expectError("v.gcsv", "v.gcsv:4: orientation 'XXZ' repeats an axis");
   replaced("0.5", "-1");
   expectError("v.gcsv", "v.gcsv:6: gscale: must be above 0");
   replaced(",ax,ay,az", "");
@@ -139,6 +137,37 @@ TEST_F(ImuTableTest, AScaleInAnotherUnitIsSeen) {
   const ImuTable table = read("v.gcsv");
   EXPECT_NEAR(table.samples[0].accel.norm(), 9.6, 0.1);
   EXPECT_TRUE(warns(table, "ascale gives m/s^2"));
+}
+
+/// ESP loggers write "xyz" where nobody has set another.
+TEST_F(ImuTableTest, AMirroringOrientationLeavesTheAxesAsTheyAre) {
+  write(
+      "v.gcsv",
+      "GYROFLOW IMU LOG\nversion,1.1\nid,esplog\norientation,xyz\ntscale,0.00180\ngscale,0.00053263221\n"
+      "ascale,0.00048828125\nt,gx,gy,gz,ax,ay,az\n1,-38,4,12,-142,-411,-2160\n2,-40,4,13,-142,-411,-2160\n");
+  const ImuTable table = read("v.gcsv");
+  EXPECT_NEAR(table.samples[0].accel.z(), -2160 * 0.00048828125 * 9.80665, 1e-9);
+  EXPECT_NEAR(table.samples[0].gyro.x(), -38 * 0.00053263221, 1e-9);
+  EXPECT_TRUE(warns(table, "orientation xyz would mirror the axes"));
+  EXPECT_FALSE(warns(table, "are turned by"));
+}
+
+/// As of RunCam's Thumb with the firmware 2.0.0.
+TEST_F(ImuTableTest, ColumnsOfAGcsvThatAreSwappedAreReadSo) {
+  const std::string rows =
+      "1,-4239,-14,840,-405,81,22\n2,-4239,-14,840,-405,81,22\n3,-4238,-13,836,-409,70,17\n";
+  const std::string header =
+      "GYROFLOW IMU LOG\nversion,1.1\nid,runcam_thumb\norientation,XYZ\ntscale,0.001\ngscale,0.00054541539\n"
+      "ascale,0.00024414062\nt,rx,ry,rz,ax,ay,az\n";
+  write("v.gcsv", header + rows);
+  const ImuTable table = read("v.gcsv");
+  EXPECT_NEAR(table.samples[0].gyro.x(), -405 * 0.00054541539, 1e-9);
+  EXPECT_NEAR(table.samples[0].accel.x(), -4239 * 0.00024414062 * 9.80665, 1e-6);
+  EXPECT_EQ(table.units.accel, "g");
+  EXPECT_TRUE(warns(table, "gravity stands in the gyro's columns"));
+  // The same from a firmware that has them right.
+  write("v.gcsv", header + "1,-405,81,22,-4239,-14,840\n2,-409,70,17,-4238,-13,836\n");
+  EXPECT_FALSE(warns(read("v.gcsv"), "swapped"));
 }
 
 TEST_F(ImuTableTest, AVideoTakesAPhonesFolder) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/log_events.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -138,6 +139,17 @@ TEST(VideoReaderTest, DamageInTheMiddleIsPassedOverOnDemand) {
   EXPECT_EQ(shown, expected);
   ASSERT_EQ(reader.warnings().size(), 1u);
   EXPECT_NE(reader.warnings()[0].find("7 frames are left out"), std::string::npos) << reader.warnings()[0];
+}
+
+TEST(VideoReaderTest, ACoverImageIsNotTheRecording) {
+  const ScratchFolder folder;
+  TestVideo video = numberedVideo();
+  cv::imencode(".png", cv::Mat1b(192, 192, uint8_t{90}), video.cover);
+  writeTestVideo(folder / "v.mp4", video);
+  const auto frames = readAll(folder / "v.mp4");
+  ASSERT_FALSE(frames.empty());
+  EXPECT_EQ(frames[0].image.size(), cv::Size(96, 64));
+  expectInOrder(frames, 30, 40'000);
 }
 
 TEST(VideoReaderTest, RecordedCasesComeInWhole) {

@@ -35,6 +35,7 @@ struct TestVideo {
   double start_s = 0;        ///< of the first frame: what lies before 0 is cut by an edit list
   double track_start_s = 0;  ///< of the motion track: what lies before 0 is cut by an edit list
   std::vector<DataPacket> track;
+  std::vector<uint8_t> cover;               ///< a PNG of 192x192 px
   std::function<cv::Mat(int frame)> image;  ///< grey
 };
 
@@ -48,12 +49,14 @@ class TestVideoWriter {
     output_->avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
     openEncoder(video.image(0).size());
     if (!video.track.empty()) addTrack();
+    if (!video.cover.empty()) addCover();
     if ((output_->oformat->flags & AVFMT_NOFILE) == 0)
       require(avio_open(&output_->pb, path.c_str(), AVIO_FLAG_WRITE));
     require(avformat_write_header(output_.get(), nullptr));
   }
 
   void write() {
+    if (cover_ != nullptr) writeCover();
     for (const DataPacket& packet : video_.track) writeTrack(packet);
     for (int k = 0; k < video_.frames; ++k) {
       const cv::Mat grey = video_.image(k);
@@ -110,6 +113,22 @@ class TestVideoWriter {
     track_->time_base = {1, 1000};
   }
 
+  void addCover() {
+    cover_ = avformat_new_stream(output_.get(), nullptr);
+    cover_->codecpar->codec_type = AVMEDIA_TYPE_VIDEO;
+    cover_->codecpar->codec_id = AV_CODEC_ID_PNG;
+    cover_->codecpar->width = cover_->codecpar->height = 192;
+    cover_->disposition = AV_DISPOSITION_ATTACHED_PIC;
+  }
+
+  void writeCover() {
+    require(av_new_packet(packet_.get(), static_cast<int>(video_.cover.size())));
+    std::memcpy(packet_->data, video_.cover.data(), video_.cover.size());
+    packet_->stream_index = cover_->index;
+    packet_->flags |= AV_PKT_FLAG_KEY;
+    require(av_interleaved_write_frame(output_.get(), packet_.get()));
+  }
+
   void writeTrack(const DataPacket& data) {
     require(av_new_packet(packet_.get(), static_cast<int>(data.bytes.size())));
     std::memcpy(packet_->data, data.bytes.data(), data.bytes.size());
@@ -145,6 +164,7 @@ class TestVideoWriter {
   ffmpeg::Frame frame_{av_frame_alloc()};
   AVStream* stream_ = nullptr;
   AVStream* track_ = nullptr;
+  AVStream* cover_ = nullptr;
   int packets_ = 0;
 };
 

@@ -70,11 +70,15 @@ std::vector<EvaluateOptions> clipsOf(const EvaluateOptions& options) {
 std::vector<Cell> rowOf(const ClipMeasures& clip) {
   const ObjectMeasures& objects = clip.objects;
   std::vector<Cell> row{clip.name, std::to_string(objects.frames())};
-  if (clip.has_movers) {
-    row.insert(row.end(), {fixed(clip.pixels.errorAtHalfRecall(), 3), fixed(clip.pixels.bestF1(), 3),
-                           std::to_string(objects.counts().present), fixed(100 * objects.recall(), 1)});
+  if (clip.pixels.movingPixels() > 0) {
+    row.insert(row.end(), {fixed(clip.pixels.errorAtHalfRecall(), 3), fixed(clip.pixels.bestF1(), 3)});
   } else {
-    row.insert(row.end(), 4, "-");
+    row.insert(row.end(), 2, "-");  // as where boxes are all the truth
+  }
+  if (clip.has_movers) {
+    row.insert(row.end(), {std::to_string(objects.counts().present), fixed(100 * objects.recall(), 1)});
+  } else {
+    row.insert(row.end(), 2, "-");
   }
   row.insert(row.end(), {fixed(objects.falseAlarmsPerFrame(), 2), fixed(100 * objects.falseAreaFraction(), 3),
                          std::to_string(clip.truth_without_result)});
@@ -85,7 +89,7 @@ void addMeans(Table& table, const std::vector<ClipMeasures>& clips) {
   double error = 0, f1 = 0;
   int count = 0;
   for (const ClipMeasures& clip : clips) {
-    if (!clip.has_movers) continue;
+    if (clip.pixels.movingPixels() == 0) continue;
     error += clip.pixels.errorAtHalfRecall();
     f1 += clip.pixels.bestF1();
     ++count;

@@ -156,6 +156,20 @@ TEST_F(TruthMasksTest, MotsBoxesAreReadFromOne) {
   EXPECT_NE(refusal().find("gt.txt:1: frame 0: MOT counts frames from 1"), std::string::npos) << refusal();
 }
 
+/// It was printed as an error of 1.
+TEST_F(TruthMasksTest, BoxesAloneDefineNoMeasureOfPixels) {
+  for (const int64_t utime : kUtimes) {
+    for (const char* kind : {"probability", "mask"})
+      write(folder_ / "run" / kind / (std::to_string(utime) + ".png"), labelled(255));
+  }
+  writeText(truth() / "gt" / "gt.txt", "1,1,5,7,8,5,1,1,1.0\n");
+  testing::internal::CaptureStdout();
+  runEvaluate({truth(), folder_ / "run", {}});
+  const std::string printed = testing::internal::GetCapturedStdout();
+  EXPECT_NE(printed.find("run"), std::string::npos) << printed;
+  EXPECT_EQ(printed.find("1.000"), std::string::npos) << printed;
+}
+
 TEST_F(TruthMasksTest, FramesBeyondTheAskedOnesAreNotMissed) {
   for (const int64_t utime : kUtimes) {
     for (const char* kind : {"probability", "mask"})
