@@ -93,7 +93,9 @@ HomographyMeasurement homographyMeasurement(const NavigationState& state, const 
 
 Eigen::Matrix3d rotationCovariance(const NavigationState& state, const MotionJacobians& jacobians) {
   const double mounts = state.mount.variance + state.mount_clone.variance;
-  return mappedCovariance(jacobians.rotation, state.P) + mounts * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d own = mappedCovariance(jacobians.rotation, state.P);
+  // Within a fraction of a millisecond it is so small that what is rounded of the attitude's shows.
+  return 0.5 * (own + own.transpose()) + mounts * Eigen::Matrix3d::Identity();
 }
 
 Eigen::Matrix3d normalCovariance(const NavigationState& state, const MotionJacobians& jacobians) {
