@@ -60,6 +60,10 @@ struct CaptureParameters {
   std::string pipeline;  ///< of GStreamer, with one appsink; empty: none
   double rate_hz = 0;    ///< Hz, expected; fewer images are reported; 0: any
   int jpeg_quality = 0;  ///< of images that the pipeline gives raw; 0: they stay raw
+  /// What the driver stamps an image with: "middle" of its exposure, or nothing that is known;
+  /// "exposure_start" of the first row, "readout_end" of the last: its middle follows from the exposure time.
+  std::string stamp = "middle";
+  double exposure_s = 0;  ///< s, where the driver does not tell it; 0: unknown
 };
 
 /// For redbee-serve, the ground station in the browser.

@@ -75,6 +75,9 @@ inline const Rule slopeSigma{[](double x) { return x >= 0 && x <= 45; }, "must l
 inline const Rule depression{[](double x) { return x >= 1 && x <= 80; }, "must lie from 1 to 80"};
 inline const Rule cameraMount{[](const std::string& x) { return x == "body" || x == "gimbal"; },
                               "must be body or gimbal"};
+inline const Rule stampedEvent{
+    [](const std::string& x) { return x == "middle" || x == "exposure_start" || x == "readout_end"; },
+    "must be middle, exposure_start or readout_end"};
 inline const Rule lineDelay{[](double x) { return x >= -1e-3 && x <= 1e-3; },
                             "must lie from -0.001 to 0.001: the read-out time over the number of rows"};
 inline const Rule mounting{[](double x) { return x >= -10 && x <= 10; }, "must lie from -10 to 10"};

@@ -56,6 +56,7 @@ Settings vehicleSettings() {
       setting("lens.focal_length_px", MEMBER(inertial.lens.focal_length_px), notNegative),
       setting("lens.zoom_range", MEMBER(inertial.lens.zoom_range), zoomRange),
       setting("lens.focal_sigma", MEMBER(inertial.lens.focal_sigma), focalSigma),
+      setting("lens.on_camera_clock", MEMBER(inertial.lens.on_camera_clock), anything),
       setting("lens.timeshift_s", MEMBER(inertial.lens.timeshift_s), anything),
       setting("lens.max_gap_s", MEMBER(inertial.lens.max_gap_s), positive),
   };
@@ -169,6 +170,8 @@ Settings driverSettings() {
       setting("capture.pipeline", MEMBER(capture.pipeline), anything),
       setting("capture.rate_hz", MEMBER(capture.rate_hz), rateOrAny),
       setting("capture.jpeg_quality", MEMBER(capture.jpeg_quality), percent),
+      setting("capture.stamp", MEMBER(capture.stamp), stampedEvent),
+      setting("capture.exposure_s", MEMBER(capture.exposure_s), zeroTo(1)),
       setting("autopilot.link", MEMBER(autopilot.link), autopilotLink),
       setting("autopilot.system_id", MEMBER(autopilot.system_id), systemId),
       setting("autopilot.signing_key_file", MEMBER(autopilot.signing_key_file), absolutePath),

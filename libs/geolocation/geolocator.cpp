@@ -40,10 +40,10 @@ double square(double x) { return x * x; }
 Geolocator::Geolocator(const CameraIntrinsics& camera, const GeolocationParameters& parameters)
     : configured_(camera), intrinsics_(camera), camera_(makeCameraModel(camera)), parameters_(parameters) {}
 
-void Geolocator::setZoom(double zoom) {
-  if (zoomed(configured_, zoom).fx == intrinsics_.fx) return;
-  intrinsics_ = zoomed(configured_, zoom);
-  camera_ = makeCameraModel(intrinsics_);
+void Geolocator::setZoom(double zoom, double variance) {
+  const CameraIntrinsics lens = zoomed(configured_, zoom);
+  focal_sigma_ = std::sqrt(square(parameters_.focal_sigma) + variance);
+  if (lens.fx != intrinsics_.fx) camera_ = makeCameraModel(intrinsics_ = lens);
 }
 
 void Geolocator::restart() {
@@ -103,7 +103,7 @@ std::optional<Geolocator::Placed> Geolocator::place(const ImageBox& box, const G
   const double slope_m =
       point->range_m * std::cos(point->depression) * std::tan(parameters_.ground_slope_sigma_deg * kDegree);
   m.G << point->J_attitude * rootOf<3>(attitude), rootOf<2>(view.position_covariance),
-      point->J_height * std::hypot(view.height_sigma_m, slope_m), point->J_focal * parameters_.focal_sigma,
+      point->J_height * std::hypot(view.height_sigma_m, slope_m), point->J_focal * focal_sigma_,
       point->J_pixel * parameters_.foot_sigma * foot->along_px;
   return placed;
 }

@@ -63,8 +63,9 @@ class Geolocator {
   /// Throws std::invalid_argument as makeCameraModel() does.
   Geolocator(const CameraIntrinsics& camera, const GeolocationParameters& parameters);
 
-  /// Of the next frames: focal length over that of the camera.
-  void setZoom(double zoom);
+  /// Of the next frames: focal length over that of the camera, and the variance of its logarithm. That lasts
+  /// (GeolocationParameters::error_correlation_s) beside the configured focal_sigma.
+  void setZoom(double zoom, double variance = 0);
   /// One frame, later than the one before. Without a view all targets are predicted.
   std::vector<Target> step(CameraTime time, const std::optional<GroundView>& view,
                            const std::vector<ObservedBox>& boxes);
@@ -116,6 +117,8 @@ class Geolocator {
   CameraIntrinsics intrinsics_;  ///< as the lens stands
   std::shared_ptr<const CameraModel> camera_;
   GeolocationParameters parameters_;
+  double focal_sigma_ =
+      parameters_.focal_sigma;  ///< of the next frames, one standard deviation over the focal length
   std::map<int, Tracked> targets_;
   std::optional<CameraTime> last_;
   RefusedBoxes refused_;

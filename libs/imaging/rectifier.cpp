@@ -130,38 +130,41 @@ bool Rectifier::moves(const Exposure& exposure) const {
 }
 
 Rectifier::Moved& Rectifier::movedBy(const Exposure& exposure) const {
-  if (!(moved_.exposure == exposure)) moved_ = {exposure, {}, {}, {}};
-  return moved_;
+  if (moved_[0].exposure == exposure) return moved_[0];
+  std::swap(moved_[0], moved_[1]);
+  if (!(moved_[0].exposure == exposure)) moved_[0] = {exposure, {}, {}, {}};
+  return moved_[0];
+}
+
+template <typename Mapping>
+cv::Mat2f Rectifier::sourcesBy(const Exposure& exposure, const CameraIntrinsics& grid, const cv::Mat2f& still,
+                               const Mapping& mapping) const {
+  const Rows rows = rolls(exposure) ? exposure.rows : std::nullopt;
+  if (exposure.zoom != 1) {
+    const Camera lens = zoomed(camera_, exposure.zoom);
+    return interpolated(grid, [&](const Eigen::Vector2d& pixel) { return mapping(lens, pixel, rows); });
+  }
+  return shifted(
+      still, [&](const Eigen::Vector2d& pixel) { return mapping(camera_, pixel, rows); },
+      [&](const Eigen::Vector2d& pixel) { return mapping(camera_, pixel, std::nullopt); });
 }
 
 const cv::Mat2f& Rectifier::sourcesInRaw(const Exposure& exposure) const {
   cv::Mat2f& sources = movedBy(exposure).sources_in_raw;
   if (!sources.empty()) return sources;
-  if (exposure.zoom != 1) {
-    const Camera lens = zoomed(camera_, exposure.zoom);
-    return sources = interpolated(camera_.ideal(), [&](const Eigen::Vector2d& ideal) {
-             return rolls(exposure) ? rawPixel(lens, ideal, *exposure.rows) : lens.distort(ideal);
-           });
-  }
-  return sources = shifted(
-             raw_sources_,
-             [&](const Eigen::Vector2d& ideal) { return rawPixel(camera_, ideal, *exposure.rows); },
-             [&](const Eigen::Vector2d& ideal) { return camera_.distort(ideal); });
+  return sources = sourcesBy(exposure, camera_.ideal(), raw_sources_,
+                             [](const Camera& lens, const Eigen::Vector2d& ideal, const Rows& rows) {
+                               return rows ? rawPixel(lens, ideal, *rows) : lens.distort(ideal);
+                             });
 }
 
 const cv::Mat2f& Rectifier::sourcesInIdeal(const Exposure& exposure) const {
   cv::Mat2f& sources = movedBy(exposure).sources_in_ideal;
   if (!sources.empty()) return sources;
-  if (exposure.zoom != 1) {
-    const Camera lens = zoomed(camera_, exposure.zoom);
-    return sources = interpolated(camera_.intrinsics(), [&](const Eigen::Vector2d& raw) {
-             return rolls(exposure) ? idealPixel(lens, raw, *exposure.rows) : lens.undistort(raw);
-           });
-  }
-  return sources = shifted(
-             ideal_sources_,
-             [&](const Eigen::Vector2d& raw) { return idealPixel(camera_, raw, *exposure.rows); },
-             [&](const Eigen::Vector2d& raw) { return camera_.undistort(raw); });
+  return sources = sourcesBy(exposure, camera_.intrinsics(), ideal_sources_,
+                             [](const Camera& lens, const Eigen::Vector2d& raw, const Rows& rows) {
+                               return rows ? idealPixel(lens, raw, *rows) : lens.undistort(raw);
+                             });
 }
 
 cv::Mat Rectifier::toIdeal(const cv::Mat& raw, const Exposure& exposure) const {

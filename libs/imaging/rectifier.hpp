@@ -1,6 +1,7 @@
 // Rectification: raw images to ideal images, between which homographies hold, and back.
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -19,8 +20,8 @@ struct Exposure {
 };
 
 /// Look-up tables for one camera. If raw and ideal pixels are the same, images are returned without a copy.
-/// What it takes to follow the rows or the lens of one image is computed once: a Rectifier is not for several
-/// threads at once.
+/// What it takes to follow the rows or the lens of an image is computed once for each of the two exposures
+/// that were asked for last: a Rectifier is not for several threads at once.
 class Rectifier {
  public:
   /// `own_parts`: 255 where raw images of the configured focal length show the vehicle itself, which is
@@ -49,9 +50,13 @@ class Rectifier {
   /// Source pixels of the ideal image's and of the raw image's.
   const cv::Mat2f& sourcesInRaw(const Exposure& exposure) const;
   const cv::Mat2f& sourcesInIdeal(const Exposure& exposure) const;
+  using Rows = std::optional<RowMotion>;
+  /// On `grid`; `mapping(lens, pixel, rows)` has a pixel's source, `still` those without motion and zoom.
+  template <typename Mapping>
+  cv::Mat2f sourcesBy(const Exposure& exposure, const CameraIntrinsics& grid, const cv::Mat2f& still,
+                      const Mapping& mapping) const;
   cv::Mat1b rawOwnParts(double zoom) const;
 
-  /// Of the image that was asked for last.
   struct Moved {
     Exposure exposure;
     cv::Mat2f sources_in_raw, sources_in_ideal;  ///< empty until they are asked for
@@ -65,7 +70,7 @@ class Rectifier {
   cv::Mat to_raw_;
   cv::Mat1b unknown_;
   cv::Mat1b raw_own_parts_, own_parts_;
-  mutable Moved moved_;
+  mutable std::array<Moved, 2> moved_;  ///< the one that was asked for last comes first
 };
 
 }  // namespace redbee

@@ -22,7 +22,7 @@ FrameSamples::FrameSamples(const InertialParameters& parameters)
       check_(parameters.imu_limits),
       imu_(parameters.max_frame_gap_s) {
   if (parameters.gimbal.enabled) mount_.emplace(parameters.gimbal);
-  if (parameters.lens.enabled) lens_.emplace(parameters.lens);
+  if (parameters.lens.enabled) lens_.emplace(parameters.lens, timeshift_);
 }
 
 bool FrameSamples::add(const ImuSample& sample) {

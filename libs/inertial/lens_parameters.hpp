@@ -10,11 +10,14 @@ struct LensParameters {
   /// maker's number is not the calibrated one, but in proportion to it.
   double focal_length_px = 0;
   /// The longest focal length over the shortest, which camera.fx is of then: where LENS states the place in
-  /// the zoom's range alone. 0: such a message is of no use.
+  /// the zoom's range alone, or a focal length with it that focal_length_px does not say what to compare
+  /// with. 0: such a message is of no use.
   double zoom_range = 0;
   double focal_sigma = 0.001;  ///< of the focal length, one standard deviation over it, anew in each frame
-  double timeshift_s = 0;      ///< s, the lens was where it says at its message's time + timeshift
-  double max_gap_s = 0.25;     ///< s between two messages: in a longer gap the focal length is not known
+  /// True: LENS is stamped as the images are, as an import's is: camera.timeshift_s applies to it, too.
+  bool on_camera_clock = false;
+  double timeshift_s = 0;   ///< s, the lens was where it says at its message's time + timeshift
+  double max_gap_s = 0.25;  ///< s between two messages: in a longer gap the focal length is not known
 };
 
 }  // namespace redbee

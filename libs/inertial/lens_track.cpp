@@ -15,17 +15,21 @@ constexpr double kLongestGuess_s = 4;  // s: then it may have passed its whole r
 }  // namespace
 
 std::optional<double> zoomOf(const StatedZoom& stated, double fx_px, const LensParameters& parameters) {
-  if (stated.focal_px) {
+  const bool has_range = stated.range && parameters.zoom_range > 0;
+  // A maker's number at the wide end is not the calibrated one: the zoom would leap from it to the range's
+  // place.
+  const bool is_comparable = parameters.focal_length_px > 0 || !has_range;
+  if (stated.focal_px && is_comparable) {
     return *stated.focal_px / (parameters.focal_length_px > 0 ? parameters.focal_length_px : fx_px);
   }
-  if (stated.range && parameters.zoom_range > 0) return 1 + (parameters.zoom_range - 1) * *stated.range;
+  if (has_range) return 1 + (parameters.zoom_range - 1) * *stated.range;
   return std::nullopt;
 }
 
 bool LensTrack::add(const LensSample& sample) {
   const bool is_lens = std::isfinite(sample.zoom) && sample.zoom <= kMostZoom && sample.zoom * kMostZoom >= 1;
   if (!isPlausibleTime(sample.time) || !is_lens) return false;
-  insertInOrder(samples_, LensSample{sample.time + fromSeconds(parameters_.timeshift_s), sample.zoom});
+  insertInOrder(samples_, LensSample{sample.time + shift_, sample.zoom});
   return true;
 }
 
@@ -48,14 +52,17 @@ bool LensTrack::reaches(ImuTime time) const {
   return (!samples_.empty() && samples_.back().time >= time) || standsStillAt(time);
 }
 
+Zoom LensTrack::guess(double zoom, double away_s) const {
+  const double moved = std::hypot(parameters_.focal_sigma, kFastLens * std::min(away_s, kLongestGuess_s));
+  return {zoom, moved * moved, false};
+}
+
 Zoom LensTrack::guessedBy(const LensSample& nearest, ImuTime time) const {
-  const double away_s = std::min(std::abs(seconds(time - nearest.time)), kLongestGuess_s);
-  const double moved = std::hypot(parameters_.focal_sigma, kFastLens * away_s);
-  return {nearest.zoom, moved * moved, false};
+  return guess(nearest.zoom, std::abs(seconds(time - nearest.time)));
 }
 
 Zoom LensTrack::at(ImuTime time) const {
-  if (samples_.empty()) return {1, 0, false};
+  if (samples_.empty()) return guess(1, kLongestGuess_s);
   const double variance = parameters_.focal_sigma * parameters_.focal_sigma;
   const auto later = firstFrom(samples_, time);
   if (later == samples_.end()) {

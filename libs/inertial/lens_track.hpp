@@ -32,7 +32,11 @@ std::optional<double> zoomOf(const StatedZoom& stated, double fx_px, const LensP
 
 class LensTrack {
  public:
-  explicit LensTrack(const LensParameters& parameters) : parameters_(parameters) {}
+  /// `camera_timeshift`: camera.timeshift_s.
+  explicit LensTrack(const LensParameters& parameters, Duration camera_timeshift = Duration(0))
+      : parameters_(parameters),
+        shift_(fromSeconds(parameters.timeshift_s) +
+               (parameters.on_camera_clock ? camera_timeshift : Duration(0))) {}
 
   /// In any order; of two with the same time the later one counts. A clock that was set back forgets what
   /// came before. Refuses a zoom that no lens has (from 1/kMostZoom to kMostZoom) or an implausible time, and
@@ -43,7 +47,7 @@ class LensTrack {
   bool reaches(ImuTime time) const;
   /// Interpolated (the logarithm) between the two samples that `time` lies between. Where these are further
   /// apart than `max_gap_s` and differ, or one is missing, it is the nearest one's, as uncertain as a lens is
-  /// fast; 1, the configured focal length, where there is none.
+  /// fast; 1, the configured focal length, where there is none, as uncertain as after a long silence.
   Zoom at(ImuTime time) const;
   /// What lies further back than this is not asked for any more.
   void eraseBefore(ImuTime time);
@@ -53,9 +57,11 @@ class LensTrack {
  private:
   bool areSame(const LensSample& a, const LensSample& b) const;
   bool standsStillAt(ImuTime time) const;
+  Zoom guess(double zoom, double away_s) const;
   Zoom guessedBy(const LensSample& nearest, ImuTime time) const;
 
   LensParameters parameters_;
+  Duration shift_;
   std::deque<LensSample> samples_;  ///< in order of time
 };
 

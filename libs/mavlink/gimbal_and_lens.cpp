@@ -80,4 +80,15 @@ Lens VehicleState::lensOf(const CameraSettings& m, ImuTime time) const {
   return lens;
 }
 
+std::optional<Lens> VehicleState::lensOf(const CameraFovStatus& m, ImuTime time) {
+  constexpr float kWidest_deg = 170;  // a wider one is that of a lens to which no pinhole is near
+  constexpr int kWidth_px = 10000;    // any will do
+  if (!std::isfinite(m.hfov) || m.hfov <= 0 || m.hfov > kWidest_deg) return std::nullopt;
+  Lens lens;
+  lens.time = time;
+  lens.focal_px = 0.5 * kWidth_px / std::tan(m.hfov * kPerDegree / 2);
+  lens.width_px = kWidth_px;
+  return lens;
+}
+
 }  // namespace redbee::mavlink

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "redbee/mavlink/camera_messages.hpp"
 #include "redbee/mavlink/messages.hpp"
 #include "redbee/mavlink/sensor_messages.hpp"
 
@@ -21,8 +22,8 @@ MessageRates::MessageRates(const AutopilotParameters& parameters) {
   for (const uint32_t id : {AttitudeQuaternion::kId, GimbalDeviceAttitudeStatus::kId}) {
     wanted_[id].rate_hz = parameters.attitude_rate_hz;
   }
-  for (const uint32_t id :
-       {GlobalPositionInt::kId, LocalPositionNed::kId, GpsRawInt::kId, DistanceSensor::kId}) {
+  for (const uint32_t id : {GlobalPositionInt::kId, LocalPositionNed::kId, GpsRawInt::kId,
+                            DistanceSensor::kId, CameraFovStatus::kId}) {
     wanted_[id].rate_hz = parameters.position_rate_hz;
   }
 }

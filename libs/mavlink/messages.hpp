@@ -132,64 +132,6 @@ struct CommandAck {
   }
 };
 
-struct CameraInformation {
-  static constexpr uint32_t kId = 259;
-  static constexpr std::string_view kName = "CAMERA_INFORMATION";
-  uint32_t time_boot_ms = 0;
-  uint32_t firmware_version = 0;
-  float focal_length = 0;   ///< mm; NaN or 0: unknown
-  float sensor_size_h = 0;  ///< mm
-  float sensor_size_v = 0;
-  uint32_t flags = 0;
-  uint16_t resolution_h = 0;  ///< px
-  uint16_t resolution_v = 0;
-  uint16_t cam_definition_version = 0;
-  std::array<uint8_t, 32> vendor_name{};
-  std::array<uint8_t, 32> model_name{};
-  uint8_t lens_id = 0;
-  std::array<char, 140> cam_definition_uri{};
-  uint8_t gimbal_device_id = 0;
-  uint8_t camera_device_id = 0;
-  template <typename M, typename V>
-  static constexpr void visit(M& m, V& v) {
-    v("time_boot_ms", m.time_boot_ms);
-    v("firmware_version", m.firmware_version);
-    v("focal_length", m.focal_length);
-    v("sensor_size_h", m.sensor_size_h);
-    v("sensor_size_v", m.sensor_size_v);
-    v("flags", m.flags);
-    v("resolution_h", m.resolution_h);
-    v("resolution_v", m.resolution_v);
-    v("cam_definition_version", m.cam_definition_version);
-    v("vendor_name", m.vendor_name);
-    v("model_name", m.model_name);
-    v("lens_id", m.lens_id);
-    v("cam_definition_uri", m.cam_definition_uri);
-    v.extensions();
-    v("gimbal_device_id", m.gimbal_device_id);
-    v("camera_device_id", m.camera_device_id);
-  }
-};
-
-struct CameraSettings {
-  static constexpr uint32_t kId = 260;
-  static constexpr std::string_view kName = "CAMERA_SETTINGS";
-  uint32_t time_boot_ms = 0;
-  uint8_t mode_id = 0;
-  float zoom_level = 0;  ///< percent of the range; NaN: unknown
-  float focus_level = 0;
-  uint8_t camera_device_id = 0;
-  template <typename M, typename V>
-  static constexpr void visit(M& m, V& v) {
-    v("time_boot_ms", m.time_boot_ms);
-    v("mode_id", m.mode_id);
-    v.extensions();
-    v("zoomLevel", m.zoom_level);
-    v("focusLevel", m.focus_level);
-    v("camera_device_id", m.camera_device_id);
-  }
-};
-
 struct MountOrientation {
   static constexpr uint32_t kId = 265;
   static constexpr std::string_view kName = "MOUNT_ORIENTATION";

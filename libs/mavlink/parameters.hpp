@@ -12,7 +12,7 @@ struct AutopilotParameters {
       signing_key_file;  ///< 64 hexadecimal digits; empty: frames are not signed, and signatures not checked
   double imu_rate_hz = 200;      ///< Hz, asked of the autopilot
   double attitude_rate_hz = 50;  ///< Hz, the same, of the attitude: the rate of POSE and GIMBAL
-  double position_rate_hz = 10;  ///< Hz, the same, of position, GPS and distance sensor
+  double position_rate_hz = 10;  ///< Hz, the same, of position, GPS, distance sensor, field of view
   double attitude_sigma_deg =
       1.0;  ///< deg, one standard deviation of roll and pitch, which the autopilot does not send
   double heading_sigma_deg = 5.0;         ///< deg, the same of the heading, unless GPS_RAW_INT has it

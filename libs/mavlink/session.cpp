@@ -9,7 +9,9 @@ namespace {
 constexpr uint8_t kOnboardController = 18;  // MAV_TYPE
 constexpr uint8_t kNoAutopilot = 8;         // MAV_AUTOPILOT_INVALID
 constexpr uint8_t kActive = 4;              // MAV_STATE
-constexpr size_t kMostAsked = 32;           // three seconds of requests: an answer that is later is of no use
+constexpr uint8_t kFirstCamera = 100;       // MAV_COMP_ID_CAMERA
+constexpr uint8_t kLastCamera = 105;
+constexpr size_t kMostAsked = 32;  // three seconds of requests: an answer that is later is of no use
 
 }  // namespace
 
@@ -40,6 +42,7 @@ void Session::handle(const Frame& frame, int64_t host_ns) {
     case MountOrientation::kId:
     case CameraInformation::kId:
     case CameraSettings::kId:
+    case CameraFovStatus::kId:
       return handleCamera(frame, host_ns);
     case DistanceSensor::kId: {
       rates_.noteMessage(frame.id);
@@ -50,6 +53,8 @@ void Session::handle(const Frame& frame, int64_t host_ns) {
       return;
     }
     default:
+      if (frame.id == Heartbeat::kId && frame.component >= kFirstCamera && frame.component <= kLastCamera)
+        camera_component_ = frame.component;
       if (isOfAutopilot(frame)) handleSensors(frame, host_ns);
   }
 }
@@ -82,6 +87,14 @@ void Session::handleTimesync(const Frame& frame, int64_t host_ns) {
   if (const auto state = clock_.state()) measurements_.emplace_back(*state);
 }
 
+void Session::ask(const RateRequest& request, uint8_t component) {
+  send(CommandLong{{static_cast<float>(request.id), static_cast<float>(1e6 / request.rate_hz)},
+                   CommandLong::kSetMessageInterval,
+                   static_cast<uint8_t>(parameters_.system_id),
+                   component,
+                   0});
+}
+
 std::vector<Bytes> Session::dueFrames(int64_t host_ns) {
   trust_.advanceTo(host_ns, encoder_);
   if (host_ns >= next_heartbeat_ns_) {
@@ -89,14 +102,9 @@ std::vector<Bytes> Session::dueFrames(int64_t host_ns) {
     send(Heartbeat{0, kOnboardController, kNoAutopilot, 0, kActive, 3});
   }
   if (hasAutopilot(host_ns)) {
-    const auto system = static_cast<uint8_t>(parameters_.system_id);
     for (const RateRequest& request : rates_.due(host_ns)) {
-      const auto interval_us = static_cast<float>(1e6 / request.rate_hz);
-      send(CommandLong{{static_cast<float>(request.id), interval_us},
-                       CommandLong::kSetMessageInterval,
-                       system,
-                       kAutopilotComponent,
-                       0});
+      ask(request, kAutopilotComponent);
+      if (request.id == CameraFovStatus::kId && camera_component_) ask(request, *camera_component_);
     }
   }
   std::vector<Bytes> frames = std::exchange(outgoing_, {});

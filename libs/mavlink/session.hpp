@@ -71,6 +71,7 @@ class Session {
   /// arrival.
   std::optional<ImuTime> bootTimeOf(const Frame& frame, uint32_t time_boot_ms, int64_t host_ns);
   bool isOfAutopilot(const Frame& frame) const { return frame.component == kAutopilotComponent; }
+  void ask(const RateRequest& request, uint8_t component);
   template <typename Message>
   void send(const Message& message) {
     outgoing_.push_back(encoder_.encode(message));
@@ -89,8 +90,10 @@ class Session {
   std::optional<int64_t> heartbeat_ns_;
   uint8_t autopilot_ = 0;  ///< MAV_AUTOPILOT
   std::optional<int64_t> gimbal_device_ns_;
-  std::optional<int64_t> quaternion_ns_;  ///< of the last ATTITUDE_QUATERNION
-  std::optional<ImuReading> last_imu_;    ///< since the clock was last set
+  std::optional<uint8_t> camera_component_;  ///< of a camera that speaks for itself
+  std::optional<int64_t> field_of_view_ns_;  ///< of the last CAMERA_FOV_STATUS that says it
+  std::optional<int64_t> quaternion_ns_;     ///< of the last ATTITUDE_QUATERNION
+  std::optional<ImuReading> last_imu_;       ///< since the clock was last set
   int64_t next_timesync_ns_ = 0;
   int64_t next_heartbeat_ns_ = 0;
   std::vector<Bytes> outgoing_;

@@ -101,7 +101,15 @@ void Session::handleCamera(const Frame& frame, int64_t host_ns) {
   };
   rates_.noteMessage(frame.id);
   if (frame.id == CameraInformation::kId) return vehicle_.note(frame.message<CameraInformation>());
-  if (frame.id == CameraSettings::kId) {
+  if (frame.id == CameraFovStatus::kId) {
+    const auto message = frame.message<CameraFovStatus>();
+    const auto time = bootTimeOf(frame, message.time_boot_ms, host_ns);
+    const auto lens = time ? VehicleState::lensOf(message, *time) : std::nullopt;
+    if (lens) field_of_view_ns_ = host_ns;
+    append(lens);
+  } else if (frame.id == CameraSettings::kId) {
+    // Says the focal length at the wide end alone, and another number than the field of view does.
+    if (field_of_view_ns_) return;
     const auto message = frame.message<CameraSettings>();
     if (const auto time = bootTimeOf(frame, message.time_boot_ms, host_ns)) {
       measurements_.emplace_back(vehicle_.lensOf(message, *time));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "redbee/mavlink/camera_messages.hpp"
 #include "redbee/mavlink/encoder.hpp"
 #include "redbee/mavlink/messages.hpp"
 #include "redbee/mavlink/parameters.hpp"

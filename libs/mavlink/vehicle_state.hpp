@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "redbee/geometry/time.hpp"
+#include "redbee/mavlink/camera_messages.hpp"
 #include "redbee/mavlink/measurements.hpp"
 #include "redbee/mavlink/messages.hpp"
 #include "redbee/mavlink/parameters.hpp"
@@ -42,6 +43,9 @@ class VehicleState {
   void note(const CameraInformation& message);
   /// The focal length is that of CAMERA_INFORMATION: it holds while the zoom is at its wide end or unknown.
   Lens lensOf(const CameraSettings& message, ImuTime time) const;
+  /// Of a lens without distortion, whatever the image's width; std::nullopt where the field of view is
+  /// unknown.
+  static std::optional<Lens> lensOf(const CameraFovStatus& message, ImuTime time);
 
  private:
   template <typename Value>

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "processes/camera/exposure_middle.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/node/message_check.hpp"
@@ -52,10 +53,17 @@ bool CameraNode::openSource() {
 
 bool CameraNode::processNext() {
   if (!openSource()) return true;
-  const auto image = source_->next(kImageWait);
-  if (image) publish(*image);
+  auto image = source_->next(kImageWait);
+  if (image) {
+    image->utime += toExposureMiddle(configuration_.capture, configuration_.camera, exposureTime()).count();
+    publish(*image);
+  }
   if (!source_->isOpen()) postpone(source_->fault());
   return true;
+}
+
+double CameraNode::exposureTime() const {
+  return source_->exposure_s().value_or(configuration_.capture.exposure_s);
 }
 
 bool CameraNode::isUsable(const image_t& image) {
@@ -98,7 +106,13 @@ void CameraNode::publish(image_t image) {
   }
   bus_.publish(configuration_.channels.camera, image);
   noteDone(health_, CameraTime(fromUtime(image.utime)), timers.wall, timers);
-  const std::string fault = watch_.fault();
+  std::string fault = watch_.fault();
+  if (fault.empty() && configuration_.capture.stamp != "middle" && exposureTime() == 0) {
+    fault =
+        "the driver does not tell the exposure time, and capture.exposure_s is not set: the images' times "
+        "are not "
+        "those of their middle";
+  }
   health_.setState(fault.empty() ? HealthState::kGood : HealthState::kDegraded, fault);
 }
 

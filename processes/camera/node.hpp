@@ -32,6 +32,7 @@ class CameraNode : public Node {
   bool openSource();
   void postpone(const std::string& fault);
   void publish(image_t image);
+  double exposureTime() const;  ///< s; 0: unknown
   bool isUsable(const image_t& image);
 
   Bus& bus_;

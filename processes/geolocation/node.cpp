@@ -33,7 +33,7 @@ GeolocationNode::GeolocationNode(Bus& bus, const Configuration& configuration)
       views_(configuration.geolocation, configuration.inertial.extrinsics.R_CI,
              configuration.inertial.extrinsics.p_IC),
       geolocator_(configuration.camera, configuration.geolocation) {
-  if (configuration_.inertial.lens.enabled) lens_.emplace(configuration_.inertial.lens);
+  if (configuration_.inertial.lens.enabled) lens_.emplace(configuration_.inertial.lens, timeshift_);
   const auto& channels = configuration_.channels;
   on<detections_t>(channels.detections, [this](const detections_t& m) { onDetections(m); });
   on<pose_t>(channels.pose, [this](const pose_t& m) {
@@ -103,9 +103,9 @@ std::string GeolocationNode::cameraFault(const detections_t& detections) const {
 void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   const std::string camera_fault = cameraFault(detections);
   const ViewEstimate estimate = views_.at(imuTimeOf(time));
-  const double zoom = lens_ ? lens_->at(imuTimeOf(time)).value : 1;
+  const Zoom zoom = lens_ ? lens_->at(imuTimeOf(time)) : Zoom();
   if (lens_) lens_->eraseBefore(imuTimeOf(time) - kLensMemory);
-  geolocator_.setZoom(zoom);
+  geolocator_.setZoom(zoom.value, zoom.variance);
   if (views_.frame().takeRestart()) geolocator_.restart();
   stopped_.restore(toUtime(time), views_.frame(), geolocator_);
   // A frame without a trusted mask shows nothing, not even that nobody moves.
@@ -120,7 +120,7 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   message.has_global = views_.frame().isGlobal() ? 1 : 0;
   fillView(message, estimate);
   if (estimate.view) {
-    const CameraIntrinsics camera = zoomed(configuration_.camera, zoom);
+    const CameraIntrinsics camera = zoomed(configuration_.camera, zoom.value);
     const auto footprint = footprintOf(camera, *makeCameraModel(camera), *estimate.view,
                                        configuration_.geolocation.min_depression_deg * kDegree);
     if (footprint) fillFootprint(message, *footprint);
@@ -130,7 +130,7 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   message.targets.reserve(targets.size());
   for (const Target& target : targets) message.targets.push_back(messageOf(target, views_.frame()));
   message.n = static_cast<int32_t>(message.targets.size());
-  describe(message.status, estimate, camera_fault);
+  describe(message.status, estimate, camera_fault, zoom.is_known);
   if (!isPlausible(message)) {
     // Covariances that no estimator has, or a camera that is off its orbit: nothing follows from them.
     geolocator_.restart();
@@ -162,7 +162,13 @@ std::string GeolocationNode::faultText(const ViewEstimate& estimate) const {
   }
 }
 
-void GeolocationNode::describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault) {
+void GeolocationNode::describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault,
+                               bool is_lens_known) {
+  if (status == targets_t::GOOD && !is_lens_known) {
+    return health().setState(
+        HealthState::kDegraded,
+        "no " + configuration_.channels.lens + " near the frame (lens.enabled): its focal length is a guess");
+  }
   if (status == targets_t::GOOD) {
     const RefusedBoxes refused = geolocator_.refused();
     return health().setState(

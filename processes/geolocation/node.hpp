@@ -42,7 +42,8 @@ class GeolocationNode : public Stage {
   void locate(CameraTime time, const detections_t& detections);
   /// What shows that the boxes are of another camera than the configured one; empty: nothing does.
   std::string cameraFault(const detections_t& detections) const;
-  void describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault);
+  void describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault,
+                bool is_lens_known);
   std::string faultText(const ViewEstimate& estimate) const;
   void restart(CameraTime newest) override;
   CameraTime now() const override { return clock_.now(); }

@@ -59,6 +59,10 @@ expect(poses.length > 20 && poses.every(line => near(Math.abs(line[1]), 1, 1e-6)
 const placed = poses.filter(line => line[5] === 1)
 expect(placed.length > 5 && placed.every(line => near(line[6], 47.3, 1e-9) && near(line[7], 8.5, 1e-9) && near(line[8], 510, 1e-6)), 'positions')
 
+// A field of view of 60 degrees.
+const lenses = of('LENS').map(line => line.map(Number)) // utime, has zoom, has focal length, px, width
+expect(lenses.length > 5 && lenses.every(line => line[1] === 0 && line[2] === 1 && near(line[3] / line[4], Math.sqrt(3) / 2, 1e-6)), 'focal lengths')
+
 const health = of('HEALTH')
 const [, lost, damaged] = health[health.length - 1].map(Number)
 expect(health.some(line => line[0] === '1'), 'never good: ' + health.map(line => line[3]).join(' | '))

@@ -10,6 +10,7 @@
 #include "redbee/clock_offset_t.hpp"
 #include "redbee/configuration/configuration.hpp"
 #include "redbee/ins_t.hpp"
+#include "redbee/lens_t.hpp"
 #include "redbee/node/node.hpp"
 #include "redbee/pose_t.hpp"
 #include "redbee/process_health_t.hpp"
@@ -31,6 +32,10 @@ void print(const pose_t& m) {
   std::printf("POSE,%lld,%.9g,%.9g,%.9g,%.9g,%d,%.12g,%.12g,%.9g\n", static_cast<long long>(m.utime),
               m.quat[0], m.quat[1], m.quat[2], m.quat[3], m.has_global, m.latitude, m.longitude, m.altitude);
 }
+void print(const lens_t& m) {
+  std::printf("LENS,%lld,%d,%d,%.9g,%d\n", static_cast<long long>(m.utime), m.has_zoom, m.has_focal_length,
+              m.focal_length, m.width);
+}
 void print(const clock_offset_t& m) {
   std::printf("CLOCK,%lld,%lld,%.9g,%.9g,%.9g\n", static_cast<long long>(m.utime),
               static_cast<long long>(m.offset), m.drift, m.sigma, m.round_trip);
@@ -51,6 +56,7 @@ void observe(const std::string& url) {
   add(channels.imu, ins_t());
   add(channels.altimeter, altimeter_t());
   add(channels.pose, pose_t());
+  add(channels.lens, lens_t());
   add(channels.autopilot_clock, clock_offset_t());
   add(channels.health, process_health_t());
   const std::atomic<bool>& stop = stopOnSignals();

@@ -125,6 +125,8 @@ const senders = {
     satellitesVisible: 12, altEllipsoid: 557000, hAcc: 1500, vAcc: 2500, velAcc: 300, hdgAcc: 0, yaw: 0 }),
   132: ms => send(common.DistanceSensor, { timeBootMs: ms, minDistance: 20, maxDistance: 5000, currentDistance: 1234, type: 0, id: 0, orientation: 25,
     covariance: 4, horizontalFov: 0, verticalFov: 0, quaternion: [0, 0, 0, 0], signalQuality: 0 }),
+  271: ms => send(common.CameraFovStatus, { timeBootMs: ms, latCamera: 473000000, lonCamera: 85000000, altCamera: 510000, latImage: 0, lonImage: 0,
+    altImage: 0, q: [1, 0, 0, 0], hfov: 60, vfov: 36, cameraDeviceId: 0 }),
 }
 const seconds = () => Number(host() - start) * 1e-9
 let heartbeat = 0

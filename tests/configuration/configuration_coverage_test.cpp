@@ -92,7 +92,7 @@ bool sameValue(const YAML::Node& a, const YAML::Node& b) {
 const std::vector<std::string>& values() {
   // clang-format off
   static const std::vector<std::string> all = {
-      "true", "false", "gimbal", "33", "3", "2", "4", "0.375", "0.625", "ANOTHER",
+      "true", "false", "gimbal", "readout_end", "33", "3", "2", "4", "0.375", "0.625", "ANOTHER",
       "equidistant", "paper", "propagated", "two_planes", "parallax", "udp:127.0.0.1:14540", "/etc/redbee/key",
       "127.0.0.1:8080",
       "[0.125, 0.25, 0.375]", "[0.125, 0.25, 0.375, 0.5, 0.625]",

@@ -2,10 +2,14 @@
 // again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <linux/videodev2.h>
 
 #include <deque>
+#include <optional>
+#include <utility>
 
 #include "processes/camera/node.hpp"
+#include "processes/camera/v4l2_exposure.hpp"
 #include "redbee/bus/image.hpp"
 #include "tests/support/camera.hpp"
 
@@ -21,6 +25,7 @@ struct Camera {
   bool is_open = false;
   int opened = 0;
   std::deque<image_t> images;
+  std::optional<double> exposure_s;
 };
 
 class SimulatedSource : public FrameSource {
@@ -42,6 +47,7 @@ class SimulatedSource : public FrameSource {
     return image;
   }
   std::string fault() const override { return camera_.fault; }
+  std::optional<double> exposure_s() const override { return camera_.exposure_s; }
 
  private:
   Camera& camera_;
@@ -50,11 +56,17 @@ class SimulatedSource : public FrameSource {
 class CameraNodeTest : public testing::Test {
  protected:
   void start(int jpeg_quality = 0) {
+    CaptureParameters capture;
+    capture.jpeg_quality = jpeg_quality;
+    start(capture);
+  }
+  void start(const CaptureParameters& capture) {
     Configuration configuration;
     configuration.camera = intrinsics();
     configuration.camera.width = 64;
     configuration.camera.height = 48;
-    configuration.capture.jpeg_quality = jpeg_quality;
+    configuration.camera.line_delay_s = line_delay_s_;
+    configuration.capture = capture;
     node_ = std::make_unique<CameraNode>(*bus_, configuration, std::make_unique<SimulatedSource>(camera_),
                                          [this] { return camera_.now_ns; });
     subscription_ =
@@ -75,6 +87,7 @@ class CameraNodeTest : public testing::Test {
 
   std::unique_ptr<Bus> bus_ = makeLcmBus("memq://");
   Camera camera_;
+  double line_delay_s_ = 0;
   std::unique_ptr<CameraNode> node_;
   Subscription subscription_;
   std::vector<image_t> published_;
@@ -122,6 +135,59 @@ TEST_F(CameraNodeTest, TimesIncrease) {
   ASSERT_EQ(published_.size(), 2U);
   EXPECT_EQ(published_[1].utime, 300);
   EXPECT_EQ(health().skipped, 2);
+}
+
+/// Of 48 rows of 100 us, exposed for 4 ms, then for 8 ms.
+TEST_F(CameraNodeTest, StampsTheMiddleOfTheExposureWhereTheDriverTellsIt) {
+  constexpr int64_t kHalfReadout_us = 2350;
+  for (const auto& [stamp, sign] :
+       {std::pair<std::string, int64_t>{"exposure_start", 1}, {"readout_end", -1}}) {
+    published_.clear();
+    line_delay_s_ = 1e-4;
+    CaptureParameters capture;
+    capture.stamp = stamp;
+    start(capture);
+    camera_.exposure_s = 0.004;
+    camera_.images = {rawGreyMessage(100'000, picture(0))};
+    run(1);
+    camera_.exposure_s = 0.008;
+    camera_.images = {rawGreyMessage(140'000, picture(1))};
+    run(1);
+    ASSERT_EQ(published_.size(), 2U);
+    EXPECT_EQ(published_[0].utime, 100'000 + sign * (2000 + kHalfReadout_us)) << stamp;
+    EXPECT_EQ(published_[1].utime, 140'000 + sign * (4000 + kHalfReadout_us)) << stamp;
+    EXPECT_EQ(health().state, process_health_t::GOOD);
+  }
+}
+
+TEST_F(CameraNodeTest, AnExposureThatIsNotToldIsTheConfiguredOneOrMissing) {
+  CaptureParameters capture;
+  capture.stamp = "readout_end";
+  start(capture);
+  camera_.images = {rawGreyMessage(100'000, picture(0))};
+  run(1);
+  EXPECT_THAT(health().message,
+              HasSubstr("does not tell the exposure time, and capture.exposure_s is not set"));
+  capture.exposure_s = 0.01;
+  start(capture);
+  camera_.images = {rawGreyMessage(200'000, picture(0))};
+  run(1);
+  EXPECT_EQ(published_.back().utime, 195'000);
+  EXPECT_EQ(health().state, process_health_t::GOOD);
+}
+
+TEST(V4l2Exposure, IsTheControlsWhereItIsPlausible) {
+  const auto with = [](std::optional<int32_t> value) {
+    return v4l2Exposure(3, [=](int device, uint32_t control) {
+      EXPECT_EQ(device, 3);
+      EXPECT_EQ(control, V4L2_CID_EXPOSURE_ABSOLUTE);
+      return value;
+    });
+  };
+  EXPECT_NEAR(with(156).value(), 0.0156, 1e-12);
+  for (const auto& value : {std::optional<int32_t>(), {0}, {-5}, {20000}}) EXPECT_FALSE(with(value));
+  EXPECT_FALSE(v4l2Exposure(-1)) << "no device is open";
+  EXPECT_FALSE(v4l2Exposure(0)) << "no camera";
 }
 
 TEST_F(CameraNodeTest, OpensASourceThatEndsAgainLessAndLessOften) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "redbee/geometry/camera.hpp"
+#include "redbee/geometry/chi_square.hpp"
 #include "tests/geolocation/simulated_watch.hpp"
 
 namespace redbee::test {
@@ -139,6 +140,31 @@ TEST_F(GeolocatorTest, ALensThatZoomsMovesNobody) {
     EXPECT_NEAR(targets[0].velocity.norm(), 0, 0.05) << zoom;
     EXPECT_NEAR(targets[0].size.x(), 30 * targets[0].range_m / 1000, 0.1) << zoom;
   }
+}
+
+/// A lens that fell silent while it zoomed on by a fifth.
+TEST_F(GeolocatorTest, AGuessedZoomIsInTheCovariance) {
+  const double zoom = 1.2, sigma = 0.2;
+  camera_ = makeCameraModel(zoomed(watchingCamera(), zoom));
+  const Eigen::Vector2d place(15, 12);
+  const auto distanceWith = [&](double variance) {
+    geolocator_.restart();
+    geolocator_.setZoom(1, variance);
+    const auto targets = show(3, place);
+    const Eigen::Vector2d error = targets.at(0).position - place;
+    return error.dot(targets[0].position_covariance.inverse() * error);
+  };
+  EXPECT_GT(distanceWith(0), chiSquareQuantile(0.99, 2)) << "what is believed without it";
+  EXPECT_LT(distanceWith(sigma * sigma), chiSquareQuantile(0.9, 2));
+}
+
+/// Each frame tells the same: where it is believed does not get better by looking longer.
+TEST_F(GeolocatorTest, AGuessedZoomDoesNotAverageOut) {
+  geolocator_.setZoom(1, 0.2 * 0.2);
+  const double first = show(3, {15, 12}).at(0).position_covariance.trace();
+  double last = 0;
+  for (int k = 0; k < 50; ++k) last = show(3, {15, 12}).at(0).position_covariance.trace();
+  EXPECT_GT(last, 0.9 * first);
 }
 
 }  // namespace

@@ -123,6 +123,19 @@ TEST(Rectifier, ALensThatZoomsIsRectifiedAtItsFocalLength) {
   for (const double zoom : {1.3, 2.0}) expectAsZoomed(fisheye(), zoom);
 }
 
+/// A frame and the one before, or a lens with and without the rows' motion, are asked for in turns.
+TEST(Rectifier, TwoExposuresInTurnsAreEachTabulatedOnce) {
+  const Camera camera({640, 480, 500, 500, 319.5, 239.5, {-0.25, 0.06, 0, 0, 0}});
+  const Rectifier rectifier(camera, cornerOfParts());
+  const Exposure wide{std::nullopt, 1.2}, narrow{std::nullopt, 1.5};
+  const cv::Mat1b wide_parts = rectifier.ownParts(wide), narrow_parts = rectifier.ownParts(narrow);
+  for (int turn = 0; turn < 3; ++turn) {
+    EXPECT_EQ(rectifier.ownParts(wide).data, wide_parts.data);
+    EXPECT_EQ(rectifier.ownParts(narrow).data, narrow_parts.data);
+  }
+  EXPECT_GT(cv::countNonZero(wide_parts != narrow_parts), 0);
+}
+
 TEST(Rectifier, OwnPartsGrowWithTheFocalLength) {
   const Rectifier rectifier(Camera({640, 480, 500, 500, 319.5, 239.5, {}}), cornerOfParts());
   const cv::Mat1b parts = rectifier.ownParts({std::nullopt, 2});

@@ -69,6 +69,7 @@ TEST_F(StatedLensTest, SubtitlesOfDjiBecomeLens) {
   }
   const Configuration vehicle = loadConfiguration(writeVehicleFile(summary.vehicle, folder_ / "flight.lcm"));
   EXPECT_TRUE(vehicle.inertial.lens.enabled);
+  EXPECT_TRUE(vehicle.inertial.lens.on_camera_clock) << "LENS has the images' times";
   EXPECT_NEAR(vehicle.inertial.lens.focal_length_px, 24 / 36.0 * vehicle.camera.width, 1e-3);
 }
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "redbee/geometry/small_decompositions.hpp"
 #include "redbee/inertial/inertial_filter.hpp"
 #include "tests/support/filtered_flight.hpp"
 
@@ -44,6 +45,23 @@ TEST(InertialFilter, AnImuGapIsBridgedWithALargerCovariance) {
   EXPECT_EQ(bridged.status, InertialStatus::kImuGap);
   EXPECT_TRUE(bridged.valid);
   EXPECT_GT(bridged.rotation_covariance.trace(), 10 * before.rotation_covariance.trace());
+}
+
+/// As images over a network come, which are stamped when they arrive: readers refuse what cannot be a
+/// covariance.
+TEST(InertialFilter, FramesOfOneBurstHaveCovariances) {
+  const FilteredFlight flight(1, 8, ConsumerImu(1));
+  InertialFilter filter = flight.filter(flight.parameters());
+  for (int k = 0; k < 48; ++k) {
+    for (const auto delay : {0, 250, 252}) {
+      const InertialHomography result = filter.advanceTo(frameTime(k) + std::chrono::microseconds(delay));
+      const Eigen::Matrix3d& P = result.rotation_covariance;
+      EXPECT_LE((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-12 * P.diagonal().maxCoeff())
+          << k << ' ' << delay;
+      EXPECT_EQ(result.covariance, Matrix8d(result.covariance.transpose()));
+      EXPECT_TRUE(!result.valid || LdltFactors(result.covariance).smallestPivot() > 0) << k << ' ' << delay;
+    }
+  }
 }
 
 TEST(InertialFilter, ALostImuIsReportedAndItsReturnUsed) {

@@ -5,13 +5,11 @@
 #include <cmath>
 
 #include "redbee/geometry/so3.hpp"
+#include "tests/support/sampled_track.hpp"
 
 namespace redbee::test {
 namespace {
 
-const ImuTime kBegin{std::chrono::seconds(1000)};
-
-ImuTime at(double t_s) { return kBegin + fromSeconds(t_s); }
 /// Turns at this rate about an axis of its own.
 MountSample turned(double t_s, const Eigen::Vector3d& rate) {
   return {at(t_s), Eigen::Quaterniond(expSO3(rate * t_s))};
@@ -20,9 +18,7 @@ MountSample turned(double t_s, const Eigen::Vector3d& rate) {
 const Eigen::Vector3d kRate(0.3, -0.8, 0.5);
 
 MountTrack track(const GimbalParameters& parameters = {}) {
-  MountTrack track(parameters);
-  for (int i = 0; i <= 10; ++i) EXPECT_TRUE(track.add(turned(0.1 * i, kRate)));
-  return track;
+  return sampledTrack<MountTrack>(parameters, [](double t_s) { return turned(t_s, kRate); });
 }
 
 TEST(MountTrack, ASteadyRotationIsInterpolatedExactly) {

@@ -1,13 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include "redbee/mavlink/axes.hpp"
+#include "redbee/mavlink/session.hpp"
 #include "redbee/mavlink/vehicle_state.hpp"
 #include "tests/mavlink/attitudes.hpp"
 
 namespace redbee::mavlink {
 namespace {
+
+constexpr uint8_t kCamera = 100;  // component
 
 /// A gimbal that looks 60 degrees down and 30 to the right of the nose, under a body that pitches and rolls.
 TEST(MavlinkGimbal, EveryFrameGivesTheSameMount) {
@@ -86,6 +91,60 @@ TEST(MavlinkLens, FocalLengthIsKnownAtTheWideEnd) {
   settings.zoom_level = 25;
   EXPECT_NEAR(state.lensOf(settings, kNow).zoom.value(), 0.25, 1e-9);
   EXPECT_FALSE(state.lensOf(settings, kNow).focal_px);
+}
+
+TEST(MavlinkLens, TheFieldOfViewGivesTheFocalLength) {
+  CameraFovStatus status;
+  status.hfov = 90;
+  const auto wide = VehicleState::lensOf(status, kNow);
+  ASSERT_TRUE(wide && wide->focal_px);
+  EXPECT_NEAR(*wide->focal_px / wide->width_px, 0.5, 1e-9);
+  EXPECT_FALSE(wide->zoom);
+  status.hfov = static_cast<float>(2 * std::atan(0.25) / kDeg);
+  EXPECT_NEAR(*VehicleState::lensOf(status, kNow)->focal_px / *wide->focal_px, 4.0, 1e-6);
+  for (const float unknown : {kNan, 0.0F, -3.0F, 180.0F}) {
+    status.hfov = unknown;
+    EXPECT_FALSE(VehicleState::lensOf(status, kNow)) << unknown;
+  }
+}
+
+/// Two numbers for one focal length would have the zoom leap to and fro.
+TEST(MavlinkLens, TheFieldOfViewCountsWhereBothAreSaid) {
+  Session session({}, std::nullopt, SigningTime{});
+  Encoder camera(1, kCamera);
+  const auto lensesOf = [&](const auto& message, int64_t now_ns) {
+    const Bytes frame = camera.encode(message);
+    return session.receive(frame.data(), frame.size(), now_ns, true).size();
+  };
+  CameraSettings settings;
+  settings.zoom_level = 10;
+  CameraFovStatus status;
+  status.hfov = kNan;
+  EXPECT_EQ(lensesOf(status, 1'000'000'000), 0U);
+  EXPECT_EQ(lensesOf(settings, 1'100'000'000), 1U) << "what has not said it yet does not count";
+  status.hfov = 60;
+  EXPECT_EQ(lensesOf(status, 1'200'000'000), 1U);
+  EXPECT_EQ(lensesOf(settings, 1'300'000'000), 0U);
+}
+
+TEST(MavlinkLens, ACameraOfItsOwnIsAskedToo) {
+  Session session({}, std::nullopt, SigningTime{});
+  const auto hear = [&](uint8_t component, const Heartbeat& heartbeat) {
+    const Bytes frame = Encoder(1, component).encode(heartbeat);
+    session.receive(frame.data(), frame.size(), 1'000'000'000, true);
+  };
+  constexpr uint8_t kCameraType = 30;
+  hear(Session::kAutopilotComponent, Heartbeat{0, 2, Heartbeat::kPx4, 0, 4, 3});
+  hear(kCamera, Heartbeat{0, kCameraType, 8, 0, 4, 3});
+  Parser parser;
+  for (const Bytes& frame : session.dueFrames(1'000'000'000)) parser.feed(frame.data(), frame.size());
+  std::multiset<uint8_t> asked;
+  while (const auto frame = parser.next()) {
+    if (frame->id != CommandLong::kId) continue;
+    const auto command = frame->message<CommandLong>();
+    if (command.param[0] == CameraFovStatus::kId) asked.insert(command.target_component);
+  }
+  EXPECT_EQ(asked, (std::multiset<uint8_t>{Session::kAutopilotComponent, kCamera}));
 }
 
 }  // namespace

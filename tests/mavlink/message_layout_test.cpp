@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "redbee/mavlink/attitude_message.hpp"
+#include "redbee/mavlink/camera_messages.hpp"
 #include "redbee/mavlink/encoder.hpp"
 #include "redbee/mavlink/message_table.hpp"
 #include "redbee/mavlink/messages.hpp"
@@ -15,11 +16,11 @@ namespace {
 
 template <typename Message>
 class MessageLayoutOf : public testing::Test {};
-using Ours =
-    testing::Types<Heartbeat, Timesync, CommandLong, CommandInt, CommandAck, CameraInformation,
-                   CameraSettings, MountOrientation, GimbalDeviceAttitudeStatus, CameraTrackingImageStatus,
-                   CameraTrackingGeoStatus, HighresImu, RawImu, ScaledImu2, Attitude, AttitudeQuaternion,
-                   LocalPositionNed, GlobalPositionInt, GpsRawInt, DistanceSensor>;
+using Ours = testing::Types<Heartbeat, Timesync, CommandLong, CommandInt, CommandAck, CameraInformation,
+                            CameraSettings, CameraFovStatus, MountOrientation, GimbalDeviceAttitudeStatus,
+                            CameraTrackingImageStatus, CameraTrackingGeoStatus, HighresImu, RawImu,
+                            ScaledImu2, Attitude, AttitudeQuaternion, LocalPositionNed, GlobalPositionInt,
+                            GpsRawInt, DistanceSensor>;
 TYPED_TEST_SUITE(MessageLayoutOf, Ours);
 
 TYPED_TEST(MessageLayoutOf, FollowsFromItsFields) {

@@ -133,6 +133,26 @@ TYPED_TEST(MessageCheck, NoMemberMayBeWithoutSense) {
   EXPECT_EQ((passedWith<TypeParam, IsSigned>(0)), Unread<TypeParam>::kIntegers);
 }
 
+/// As between two lenses, wide and narrow, of which either may be the configured one; 0: not known.
+template <typename Message>
+void expectBoundsOfZoom() {
+  Message message = trueMessages().get<Message>();
+  for (const double zoom : {0.0, 0.01, 1.0, 100.0}) {
+    message.zoom = zoom;
+    EXPECT_TRUE(isPlausible(message)) << zoom;
+  }
+  for (const double zoom : {-1.0, 0.0099, 1e-30, 100.1}) {
+    message.zoom = zoom;
+    EXPECT_FALSE(isPlausible(message)) << zoom;
+  }
+}
+
+TEST(MessageChecks, AZoomHasTwoBounds) {
+  expectBoundsOfZoom<inertial_homography_t>();
+  expectBoundsOfZoom<visual_homography_t>();
+  expectBoundsOfZoom<fused_homography_t>();
+}
+
 TYPED_TEST(MessageCheck, RandomContentIsRefused) {
   std::mt19937 random(1);
   int passed = 0;

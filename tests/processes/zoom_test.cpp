@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/flight_measures.hpp"
 
@@ -60,6 +63,69 @@ TEST(ZoomFlight, VisionAloneHeedsTheLens) {
   flight.configuration.inertial.lens.enabled = false;
   const FlightMeasures ignored = measured("vision alone, distorted, LENS ignored", flight);
   EXPECT_LT(used.fused_px, ignored.fused_px / 2);
+}
+
+/// What is not there is not missed: an IMU that is not configured, but the lens that is.
+TEST(ZoomFlight, WithoutAnImuTheHealthIsAboutTheLens) {
+  StackFlight flight = zoomFlight();
+  flight.configuration.has_imu = false;
+  const auto healthOf = [&] { return StackRun(flight).run().health.at("redbee-imu-integration"); };
+  const process_health_t with_lens = healthOf();
+  EXPECT_EQ(with_lens.state, process_health_t::GOOD) << with_lens.message;
+  EXPECT_EQ(with_lens.message, "");
+  eraseLens(flight, flight.frame_utimes[48], flight.frame_utimes.back() + 1'000'000);
+  const process_health_t without = healthOf();
+  EXPECT_EQ(without.state, process_health_t::DEGRADED);
+  EXPECT_NE(without.message.find("no LENS near the frame"), std::string::npos) << without.message;
+}
+
+/// Changes what the stack publishes on the way.
+class EditingBus : public Bus {
+ public:
+  using Bus::publish;
+  EditingBus(Bus& bus, bool fusion_knows, bool vision_knows)
+      : bus_(bus), fusion_knows_(fusion_knows), vision_knows_(vision_knows) {}
+
+  void publish(const std::string& channel, const std::vector<uint8_t>& data) override {
+    if (channel == "FUSED_HOMOGRAPHY" && !fusion_knows_) return forget<fused_homography_t>(channel, data);
+    if (channel == "VISUAL_HOMOGRAPHY" && !vision_knows_) return forget<visual_homography_t>(channel, data);
+    bus_.publish(channel, data);
+  }
+  Subscription subscribe(const std::string& channel, int capacity, Handler handler) override {
+    return bus_.subscribe(channel, capacity, std::move(handler));
+  }
+  int handle(std::chrono::milliseconds timeout) override { return bus_.handle(timeout); }
+  int64_t handlerFailures() const override { return bus_.handlerFailures(); }
+
+ private:
+  template <typename Message>
+  void forget(const std::string& channel, const std::vector<uint8_t>& data) {
+    Message message;
+    ASSERT_TRUE(decodeMessage(data.data(), static_cast<int>(data.size()), message));
+    message.zoom = 0;
+    bus_.publish(channel, encodeMessage(message));
+  }
+
+  Bus& bus_;
+  bool fusion_knows_, vision_knows_;
+};
+
+/// The images of masks lie by the focal length: where the fusion does not know it, vision does.
+TEST(ZoomFlight, TheSegmentationHeedsVisionsZoomWhereTheFusionKnowsNone) {
+  simulation::Scenario scenario = simulation::zoomWalkers(2);
+  scenario.intrinsics.distortion = {-0.2, 0.03, 0, 0, 0};
+  const StackFlight flight = stackFlight(scenario, 48);
+  const auto masksWith = [&](bool fusion_knows, bool vision_knows) {
+    const auto bus = makeLcmBus("memq://");
+    EditingBus editing(*bus, fusion_knows, vision_knows);
+    std::vector<std::vector<uint8_t>> masks;
+    for (const auto& [utime, message] : StackRun(flight, editing).run().foreground)
+      masks.push_back(message.mask);
+    return masks;
+  };
+  const auto expected = masksWith(true, true);
+  EXPECT_EQ(masksWith(false, true), expected);
+  EXPECT_NE(masksWith(false, false), expected) << "there was something to heed";
 }
 
 /// Nothing stops where LENS does: the focal length is a guess, which the covariance knows, and it is said.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <iostream>
 #include <random>
 
 #include "redbee/inertial/inertial_filter.hpp"
@@ -20,12 +22,17 @@ inline InertialParameters filterParameters(const simulation::Scenario& scenario)
   return parameters;
 }
 
-/// With the samples of IMU and altimeter.
-inline InertialFilter filterOf(const simulation::FlightSimulator& flight,
-                               const InertialParameters& parameters) {
+/// With all samples of the flight, those of the gimbal as far as they are `told`.
+inline InertialFilter filterOf(
+    const simulation::FlightSimulator& flight, const InertialParameters& parameters,
+    const std::function<bool(const MountSample&)>& told = [](const MountSample&) { return true; }) {
   InertialFilter filter(flight.camera(), parameters);
   for (const ImuSample& sample : flight.imu()) filter.addImu(sample);
   for (const AltitudeSample& sample : flight.altimeter()) filter.addAltitude(sample);
+  for (const MountSample& sample : flight.gimbal()) {
+    EXPECT_TRUE(!told(sample) || filter.addMount(sample));
+  }
+  for (const LensSample& sample : flight.lens()) EXPECT_TRUE(filter.addLens(sample));
   return filter;
 }
 
@@ -55,6 +62,18 @@ inline FilterErrors errorsOf(const simulation::FlightSimulator& flight, Inertial
     observation.time = result.time;
     filter.correct(observation);
   }
+  return errors;
+}
+
+/// Of a flight whose mount or lens says itself with noise of `sigma`, which the parameters know.
+inline FilterErrors expectHonestCovariance(const simulation::FlightSimulator& flight,
+                                           const InertialParameters& parameters, double sigma) {
+  InertialFilter filter = filterOf(flight, parameters);
+  const FilterErrors errors = errorsOf(flight, filter);
+  std::cout << sigma << ": " << errors.px << " px, normalised error squared " << errors.normalised
+            << " (8 expected)\n";
+  EXPECT_GT(errors.normalised, 3);
+  EXPECT_LT(errors.normalised, 12);
   return errors;
 }
 

@@ -1,10 +1,10 @@
 #include "processes/camera/gstreamer/gstreamer_source.hpp"
 
-#include <gst/video/video.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "processes/camera/gstreamer/sample_image.hpp"
+#include "processes/camera/v4l2_exposure.hpp"
 #include "redbee/files/user_error.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/node/host_clock.hpp"
@@ -66,53 +66,21 @@ GstElement* onlyAppSinkOf(GstBin* bin) {
   return found;
 }
 
-std::optional<image_t> jpegOf(GstSample* sample, const GstStructure* format) {
-  image_t image{};
-  int width = 0;
-  int height = 0;
-  gst_structure_get_int(format, "width", &width);
-  gst_structure_get_int(format, "height", &height);
-  GstMapInfo map;
-  if (gst_buffer_map(gst_sample_get_buffer(sample), &map, GST_MAP_READ) == FALSE) return std::nullopt;
-  image.pixelformat = image_t::MJPEG;
-  image.width = width;
-  image.height = height;
-  image.data.assign(map.data, map.data + map.size);
-  image.size = static_cast<int32_t>(map.size);
-  gst_buffer_unmap(gst_sample_get_buffer(sample), &map);
-  return image;
-}
-
-std::optional<image_t> rawOf(GstSample* sample, GstCaps* caps) {
-  GstVideoInfo info;
-  GstVideoFrame frame;
-  if (gst_video_info_from_caps(&info, caps) == FALSE) return std::nullopt;
-  if (gst_video_frame_map(&frame, &info, gst_sample_get_buffer(sample), GST_MAP_READ) == FALSE)
-    return std::nullopt;
-  image_t image{};
-  image.width = GST_VIDEO_FRAME_WIDTH(&frame);
-  image.height = GST_VIDEO_FRAME_HEIGHT(&frame);
-  const GstVideoFormat format = GST_VIDEO_FRAME_FORMAT(&frame);
-  image.pixelformat = image_t::BGR;
-  if (format == GST_VIDEO_FORMAT_GRAY8) image.pixelformat = image_t::GRAY;
-  if (format == GST_VIDEO_FORMAT_RGB) image.pixelformat = image_t::RGB;
-  image.row_stride = image.width * (format == GST_VIDEO_FORMAT_GRAY8 ? 1 : 3);
-  // Rows are padded in the buffer, to four bytes or what the driver likes.
-  const auto* pixels = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
-  for (int row = 0; row < image.height; ++row) {
-    const uint8_t* begin = pixels + static_cast<ptrdiff_t>(row) * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
-    image.data.insert(image.data.end(), begin, begin + image.row_stride);
+/// The first element of that factory; nullptr if there is none.
+GstElement* firstOf(GstBin* bin, const char* factory_name) {
+  GstElement* found = nullptr;
+  GstIterator* elements = gst_bin_iterate_recurse(bin);
+  GValue item = G_VALUE_INIT;
+  while (found == nullptr && gst_iterator_next(elements, &item) == GST_ITERATOR_OK) {
+    auto* element = GST_ELEMENT(g_value_get_object(&item));
+    GstElementFactory* factory = gst_element_get_factory(element);
+    const bool is_it = factory != nullptr && std::string(GST_OBJECT_NAME(factory)) == factory_name;
+    if (is_it) found = GST_ELEMENT(gst_object_ref(element));
+    g_value_reset(&item);
   }
-  image.size = static_cast<int32_t>(image.data.size());
-  gst_video_frame_unmap(&frame);
-  return image;
-}
-
-std::optional<image_t> imageOf(GstSample* sample) {
-  GstCaps* caps = gst_sample_get_caps(sample);
-  if (caps == nullptr || gst_sample_get_buffer(sample) == nullptr) return std::nullopt;
-  const GstStructure* format = gst_caps_get_structure(caps, 0);
-  return gst_structure_has_name(format, "image/jpeg") == TRUE ? jpegOf(sample, format) : rawOf(sample, caps);
+  g_value_unset(&item);
+  gst_iterator_free(elements);
+  return found;
 }
 
 }  // namespace
@@ -136,6 +104,7 @@ std::string GstreamerSource::build() {
   if (sink == nullptr)
     return "must end in one appsink: ... ! videoconvert ! video/x-raw,format=GRAY8 ! appsink";
   sink_.reset(sink);
+  v4l2_source_.reset(firstOf(GST_BIN(made), "v4l2src"));
   const std::unique_ptr<GstCaps, UnrefCaps> caps(gst_caps_from_string(kCaps));
   g_object_set(sink, "caps", caps.get(), "max-buffers", kMostQueued, "drop", TRUE, nullptr);
   return "";
@@ -161,6 +130,8 @@ std::string GstreamerSource::open() {
 void GstreamerSource::close() {
   if (pipeline_) gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
   sink_.reset();
+  v4l2_source_.reset();
+  exposure_s_.reset();
   pipeline_.reset();
 }
 
@@ -194,6 +165,15 @@ void GstreamerSource::readClocks() {
   }
 }
 
+/// A camera on USB answers in a millisecond or so, and changes its exposure over many images.
+void GstreamerSource::readExposure() {
+  constexpr int64_t kPeriod = 8;  // images
+  if (!v4l2_source_ || images_++ % kPeriod != 0) return;
+  gint device = -1;
+  g_object_get(v4l2_source_.get(), "device-fd", &device, nullptr);
+  exposure_s_ = v4l2Exposure(device);
+}
+
 int64_t GstreamerSource::hostTimeOf(GstSample* sample, int64_t arrived_ns) const {
   const GstClockTime stamp = GST_BUFFER_PTS(gst_sample_get_buffer(sample));
   if (GST_CLOCK_TIME_IS_VALID(stamp) == FALSE) return arrived_ns;
@@ -213,6 +193,7 @@ std::optional<image_t> GstreamerSource::next(std::chrono::milliseconds timeout) 
   std::optional<image_t> image;
   if (sample) {
     readClocks();
+    readExposure();
     image = imageOf(sample.get());
     if (image) image->utime = fromNanoseconds(hostTimeOf(sample.get(), arrived_ns)).count();
   } else if (hasStopped()) {

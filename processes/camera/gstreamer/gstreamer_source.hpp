@@ -22,7 +22,7 @@ using GstPointer = std::unique_ptr<Object, UnrefObject>;
 /// Grey, RGB or BGR, or JPEG as it comes. An image's time is its running time plus the pipeline's base time,
 /// on the clock that the pipeline chose; that clock's offset and drift to ours are estimated from readings of
 /// both (ClockEstimator: a reading of theirs between two of ours is an exchange without a way). An image
-/// without a time is stamped when it arrives.
+/// without a time is stamped when it arrives. Of a v4l2src the exposure time is read.
 class GstreamerSource : public FrameSource {
  public:
   /// Throws UserError unless the pipeline can be made of the elements that are there and has one appsink.
@@ -35,6 +35,7 @@ class GstreamerSource : public FrameSource {
   bool isOpen() const override { return pipeline_ != nullptr; }
   std::optional<image_t> next(std::chrono::milliseconds timeout) override;
   std::string fault() const override { return fault_; }
+  std::optional<double> exposure_s() const override { return exposure_s_; }
 
  private:
   std::string build();
@@ -42,11 +43,15 @@ class GstreamerSource : public FrameSource {
   /// Whether the pipeline has failed or ended.
   bool hasStopped();
   void readClocks();
+  void readExposure();
   int64_t hostTimeOf(GstSample* sample, int64_t arrived_ns) const;
 
   std::string description_;
   GstPointer<GstElement> pipeline_;
   GstPointer<GstElement> sink_;
+  GstPointer<GstElement> v4l2_source_;  ///< where there is one
+  std::optional<double> exposure_s_;
+  int64_t images_ = 0;
   mavlink::ClockEstimator clock_;
   std::string fault_;
 };

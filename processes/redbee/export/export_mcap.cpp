@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "processes/detection_messages.hpp"
+#include "processes/redbee/export/camera_infos.hpp"
 #include "processes/redbee/export/ros_export.hpp"
 #include "processes/redbee/export/ros_schemas.hpp"
 #include "redbee/bus/build_version.hpp"
@@ -39,7 +40,14 @@ class Exporter {
  public:
   explicit Exporter(const McapExport& options)
       : options_(options), writer_(options.out, "ros2", std::string("redbee ") + releaseVersion()) {
-    if (options.configuration) camera_ = loadConfiguration(*options.configuration).camera;
+    if (options.configuration) {
+      const Configuration configuration = loadConfiguration(*options.configuration);
+      lens_channel_ = configuration.channels.lens;
+      cameras_.emplace(
+          configuration, [this](const std::string& topic, int64_t utime, const CameraIntrinsics& camera) {
+            write(topic + "/camera_info", cameraInfoSchema(), utime, exportCameraInfo(utime, camera));
+          });
+    }
     if (!options.results) return;
     for (const auto& [utime, box] : RunFolder(*options.results).detections()) boxes_[utime].push_back(box);
   }
@@ -63,10 +71,14 @@ class Exporter {
                            [&](const foreground_t& message) { addForeground(event.channel, message); }) ||
         take<process_health_t>(name, event,
                                [&](const process_health_t& health) { addHealth(event.channel, health); });
+    if (cameras_ && event.channel == lens_channel_) {
+      take<lens_t>(name, event, [&](const lens_t& lens) { cameras_->add(lens); });
+    }
     if (!is_known) ++exported_.left_out[event.channel];
   }
 
   McapExported finish() {
+    if (cameras_) cameras_->finish();
     if (exported_.messages.empty())
       throw InputError(options_.log,
                        "holds no message that is exported (images, IMU, altimeter, detections, health)");
@@ -109,8 +121,7 @@ class Exporter {
       ++exported_.damaged;
       return;
     }
-    if (camera_ && camera_->width == image.width && camera_->height == image.height)
-      write(topic + "/camera_info", cameraInfoSchema(), image.utime, exportCameraInfo(image.utime, *camera_));
+    if (cameras_) cameras_->add(topic, image);
     addResults(image.utime);
   }
 
@@ -157,7 +168,8 @@ class Exporter {
 
   const McapExport& options_;
   McapWriter writer_;
-  std::optional<CameraIntrinsics> camera_;
+  std::optional<CameraInfos> cameras_;
+  std::string lens_channel_;
   std::map<int64_t, std::vector<Detection>> boxes_;
   std::map<std::string, uint16_t> channels_;
   std::map<std::string, std::string> lines_;  ///< the latest of each process

@@ -53,7 +53,8 @@ std::string vehicleYaml(const VehicleDescription& vehicle) {
   if (vehicle.lens_focal_px) {
     configuration.inertial.lens.enabled = true;
     configuration.inertial.lens.focal_length_px = *vehicle.lens_focal_px;
-    append(keys, {"lens.enabled", "lens.focal_length_px"});
+    configuration.inertial.lens.on_camera_clock = true;  // it says what the lens did in each image
+    append(keys, {"lens.enabled", "lens.focal_length_px", "lens.on_camera_clock"});
   }
   if (vehicle.start_height) {
     configuration.inertial.extrinsics.start_height_m = vehicle.start_height->height_m;
