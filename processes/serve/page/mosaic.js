@@ -24,7 +24,7 @@ function draw(mosaic) {
   const seconds = (mosaic.utime - mosaic.start) / 1e6;
   const scale = mosaic.unit === 'm' ? `${(100 * mosaic.units_per_px).toFixed(1)} cm` : `${mosaic.units_per_px.toFixed(1)} px of its first frame`;
   document.getElementById('mosaic-status').textContent = [`${mosaic.width}x${mosaic.height} px of ${scale}`,
-    `${mosaic.frames} frames in ${seconds.toFixed(0)} s`, `${mosaic.tracks.length} tracks`].join('  \u00b7  ');
+    `${mosaic.frames} frames in ${seconds.toFixed(0)} s`, `${mosaic.tracks.length} track${mosaic.tracks.length === 1 ? '' : 's'}`].join('  \u00b7  ');
   Object.assign(canvas.dataset, {utime: mosaic.utime, sequence: mosaic.sequence, frames: mosaic.frames, tracks: mosaic.tracks.length,
     unit: mosaic.unit, scale: mosaic.units_per_px});
 }
