@@ -25,6 +25,13 @@ void AtomicFile::close() {
 
 void checkWritable(const std::filesystem::path& path) { const PartialFile file(path); }
 
+void checkWritableFolder(const std::filesystem::path& folder) {
+  std::filesystem::path there = std::filesystem::absolute(folder);
+  if (std::filesystem::exists(there)) return checkWritable(there / "summary.json");
+  while (!std::filesystem::exists(there.parent_path())) there = there.parent_path();
+  checkWritable(there);
+}
+
 void writeAtomically(const std::filesystem::path& path, std::string_view content) {
   AtomicFile file(path);
   file.write(content);

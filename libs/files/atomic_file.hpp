@@ -29,6 +29,9 @@ class AtomicFile {
 /// Throws InputError, with its name, if a file could not be written there: to be asked before long work.
 void checkWritable(const std::filesystem::path& path);
 
+/// The same of files in a folder, which need not be there yet.
+void checkWritableFolder(const std::filesystem::path& folder);
+
 /// Writes a small file at once.
 void writeAtomically(const std::filesystem::path& path, std::string_view content);
 

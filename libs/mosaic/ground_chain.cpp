@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "redbee/geometry/camera.hpp"
@@ -82,6 +83,37 @@ MapReference::MapReference(const GroundChain::Frame& frame, const Eigen::Matrix3
     : is_metric(frame.plane.has_value()),
       own(is_metric ? groundMap(zoomed(K, frame.zoom).inverse(), *frame.plane) : Eigen::Matrix3d::Identity()),
       H(frame.H) {}
+
+std::optional<double> MapReference::misfit(const GroundChain::Frame& frame, const Eigen::Matrix3d& K,
+                                           const Eigen::Vector2d& pixel) const {
+  if (!is_metric || !frame.plane) return std::nullopt;
+  const MapReference by_own(frame, K);
+  const Eigen::Vector3d on_own = by_own.own * pixel.homogeneous();
+  const Eigen::Matrix3d from_own = toMap(frame) * by_own.own.inverse();
+  const Eigen::Vector3d on_map = from_own * on_own;
+  // A projection keeps the sense of rotation where, and only where, both are on one side of the horizon.
+  if (!(on_own.z() > 0) || !(std::abs(on_map.z()) > 0)) return std::nullopt;
+  const Eigen::Matrix2d J = transferJacobianPoint(from_own, on_own.hnormalized());
+  if (!J.allFinite() || !(J.determinant() > 0)) return std::nullopt;
+  // Singular values of 2x2 in closed form: their mean and half their difference.
+  const double mean = 0.5 * std::hypot(J(0, 0) + J(1, 1), J(1, 0) - J(0, 1));
+  const double half = 0.5 * std::hypot(J(0, 0) - J(1, 1), J(1, 0) + J(0, 1));
+  return std::max(mean + half, 1 / (mean - half));
+}
+
+MapReference MapReference::relaid(const GroundChain::Frame& frame, const Eigen::Matrix3d& K,
+                                  const Eigen::Vector2d& pixel) const {
+  MapReference result(frame, K);
+  const Eigen::Vector2d on_own = transfer(result.own, pixel);
+  const Eigen::Matrix3d from_own = toMap(frame) * result.own.inverse();
+  const Eigen::Matrix2d J = transferJacobianPoint(from_own, on_own);
+  const Eigen::Rotation2Dd turn(std::atan2(J(1, 0) - J(0, 1), J(0, 0) + J(1, 1)));
+  Eigen::Matrix3d rigid = Eigen::Matrix3d::Identity();
+  rigid.topLeftCorner<2, 2>() = turn.toRotationMatrix();
+  rigid.topRightCorner<2, 1>() = transfer(from_own, on_own) - turn * on_own;
+  result.own = rigid * result.own;
+  return result;
+}
 
 GroundFrames mapped(const std::vector<GroundChain::Frame>& piece, const Eigen::Matrix3d& K) {
   GroundFrames result;

@@ -64,6 +64,15 @@ struct MapReference {
   MapReference(const GroundChain::Frame& frame, const Eigen::Matrix3d& K);
   /// From the ideal pixels of a frame of the same piece.
   Eigen::Matrix3d toMap(const GroundChain::Frame& frame) const { return own * H * frame.H.inverse(); }
+  /// How many times as long, or as short, a length about this ideal pixel of a frame of the same piece is on
+  /// the map as by the frame's own plane; 1 is a perfect fit. std::nullopt where either shows no ground
+  /// there.
+  std::optional<double> misfit(const GroundChain::Frame& frame, const Eigen::Matrix3d& K,
+                               const Eigen::Vector2d& pixel) const;
+  /// The map of the frame's own plane, so laid that this pixel keeps its place and what is about it its
+  /// direction. Precondition: misfit() knows it.
+  MapReference relaid(const GroundChain::Frame& frame, const Eigen::Matrix3d& K,
+                      const Eigen::Vector2d& pixel) const;
 
   bool is_metric;
   Eigen::Matrix3d own;  ///< from the ideal pixels of the frame that lays it

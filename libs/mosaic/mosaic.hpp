@@ -3,29 +3,10 @@
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
-#include <optional>
-#include <vector>
 
-#include "redbee/mosaic/ground_chain.hpp"
+#include "redbee/mosaic/mosaic_grid.hpp"
 
 namespace redbee {
-
-/// The mosaic's pixels on the map.
-struct MosaicGrid {
-  Eigen::Vector2d origin;  ///< of pixel (0, 0), in the map's unit
-  double units_per_px = 1;
-  cv::Size size;             ///< px
-  double coarsest_area = 0;  ///< of an image's pixel on the map that is still used, square units
-
-  Eigen::Vector2d pixelOf(const Eigen::Vector2d& on_map) const { return (on_map - origin) / units_per_px; }
-};
-
-/// Square units of the map that a pixel of an image covers; infinite at and beyond the horizon.
-double areaOnMap(const Eigen::Matrix3d& to_map, const Eigen::Vector2d& pixel, cv::Size image);
-
-/// As fine as the reference frame's centre, coarser where a side would exceed `most_px`. What a frame shows
-/// more than three times coarser (towards the horizon) is left out. std::nullopt if nothing is left.
-std::optional<MosaicGrid> gridFor(const GroundFrames& frames, cv::Size image, int most_px);
 
 /// Each pixel is a mean of all frames that show it, the finer the heavier.
 class Mosaic {
@@ -33,10 +14,15 @@ class Mosaic {
   explicit Mosaic(const MosaicGrid& grid);
 
   /// Before add(), where the grid was not made for all frames: it grows, in steps, to what this one shows,
-  /// with no side above `most_px`: where one would be, every pixel becomes twice as coarse. From a greater
-  /// height coarser pixels are used. Returns false, and does nothing, for what lies so far off that it can be
-  /// no neighbour of the frames before.
+  /// with no side above `most_px`. Where one would be, every pixel becomes twice as coarse, as long as this
+  /// frame takes a quarter of the longest side then; after that, what lies on the other side is cut off. From
+  /// a greater height coarser pixels are used. Returns false, and does nothing, for what lies so far off that
+  /// it can be no neighbour of the frames before, and for what would be a few pixels, as after a descent.
   bool makeRoomFor(const Eigen::Matrix3d& to_map, cv::Size image, int most_px);
+  /// Ground that was shown has been cut off.
+  bool isCut() const { return is_cut_; }
+  /// What is added from now on replaces what was there, as of a map that is laid anew.
+  void fade();
 
   /// `image`: BGR, ideal camera; `left_out`: of its size, not 0 where a pixel is not ground (movers, unknown
   /// pixels).
@@ -50,11 +36,13 @@ class Mosaic {
 
  private:
   void halve();
-  void grow(const Eigen::Array2i& before, const Eigen::Array2i& behind);
+  /// To this part of its pixels, which may lie beyond them.
+  void moveTo(const cv::Rect& part);
 
   MosaicGrid grid_;
   cv::Mat3f sum_;
   cv::Mat1f weight_;
+  bool is_cut_ = false;
 };
 
 }  // namespace redbee

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "processes/geolocation/target_messages.hpp"
+#include "processes/geolocation/view_fault_words.hpp"
 #include "processes/lens_messages.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/foreground_t.hpp"
@@ -143,23 +144,14 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
 }
 
 std::string GeolocationNode::faultText(const ViewEstimate& estimate) const {
-  const auto& channels = configuration_.channels;
-  switch (estimate.fault) {
-    case ViewFault::kNoPose:
-      return "no " + channels.pose + " has come: redbee-autopilot publishes it, where autopilot.link is set";
-    case ViewFault::kStalePose:
-      return fmt::format("the nearest {} is {:.2f} s from the frame, allowed are {:.2f} s", channels.pose,
-                         estimate.age_s, configuration_.geolocation.max_pose_age_s);
-    case ViewFault::kNoPosition:
-      return channels.pose + " has no position, neither by satellites nor from the place of take-off";
-    case ViewFault::kNoMount:
-      return "no " + channels.gimbal + " near the frame: geolocation.mount is gimbal";
-    case ViewFault::kNoHeight:
-      return "no height above ground: no " + channels.altimeter + ", and " + channels.pose +
-             " is not above the place of take-off";
-    default:
-      return "";
+  const std::string words = wordsOf(estimate.fault, configuration_.channels);
+  if (estimate.fault == ViewFault::kNoPose)
+    return words + " has come: redbee-autopilot publishes it, where autopilot.link is set";
+  if (estimate.fault == ViewFault::kStalePose) {
+    return words + fmt::format(": the nearest is {:.2f} s from the frame, allowed are {:.2f} s",
+                               estimate.age_s, configuration_.geolocation.max_pose_age_s);
   }
+  return words;
 }
 
 void GeolocationNode::describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault,

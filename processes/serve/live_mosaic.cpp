@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <utility>
-
-#include "redbee/image_codec/jpeg.hpp"
 
 namespace redbee {
 namespace {
 
-constexpr int64_t kKept_us = 2'000'000;       ///< of the chain: longer than a frame's way through the stack
-constexpr int64_t kPointPeriod_us = 100'000;  ///< of a track
-constexpr int kQuality = 85;
-constexpr int kMostRefused = 20;  ///< five seconds
+constexpr int64_t kKept_us = 2'000'000;  ///< of the chain: longer than a frame's way through the stack
+constexpr double kMisfit = 1.25;         ///< a plane is known to some percent, and to a degree or two
+constexpr int64_t kMisfit_us = 1'000'000;
 
 }  // namespace
 
@@ -21,6 +17,26 @@ void LiveMosaic::onFused(const fused_homography_t& fused) {
   note(fused, exposures_, chain_);
   chain_.eraseBefore(fused.utime - kKept_us);
   exposures_.erase(exposures_.begin(), exposures_.lower_bound(fused.utime - kKept_us));
+  followPlane(fused.utime_previous);
+}
+
+/// In the image's lower half: there a plane that is a little off changes least.
+Eigen::Vector2d LiveMosaic::nearGround() const {
+  return {0.5 * painting_.idealSize().width, 0.75 * painting_.idealSize().height};
+}
+
+void LiveMosaic::followPlane(int64_t utime) {
+  if (!reference_ || piece_ != chain_.pieces()) return;
+  const GroundChain::Frame* frame = chain_.frame(utime);
+  if (frame == nullptr) return;
+  const Eigen::Matrix3d K = painting_.camera().K();
+  const auto misfit = reference_->misfit(*frame, K, nearGround());
+  if (!misfit) return;
+  if (*misfit < kMisfit || utime < fits_utime_) fits_utime_ = utime;
+  if (utime < fits_utime_ + kMisfit_us) return;
+  reference_ = reference_->relaid(*frame, K, nearGround());
+  ++maps_;
+  fits_utime_ = utime;
 }
 
 bool LiveMosaic::isAskedFor(Time now) {
@@ -36,7 +52,11 @@ bool LiveMosaic::layMap() {
   if (frame == nullptr && is_same_piece) return true;
   if (frame == nullptr) frame = chain_.lastFrame();
   if (frame == nullptr) return false;
-  reference_.emplace(*frame, painter_.camera().K());
+  why_ = !reference_     ? ""
+         : is_same_piece ? "the scale is known now"
+                         : "no homography led on from the frame before";
+  fits_utime_ = frame->utime;
+  reference_.emplace(*frame, painting_.camera().K());
   piece_ = chain_.pieces();
   ++number_;
   image_utime_ = 0;
@@ -47,8 +67,10 @@ void LiveMosaic::onFrame(const FrameView& view, Time now) {
   if (!view.detections || !isAskedFor(now)) return;
   const GroundChain::Frame* frame = chain_.frame(view.utime);
   if (frame == nullptr || !layMap()) return;
-  Waiting waiting;
+  MosaicFrame waiting;
   waiting.mosaic = number_;
+  waiting.map = maps_;
+  waiting.why = why_;
   waiting.utime = view.utime;
   waiting.to_map = reference_->toMap(*frame);
   waiting.is_metric = reference_->is_metric;
@@ -64,14 +86,14 @@ void LiveMosaic::onFrame(const FrameView& view, Time now) {
   enqueue(std::move(waiting));
 }
 
-void LiveMosaic::enqueue(Waiting frame) {
+void LiveMosaic::enqueue(MosaicFrame frame) {
   const std::lock_guard<std::mutex> lock(waiting_mutex_);
   waiting_.push_back(std::move(frame));
   const auto images =
-      std::count_if(waiting_.begin(), waiting_.end(), [](const Waiting& w) { return w.image; });
+      std::count_if(waiting_.begin(), waiting_.end(), [](const MosaicFrame& w) { return w.image; });
   if (images > static_cast<std::ptrdiff_t>(kMostImages)) {
     const auto oldest =
-        std::find_if(waiting_.begin(), waiting_.end(), [](const Waiting& w) { return w.image; });
+        std::find_if(waiting_.begin(), waiting_.end(), [](const MosaicFrame& w) { return w.image; });
     oldest->image.reset();
     oldest->mask.clear();
   }
@@ -86,94 +108,19 @@ void LiveMosaic::release() {
     asked_ = {};
   }
   const std::lock_guard<std::mutex> lock(paint_mutex_);
-  mosaic_.reset();
-  tracks_.clear();
-  bundle_.reset();
+  painting_.clear();
 }
 
 std::shared_ptr<const std::string> LiveMosaic::newest(int64_t after, Time now) {
   const std::lock_guard<std::mutex> lock(paint_mutex_);
-  std::deque<Waiting> frames;
+  std::deque<MosaicFrame> frames;
   {
     const std::lock_guard<std::mutex> waiting_lock(waiting_mutex_);
     asked_ = now;
     frames.swap(waiting_);
   }
-  for (const Waiting& frame : frames) {
-    paint(frame);
-    addTracks(frame);
-  }
-  if (!mosaic_ || sequence_ == after) return nullptr;
-  if (!bundle_) bundle_ = std::make_shared<const std::string>(encode());
-  return bundle_;
-}
-
-void LiveMosaic::paint(const Waiting& frame) {
-  if (!frame.image) return;
-  const bool is_first = !mosaic_ || frame.mosaic != painted_number_;
-  if (is_first) {
-    const auto grid =
-        gridFor({{{frame.utime, frame.to_map, frame.exposure.zoom}}, frame.is_metric, frame.to_map},
-                painter_.idealSize(), kMost_px);
-    if (!grid) return;
-    mosaic_.emplace(*grid);
-    tracks_.clear();
-    painted_number_ = frame.mosaic;
-    is_metric_ = frame.is_metric;
-    start_utime_ = frame.utime;
-    frames_ = refused_ = 0;
-  } else if (!mosaic_->makeRoomFor(frame.to_map, painter_.idealSize(), kMost_px)) {
-    if (++refused_ >= kMostRefused) mosaic_.reset();  // the next begins where the flight is
-    return;
-  }
-  refused_ = 0;
-  const ObservedFrame observed{&frame.mask, &frame.detections, frame.exposure};
-  if (!painter_.paint(*frame.image, observed, frame.to_map, *mosaic_)) return;
-  utime_ = frame.utime;
-  ++frames_;
-  ++sequence_;
-  bundle_.reset();
-}
-
-void LiveMosaic::addTracks(const Waiting& frame) {
-  if (!mosaic_ || frame.mosaic != painted_number_) return;
-  const Camera lens = zoomed(painter_.camera(), frame.exposure.zoom);
-  for (const detection_t& d : frame.detections.detections) {
-    const auto place = placeOnMap(d, lens, frame.to_map, mosaic_->grid().coarsest_area);
-    if (!place) continue;
-    std::vector<TrackPoint>& track = tracks_[d.id];
-    if (!track.empty() && frame.utime < track.back().utime + kPointPeriod_us) continue;
-    track.push_back({frame.utime, *place});
-    if (track.size() <= kMostPoints) continue;
-    size_t kept = 0;
-    for (size_t i = 0; i < track.size(); i += 2) track[kept++] = track[i];
-    track.resize(kept);
-  }
-  const auto isOlder = [](const auto& a, const auto& b) {
-    return a.second.back().utime < b.second.back().utime;
-  };
-  while (tracks_.size() > kMostTracks)
-    tracks_.erase(std::min_element(tracks_.begin(), tracks_.end(), isOlder));
-}
-
-std::string LiveMosaic::encode() const {
-  cv::Mat3b image = mosaic_->image();
-  drawTracks(image, tracks_, mosaic_->grid(), start_utime_);
-  const std::vector<uint8_t> jpeg = encodeJpeg(image, kQuality);
-  const auto tracks =
-      std::count_if(tracks_.begin(), tracks_.end(), [](const auto& track) { return isDrawn(track.second); });
-  return bundleOf({{"sequence", sequence_},
-                   {"width", image.cols},
-                   {"height", image.rows},
-                   {"image_bytes", jpeg.size()},
-                   {"mask_bytes", 0},
-                   {"utime", utime_},
-                   {"start", start_utime_},
-                   {"units_per_px", mosaic_->grid().units_per_px},
-                   {"unit", is_metric_ ? "m" : "px"},
-                   {"frames", frames_},
-                   {"tracks", tracks}},
-                  jpeg, {});
+  for (const MosaicFrame& frame : frames) painting_.add(frame);
+  return painting_.newest(after);
 }
 
 }  // namespace redbee

@@ -11,30 +11,26 @@
 #include <string>
 
 #include "processes/redbee/mosaic/ground_observer.hpp"
-#include "processes/redbee/mosaic/track_drawing.hpp"
 #include "processes/serve/frame_view.hpp"
-#include "redbee/configuration/configuration.hpp"
+#include "processes/serve/mosaic_painting.hpp"
 #include "redbee/fused_homography_t.hpp"
 
 namespace redbee {
 
 /// The thread of the bus only chains homographies, which costs nothing, and while somebody asks for the
 /// mosaic keeps a few frames; who asks paints them. It is in metres as soon as a plane is known, and begins
-/// anew where no homography leads on from the frame before. Bounded: the image, the frames that wait, the
-/// tracks.
+/// anew where no homography leads on from the frame before. Where the ground's plane has contradicted the map
+/// for a second, the map is laid anew where the flight is, and what is painted from then on replaces what was
+/// there. Bounded: the frames that wait, and what is painted (MosaicPainting).
 class LiveMosaic {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  static constexpr int kMost_px = 1280;                ///< of a side
   static constexpr std::chrono::seconds kAskedFor{3};  ///< so long after somebody asked
   static constexpr int64_t kImagePeriod_us = 250'000;  ///< between frames that are painted
   static constexpr size_t kMostImages = 8;             ///< that wait
   static constexpr size_t kMostFrames = 128;           ///< that wait, for the tracks
-  static constexpr size_t kMostTracks = 200;           ///< the newest
-  static constexpr size_t kMostPoints = 500;           ///< of a track; of a longer one every second goes
 
-  explicit LiveMosaic(const Configuration& configuration)
-      : painter_(configuration.camera, configuration.own_parts) {}
+  explicit LiveMosaic(const Configuration& configuration) : painting_(configuration) {}
 
   /// By the thread of the bus.
   void onFused(const fused_homography_t& fused);
@@ -42,29 +38,15 @@ class LiveMosaic {
   /// Nobody looks at the page at all: the next mosaic begins anew.
   void release();
 
-  /// By any thread: a bundle of bundleOf() whose JSON has sequence, width, height, utime (us, of the newest
-  /// frame), units_per_px, unit ("m" or "px"), frames and tracks. Null where its number is still `after`, or
-  /// where there is nothing yet.
+  /// By any thread: see MosaicPainting::newest().
   std::shared_ptr<const std::string> newest(int64_t after, Time now);
 
  private:
-  struct Waiting {
-    size_t mosaic = 0;  ///< which it belongs to
-    int64_t utime = 0;  ///< us
-    Eigen::Matrix3d to_map;
-    bool is_metric = false;
-    detections_t detections;
-    std::shared_ptr<const image_t> image;  ///< null: for the tracks alone
-    std::vector<uint8_t> mask;
-    Exposure exposure;
-  };
-
   bool isAskedFor(Time now);
+  Eigen::Vector2d nearGround() const;
   bool layMap();
-  void enqueue(Waiting frame);
-  void paint(const Waiting& frame);
-  void addTracks(const Waiting& frame);
-  std::string encode() const;
+  void followPlane(int64_t utime);
+  void enqueue(MosaicFrame frame);
 
   // Of the bus's thread.
   GroundChain chain_;
@@ -72,25 +54,18 @@ class LiveMosaic {
   std::optional<MapReference> reference_;
   size_t piece_ = 0;   ///< of the chain, that the reference belongs to
   size_t number_ = 0;  ///< of the mosaic
+  const char* why_ = "";
+  size_t maps_ = 0;         ///< that were laid
+  int64_t fits_utime_ = 0;  ///< us, of the last plane that fits the map
   int64_t image_utime_ = 0;
 
   std::mutex waiting_mutex_;
-  std::deque<Waiting> waiting_;
+  std::deque<MosaicFrame> waiting_;
   Time asked_;
 
   // Of who asks.
   std::mutex paint_mutex_;
-  FramePainter painter_;
-  std::optional<Mosaic> mosaic_;
-  GroundTracks tracks_;
-  size_t painted_number_ = 0;
-  bool is_metric_ = false;
-  int64_t start_utime_ = 0;
-  int64_t utime_ = 0;
-  int64_t frames_ = 0;
-  int refused_ = 0;  ///< in a row
-  int64_t sequence_ = 0;
-  std::shared_ptr<const std::string> bundle_;  ///< of `sequence_`; null: to be made
+  MosaicPainting painting_;
 };
 
 }  // namespace redbee

@@ -1,5 +1,7 @@
 #include "processes/serve/map_targets.hpp"
 
+#include "processes/geolocation/view_fault_words.hpp"
+
 namespace redbee {
 
 void MapTargets::take(const targets_t& message, const LocalFrame& frame,
@@ -61,24 +63,20 @@ std::optional<MapCamera> MapTargets::camera() const {
   return camera;
 }
 
-std::string wordsOfTargetStatus(int8_t status) {
+std::string wordsOfTargetStatus(int8_t status, const Channels& channels) {
   switch (status) {
     case targets_t::GOOD:
-      return "";
-    case targets_t::NO_POSE:
-      return "no POSE has come to redbee-geolocation";
     case targets_t::STALE_POSE:
-      return "no POSE near the frame: geolocation.max_pose_age_s is exceeded";
     case targets_t::NO_POSITION:
-      return "POSE has no position";
     case targets_t::NO_MOUNT:
-      return "no GIMBAL near the frame: geolocation.mount is gimbal";
     case targets_t::NO_HEIGHT:
-      return "no height above the ground";
+      return wordsOf(static_cast<ViewFault>(status), channels);
+    case targets_t::NO_POSE:
+      return wordsOf(ViewFault::kNoPose, channels) + " has come to redbee-geolocation";
     case targets_t::OTHER_CAMERA:
-      return "DETECTIONS are of another camera than the vehicle file's";
+      return channels.detections + " are of another camera than the vehicle file's";
     default:
-      return "TARGETS has a status that is not known";
+      return channels.targets + " has a status that is not known";
   }
 }
 

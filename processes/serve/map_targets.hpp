@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "redbee/configuration/configuration.hpp"
 #include "redbee/geolocation/local_frame.hpp"
 #include "redbee/targets_t.hpp"
 
@@ -59,6 +60,6 @@ class MapTargets {
 };
 
 /// What a status other than GOOD means, in words; empty for GOOD.
-std::string wordsOfTargetStatus(int8_t status);
+std::string wordsOfTargetStatus(int8_t status, const Channels& channels);
 
 }  // namespace redbee

@@ -52,7 +52,8 @@ std::vector<Eigen::Vector2d> footprintOf(const Camera& camera, const Eigen::Matr
 }
 
 MapBuilder::MapBuilder(const Configuration& configuration)
-    : camera_(configuration.camera),
+    : channels_(configuration.channels),
+      camera_(configuration.camera),
       R_IC_(configuration.inertial.extrinsics.R_CI.transpose()),
       timeshift_us_(fromSeconds(configuration.inertial.extrinsics.timeshift_s).count()),
       has_gimbal_(configuration.geolocation.mount == "gimbal" || configuration.inertial.gimbal.enabled),
@@ -174,7 +175,7 @@ void MapBuilder::addTargets(int64_t utime, MapView& view) const {
   }
   view.targets = targets_.targets();
   view.targets_utime = targets_.utime();
-  const std::string words = wordsOfTargetStatus(targets_.status());
+  const std::string words = wordsOfTargetStatus(targets_.status(), channels_);
   if (words.empty()) return;
   addNote(view, view.targets.empty() ? words + ": no targets" : words + ": targets are predicted");
 }

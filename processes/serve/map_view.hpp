@@ -58,6 +58,7 @@ class MapBuilder {
   void addTargets(int64_t utime, MapView& view) const;
   bool isFresh(int64_t utime) const;
 
+  Channels channels_;
   Camera camera_;
   Eigen::Matrix3d R_IC_;
   int64_t timeshift_us_;

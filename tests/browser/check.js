@@ -9,6 +9,7 @@ const {spawnSync} = require('child_process');
 const fs = require('fs');
 const path = require('path');
 const {Browser} = require('./browser.js');
+const {tenViewers} = require('./viewers.js');
 const [chromium, url, detections_file, targets_file, run, flight, screenshots] = process.argv.slice(2);
 
 const assert = (is_true, what) => { if (!is_true) throw new Error(what); };
@@ -216,6 +217,7 @@ async function main() {
     await page.until('the map', 'document.getElementById("map-note").textContent === ""');
     await compareWithDetections(page);
     await compareWithTargets(page);
+    console.log(await tenViewers(url, () => [...heard(detections_file).keys()]));
     await replay(page);
     await record(page);
     await mosaic(page);
@@ -225,7 +227,9 @@ async function main() {
     const width = await phone.value('document.documentElement.scrollWidth');
     assert(width <= 390, `on a phone the page is ${width} px wide`);
     await phone.press('m');
-    await mosaicAfter(phone, 0);
+    await mosaicAfter(phone, 0, 'Number(document.getElementById("mosaic-tracks").dataset.labels) > 0');
+    const letters = await phone.value('((c) => c.dataset.letters * c.width / c.clientWidth / devicePixelRatio)(document.getElementById("mosaic-tracks"))');
+    assert(letters >= 12, `on a phone a track's label is ${letters} px high`);
     await phone.screenshot(path.join(screenshots, 'phone.png'), 390, true);
     await page.send('Page.bringToFront');
     await surviveKills(page);

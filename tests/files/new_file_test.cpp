@@ -48,6 +48,19 @@ TEST(PartialFileTest, NothingRemainsWithoutCommit) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+TEST(WritableFolder, IsOneThatIsThereOrCanBeMade) {
+  const ScratchFolder folder;
+  fs::create_directory(folder / "there");
+  checkWritableFolder(folder / "there");
+  checkWritableFolder(folder / "a" / "b");
+  EXPECT_TRUE(fs::is_empty(folder / "there"));
+  EXPECT_FALSE(fs::exists(folder / "a"));
+  writeText(folder / "file", "content");
+  EXPECT_THROW(checkWritableFolder(folder / "file"), InputError);
+  EXPECT_THROW(checkWritableFolder(folder / "file" / "b"), InputError);
+  EXPECT_EQ(readText(folder / "file"), "content");
+}
+
 TEST(PartialFileTest, AFolderADeviceOrAPipeIsNotReplaced) {
   const ScratchFolder folder;
   fs::create_directory(folder / "folder");

@@ -83,6 +83,71 @@ TEST_F(GrowingMosaic, RefusesWhatIsFarOff) {
   EXPECT_EQ(mosaic.grid().coarsest_area, before.coarsest_area);
 }
 
+TEST_F(GrowingMosaic, OfALongFlightTheFurthestGroundIsCutOff) {
+  const Eigen::Vector2d centre(kWidth / 2.0, kHeight / 2.0);
+  Mosaic mosaic = begun(0, 1000);
+  for (int k = 0; k < 200; ++k) {
+    Eigen::Matrix3d to_map = toMap(0);
+    to_map.row(0) += 0.5 * k * to_map.row(2);  // m to the right
+    ASSERT_TRUE(mosaic.makeRoomFor(to_map, kImage, 1000)) << k;
+    ASSERT_LE(std::max(mosaic.grid().size.width, mosaic.grid().size.height), 1000);
+    ASSERT_EQ(mosaic.image().size(), mosaic.grid().size);
+    mosaic.add(plain(k), nothing_, to_map);
+    const Eigen::Vector2d at = mosaic.grid().pixelOf((to_map * centre.homogeneous()).eval().hnormalized());
+    ASSERT_NE(mosaic.known()(cvRound(at.y()), cvRound(at.x())), 0) << k;
+  }
+  EXPECT_TRUE(mosaic.isCut());
+  EXPECT_LE(mosaic.grid().units_per_px, 4.1 * begun(0, 1000).grid().units_per_px);
+  EXPECT_FALSE(grown(1000).isCut());
+}
+
+TEST_F(GrowingMosaic, RefusesWhatWouldBeAFewPixels) {
+  Mosaic mosaic = begun(0);
+  Eigen::Matrix3d smaller = toMap(0);
+  const Eigen::Vector2d at = (smaller * Eigen::Vector3d(kWidth / 2.0, kHeight / 2.0, 1)).hnormalized();
+  for (const int axis : {0, 1})
+    smaller.row(axis) = 0.05 * smaller.row(axis) + 0.95 * at(axis) * smaller.row(2);
+  EXPECT_FALSE(mosaic.makeRoomFor(smaller, kImage, 1000));
+  EXPECT_TRUE(mosaic.makeRoomFor(toMap(1), kImage, 1000));
+}
+
+TEST_F(GrowingMosaic, WhatIsPaintedAfterItFadedReplacesWhatWasThere) {
+  Mosaic mosaic = begun(0);
+  for (int i = 0; i < 4; ++i) mosaic.add(plain(100), nothing_, toMap(0));
+  const Eigen::Vector2d at =
+      mosaic.grid().pixelOf((toMap(0) * Eigen::Vector3d(kWidth / 2.0, kHeight / 2.0, 1)).hnormalized());
+  mosaic.fade();
+  EXPECT_NEAR(mosaic.image()(cvRound(at.y()), cvRound(at.x()))[0], 100, 1);
+  mosaic.add(plain(200), nothing_, toMap(0));
+  EXPECT_GT(mosaic.image()(cvRound(at.y()), cvRound(at.x()))[0], 190);
+}
+
+TEST_F(GrowingMosaic, AMapIsLaidAnewWhereAPlaneContradictsIt) {
+  const std::vector<GroundChain::Frame> piece = chain().longestPiece();
+  const Eigen::Matrix3d K = camera().K();
+  const Eigen::Vector2d pixel(300, 350);
+  const MapReference map(piece[0], K);
+  GroundChain::Frame frame = piece[12];
+  EXPECT_NEAR(*map.misfit(frame, K, pixel), 1, 1e-6);
+  frame.plane->distance_m *= 1.3;
+  EXPECT_NEAR(*map.misfit(frame, K, pixel), 1.3, 1e-6);
+  frame.plane->distance_m /= 1.3 * 1.3;
+  EXPECT_NEAR(*map.misfit(frame, K, pixel), 1.3, 1e-6);
+  const MapReference laid = map.relaid(frame, K, pixel);
+  EXPECT_NEAR(*laid.misfit(frame, K, pixel), 1, 1e-6);
+  EXPECT_LT((transfer(laid.toMap(frame), pixel) - transfer(map.toMap(frame), pixel)).norm(), 1e-6);
+  const Eigen::Vector2d beside = pixel + Eigen::Vector2d(5, 0);
+  const Eigen::Vector2d before = transfer(map.toMap(frame), beside) - transfer(map.toMap(frame), pixel);
+  const Eigen::Vector2d after = transfer(laid.toMap(frame), beside) - transfer(laid.toMap(frame), pixel);
+  EXPECT_LT((before / before.norm() - after / after.norm()).norm(), 1e-6) << "not turned";
+  // A tilt by 10 degrees, too; and where the plane is not in view nothing is known.
+  frame.plane = {expSO3({10 * M_PI / 180, 0, 0}) * plane(12).normal, plane(12).distance_m};
+  EXPECT_GT(*map.misfit(frame, K, pixel), 1.15);
+  frame.plane->normal = -frame.plane->normal;
+  EXPECT_FALSE(map.misfit(frame, K, pixel));
+  EXPECT_FALSE(map.misfit({1, Eigen::Matrix3d::Identity(), std::nullopt, 1}, K, pixel));
+}
+
 /// At first each pixel is a sixth as wide: what the last frames show would be too coarse for that grid.
 TEST_F(GrowingMosaic, FollowsADroneThatClimbs) {
   Mosaic mosaic = begun(0);

@@ -160,7 +160,7 @@ TEST(Map, SaysWhatIsWrongWithTargets) {
   map.onPose(poseAt(0));
   targets_t targets = targetsAt(0, frameFrom(0));
   for (const auto& [status, words] : {std::pair{targets_t::NO_POSE, "no POSE"},
-                                      {targets_t::STALE_POSE, "max_pose_age_s"},
+                                      {targets_t::STALE_POSE, "no POSE near the frame"},
                                       {targets_t::NO_POSITION, "no position"},
                                       {targets_t::NO_MOUNT, "no GIMBAL"},
                                       {targets_t::NO_HEIGHT, "no height"},

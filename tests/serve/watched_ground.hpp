@@ -4,10 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "processes/conversions.hpp"
 #include "processes/serve/live_mosaic.hpp"
@@ -50,11 +55,11 @@ class WatchedGround : public testing::Test {
     m.utime_previous = utimeOf(k - 1);
     m.source = static_cast<int8_t>(source);
     Eigen::Matrix3d H = Eigen::Matrix3d::Identity();
-    H(0, 2) = -kStep_px;
+    H(0, 2) = -kStep_px - jump_px_;
     fill(m.step.H, H);
     m.has_motion = has_plane ? 1 : 0;
     m.motion.normal[2] = 1;
-    m.motion.distance = kHeight_m;
+    m.motion.distance = height_m_;
     mosaic().onFused(m);
   }
 
@@ -104,8 +109,44 @@ class WatchedGround : public testing::Test {
     return bundle;
   }
 
+  static std::vector<cv::Point> pointsOf(const nlohmann::json& track) {
+    std::vector<cv::Point> points;
+    for (const auto& point : track["points"]) points.emplace_back(point[0], point[1]);
+    return points;
+  }
+  /// px, of a line.
+  static double distanceTo(const std::vector<cv::Point>& line, const cv::Point& point) {
+    double least = INFINITY;
+    for (size_t i = 1; i < line.size(); ++i) {
+      const cv::Point2d a = line[i - 1], b = line[i], p = point;
+      const double along = (p - a).dot(b - a) / std::max(1.0, (b - a).dot(b - a));
+      least = std::min(least, cv::norm(p - a - std::clamp(along, 0.0, 1.0) * (b - a)));
+    }
+    return least;
+  }
+  /// Where the right lower corner of what frame k shows is in the mosaic, with pixels so many times as large,
+  /// and how well it fits.
+  std::pair<double, cv::Rect> find(int k, double times, const cv::Mat3b& image) const {
+    cv::Mat1b grey;
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+    cv::Mat1b patch;
+    cv::resize(texture_(cv::Rect(kStep_px * k + 400, 300, 200, 150)), patch, {}, times, times,
+               cv::INTER_AREA);
+    cv::Mat1f score;
+    cv::matchTemplate(grey, patch, score, cv::TM_CCOEFF_NORMED);
+    double best = 0;
+    cv::Point at;
+    cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
+    return {best, {at, patch.size()}};
+  }
+  static bool says(const Bundle& bundle, const std::string& words) {
+    return bundle.head["notes"].dump().find(words) != std::string::npos;
+  }
+
   cv::Mat1b texture_;
   Configuration configuration_;
+  double height_m_ = kHeight_m;  ///< as the plane has it
+  double jump_px_ = 0;           ///< of the homography of the next steps, by mistake
   std::unique_ptr<LiveMosaic> mosaic_;
   LiveMosaic::Time now_ = LiveMosaic::Time() + std::chrono::hours(1);
 };

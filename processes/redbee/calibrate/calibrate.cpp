@@ -99,7 +99,7 @@ void printVerdicts(const CalibrationResult& result) {
 
 int runCalibrate(const CalibrateOptions& options) {
   SvgPlot::checkInstalled();
-  if (std::filesystem::exists(options.out)) checkWritable(options.out / "report.html");
+  checkWritableFolder(options.out);
   const Configuration configuration = loadConfiguration(options.configuration);
   CalibrationInput input = inputFrom(configuration);
   readSource(options, configuration, input);

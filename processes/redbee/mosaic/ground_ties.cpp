@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "processes/geolocation/target_messages.hpp"
+#include "processes/geolocation/view_fault_words.hpp"
 #include "redbee/geolocation/ground_point.hpp"
 #include "redbee/geometry/angle.hpp"
 #include "redbee/node/message_check.hpp"
@@ -101,21 +102,9 @@ std::optional<Eigen::Vector2d> GroundTieFinder::onGrid(const Eigen::Vector2d& po
 
 std::string GroundTieFinder::whyEmpty() const {
   const Channels& channels = configuration_.channels;
-  switch (fault_) {
-    case ViewFault::kNoPose:
-      return "no " + channels.pose + " in the log";
-    case ViewFault::kStalePose:
-      return channels.pose + " does not come at the times of the frames";
-    case ViewFault::kNoMount:
-      return "no " + channels.gimbal + " at the times of the frames (geolocation.mount is gimbal)";
-    case ViewFault::kNoHeight:
-      return "no height above the ground, neither by " + channels.altimeter + " nor by " + channels.pose;
-    case ViewFault::kNone:
-      if (views_.frame().isGlobal()) return "by " + channels.pose + " the camera does not see the ground";
-      [[fallthrough]];
-    default:
-      return channels.pose + " has no latitude and longitude";
-  }
+  if (fault_ != ViewFault::kNone) return wordsOf(fault_, channels);
+  return views_.frame().isGlobal() ? "by " + channels.pose + " the camera does not see the ground"
+                                   : channels.pose + " has no latitude and longitude";
 }
 
 }  // namespace redbee

@@ -63,14 +63,6 @@ cv::Mat4b transparent(const cv::Mat3b& image, const cv::Mat1b& known) {
   return result;
 }
 
-/// Before the work of minutes.
-void checkFolder(const std::filesystem::path& out) {
-  std::filesystem::path there = std::filesystem::absolute(out);
-  if (std::filesystem::exists(there)) return checkWritable(there / "summary.json");
-  while (!std::filesystem::exists(there.parent_path())) there = there.parent_path();
-  checkWritable(there);
-}
-
 /// Returns the place on the earth as summary.json says it; without one, why.
 nlohmann::json writeOnEarth(const std::filesystem::path& file, const GroundTies& ties, const MosaicGrid& grid,
                             const cv::Mat4b& image, MosaicSummary& summary) {
@@ -105,7 +97,7 @@ void writeSummary(const std::filesystem::path& file, const MosaicSummary& s, con
 MosaicSummary makeMosaic(const MosaicOptions& options) {
   const Configuration configuration = loadConfiguration(options.configuration);
   const Camera camera(configuration.camera);
-  checkFolder(options.out);
+  checkWritableFolder(options.out);  // before the work of minutes
   GroundObserver ground = observeGround(options.log, configuration);
   const GroundFrames frames = mapped(ground.chain().longestPiece(), camera.K());
   const auto grid = gridFor(frames, {camera.ideal().width, camera.ideal().height}, options.most_px);
@@ -132,7 +124,7 @@ MosaicSummary makeMosaic(const MosaicOptions& options) {
   writePng(options.out / "mosaic.png", transparent_image);
   const nlohmann::json on_earth =
       writeOnEarth(options.out / "mosaic.tif", ties.result(), *grid, transparent_image, summary);
-  drawTracks(image, tracks, *grid, frames.frames.front().utime);
+  drawTracks(image, linesOf(tracks, *grid, frames.frames.front().utime));
   writePng(options.out / "tracks.png", image);
   writeTracks(options.out / "tracks.csv", tracks);
   writeSummary(options.out / "summary.json", summary, *grid, on_earth);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "processes/detection_messages.hpp"
 #include "redbee/files/atomic_file.hpp"
@@ -75,25 +76,34 @@ GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, con
   return tracks;
 }
 
-void drawTracks(cv::Mat3b& image, const GroundTracks& tracks, const MosaicGrid& grid, int64_t start_utime) {
+std::vector<TrackLine> linesOf(const GroundTracks& tracks, const MosaicGrid& grid, int64_t start_utime) {
+  std::vector<TrackLine> lines;
   for (const auto& [id, points] : tracks) {
     if (!isDrawn(points)) continue;
-    std::vector<cv::Point> line;
-    for (const TrackPoint& point : points) line.push_back(pixelOf(grid, point));
-    cv::polylines(image, line, false, cv::Scalar::all(0), 4, cv::LINE_AA);
-    cv::polylines(image, line, false, trackColour(id), 2, cv::LINE_AA);
-  }
-  for (const auto& [id, points] : tracks) {
-    if (!isDrawn(points)) continue;
+    TrackLine line;
+    line.id = id;
     int64_t next = points.front().utime + kLabelPeriod_us;
     for (const TrackPoint& point : points) {
+      line.points.push_back(pixelOf(grid, point));
       if (point.utime < next || point.utime > points.back().utime - kLabelPeriod_us / 2) continue;
-      label(image, secondsText(point.utime - start_utime), pixelOf(grid, point), trackColour(id));
+      line.labels.push_back({line.points.back(), secondsText(point.utime - start_utime)});
       next += kLabelPeriod_us;
     }
     for (const TrackPoint& end : {points.front(), points.back()})
-      label(image, fmt::format("{}: {}", id, secondsText(end.utime - start_utime)), pixelOf(grid, end),
-            trackColour(id));
+      line.labels.push_back(
+          {pixelOf(grid, end), fmt::format("{}: {}", id, secondsText(end.utime - start_utime))});
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+void drawTracks(cv::Mat3b& image, const std::vector<TrackLine>& lines) {
+  for (const TrackLine& line : lines) {
+    cv::polylines(image, line.points, false, cv::Scalar::all(0), 4, cv::LINE_AA);
+    cv::polylines(image, line.points, false, trackColour(line.id), 2, cv::LINE_AA);
+  }
+  for (const TrackLine& line : lines) {
+    for (const auto& [at, text] : line.labels) label(image, text, at, trackColour(line.id));
   }
 }
 

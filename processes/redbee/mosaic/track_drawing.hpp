@@ -7,6 +7,7 @@
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "processes/redbee/mosaic/ground_observer.hpp"
@@ -33,9 +34,22 @@ GroundTracks tracksOnMap(const Camera& camera, const GroundObserver& ground, con
 /// Whether it is long enough for a path.
 bool isDrawn(const std::vector<TrackPoint>& track);
 
-/// Lines in the identities' colours, with the identity and the time at both ends and the time every two
-/// seconds between, in seconds since `start_utime`.
-void drawTracks(cv::Mat3b& image, const GroundTracks& tracks, const MosaicGrid& grid, int64_t start_utime);
+/// What is drawn of a track, on the mosaic's pixels.
+struct TrackLine {
+  struct Label {
+    cv::Point at;
+    std::string text;
+  };
+  int32_t id = 0;
+  std::vector<cv::Point> points;
+  std::vector<Label> labels;  ///< the ends' last, of which the newest is the last
+};
+/// With the identity and the time at both ends and the time every two seconds between, in seconds since
+/// `start_utime`.
+std::vector<TrackLine> linesOf(const GroundTracks& tracks, const MosaicGrid& grid, int64_t start_utime);
+
+/// In the identities' colours.
+void drawTracks(cv::Mat3b& image, const std::vector<TrackLine>& lines);
 
 /// utime, id, x, y; one header line.
 void writeTracks(const std::filesystem::path& file, const GroundTracks& tracks);

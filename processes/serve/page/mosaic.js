@@ -1,4 +1,5 @@
 // The ground as one image, which grows while somebody looks: asked for only while its view is open.
+import {drawTracks} from './tracks.js';
 import {fetchFrame} from './wire.js';
 
 const kPeriod_ms = 1000;
@@ -9,18 +10,22 @@ const note = document.getElementById('mosaic-note');
 let shown = 0;
 let last_time = 0;
 let is_busy = false;
+let newest = null;
 
 function draw(mosaic) {
   canvas.width = mosaic.width;
   canvas.height = mosaic.height;
   canvas.getContext('2d').drawImage(mosaic.image, 0, 0);
   mosaic.image.close();
-  canvas.hidden = false;
+  document.getElementById('mosaic-stage').hidden = false;
+  newest = mosaic;
+  drawTracks(mosaic, canvas);
+  document.getElementById('mosaic-notes').textContent = mosaic.notes.join('; ');
   const seconds = (mosaic.utime - mosaic.start) / 1e6;
   const scale = mosaic.unit === 'm' ? `${(100 * mosaic.units_per_px).toFixed(1)} cm` : `${mosaic.units_per_px.toFixed(1)} px of its first frame`;
   document.getElementById('mosaic-status').textContent = [`${mosaic.width}x${mosaic.height} px of ${scale}`,
-    `${mosaic.frames} frames in ${seconds.toFixed(0)} s`, `${mosaic.tracks} tracks`].join('  \u00b7  ');
-  Object.assign(canvas.dataset, {utime: mosaic.utime, sequence: mosaic.sequence, frames: mosaic.frames, tracks: mosaic.tracks,
+    `${mosaic.frames} frames in ${seconds.toFixed(0)} s`, `${mosaic.tracks.length} track${mosaic.tracks.length === 1 ? '' : 's'}`].join('  \u00b7  ');
+  Object.assign(canvas.dataset, {utime: mosaic.utime, sequence: mosaic.sequence, frames: mosaic.frames, tracks: mosaic.tracks.length,
     unit: mosaic.unit, scale: mosaic.units_per_px});
 }
 
@@ -55,6 +60,7 @@ async function refresh(isLive) {
 export function watchMosaic(isLive) {
   box.addEventListener('toggle', () => refresh(isLive));
   setInterval(() => refresh(isLive), kPeriod_ms);
+  new ResizeObserver(() => newest && drawTracks(newest, canvas)).observe(canvas);
 }
 
 /** The server may be another, which counts anew. */
