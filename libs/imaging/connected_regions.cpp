@@ -39,7 +39,7 @@ void ConnectedRegions::addRow(const uint8_t* row, int y, int width) {
   for (int begin = nextSet(row, 0, width); begin < width;) {
     const int end = nextClear(row, begin, width);
     const int run = static_cast<int>(runs_.size());
-    runs_.push_back({y, begin, end, run});
+    runs_.push_back({y, begin, end, run, -1});
     for (; above < row_ && runs_[above].begin <= end; ++above) {
       if (runs_[above].end >= begin) join(static_cast<int>(above), run);
       if (runs_[above].end > end) break;  // it may touch the next run, too
@@ -62,13 +62,13 @@ void ConnectedRegions::join(int a, int b) {
 }
 
 void ConnectedRegions::gather() {
-  for (size_t i = 0; i < runs_.size(); ++i) {
-    Run& run = runs_[i];
+  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
+    Run& run = runs_[static_cast<size_t>(i)];
     const cv::Rect box(run.begin, run.y, run.end - run.begin, 1);
     const cv::Point block(run.begin / 2, run.y / 2);
-    if (run.region == static_cast<int>(i)) {
+    if (run.region == i) {
       run.region = static_cast<int>(regions_.size());
-      regions_.push_back({box, box.width, block, {i}});
+      regions_.push_back({box, box.width, block, i, i});
       continue;
     }
     // An earlier run, which knows its region by now.
@@ -77,7 +77,8 @@ void ConnectedRegions::gather() {
     region.box |= box;
     region.area_px += box.width;
     if (std::tie(block.y, block.x) < std::tie(region.block.y, region.block.x)) region.block = block;
-    region.runs.push_back(i);
+    runs_[static_cast<size_t>(region.last)].next = i;
+    region.last = i;
   }
   std::sort(regions_.begin(), regions_.end(), [](const Region& a, const Region& b) {
     return std::tie(a.block.y, a.block.x) < std::tie(b.block.y, b.block.x);
@@ -87,8 +88,8 @@ void ConnectedRegions::gather() {
 cv::Mat1b ConnectedRegions::pixels(size_t region) const {
   const cv::Rect& box = regions_[region].box;
   cv::Mat1b pixels = cv::Mat1b::zeros(box.size());
-  for (const size_t i : regions_[region].runs) {
-    const Run& run = runs_[i];
+  for (int i = regions_[region].first; i >= 0; i = runs_[static_cast<size_t>(i)].next) {
+    const Run& run = runs_[static_cast<size_t>(i)];
     std::memset(pixels[run.y - box.y] + run.begin - box.x, 255, static_cast<size_t>(run.end - run.begin));
   }
   return pixels;

@@ -22,13 +22,14 @@ class ConnectedRegions {
  private:
   struct Run {
     int y, begin, end;
-    int region;  ///< while they are joined: a run of the same region that came before, or this one
+    int region;     ///< while they are joined: a run of the same region that came before, or this one
+    int next = -1;  ///< run of the region; -1: none
   };
   struct Region {
     cv::Rect box;
     int area_px;
     cv::Point block;  ///< the first of two times two pixels, by rows: these decide the order
-    std::vector<size_t> runs;
+    int first, last;  ///< runs
   };
 
   void addRow(const uint8_t* row, int y, int width);

@@ -73,7 +73,8 @@ cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px) {
 /// The inverse of S + kNoGradient2 I is its adjugate over its determinant.
 Symmetric2f displacementCovariance(const Symmetric2f& S, float variance, float min_gradient2) {
   const float xx = S[0] + kNoGradient2, yy = S[2] + kNoGradient2;
-  const float determinant = (largestEigenvalue(S) + kNoGradient2) * (smallestEigenvalue(S) + kNoGradient2);
+  const float mean = meanOf(S), radius = radiusOf(S);
+  const float determinant = (mean + radius + kNoGradient2) * (std::max(mean - radius, 0.0F) + kNoGradient2);
   const float scaled = variance * min_gradient2 / determinant;
   return {variance + scaled * yy, -scaled * S[1], variance + scaled * xx};
 }
