@@ -42,7 +42,7 @@ TEST(ConnectedRegions, AreOpenCvsInItsOrder) {
 
 TEST(ConnectedRegions, APartOfAnImageIsAnImage) {
   cv::Mat1b whole(40, 60, uint8_t{255});
-  const cv::Mat1b part = whole(cv::Rect(7, 5, 30, 20));
+  cv::Mat1b part = whole(cv::Rect(7, 5, 30, 20));
   part.setTo(0);
   part(cv::Rect(3, 4, 5, 6)).setTo(7);  // any value
   const ConnectedRegions regions(part);

@@ -115,8 +115,9 @@ TEST(StaticPath, OneWhiteningForAllSightingsNeedsNoMoreThanSums) {
     const double direction_error = trial % 3 == 0 ? 0 : kDirectionError;
     const PathFit expected = fitPath(observations, direction_error),
                   fit = sums.solve(whitening, direction_error);
-    EXPECT_NEAR(fit.static_chi2, expected.static_chi2, 1e-6 * (1 + expected.static_chi2));
-    EXPECT_NEAR(fit.moving_chi2, expected.moving_chi2, 1e-6 * (1 + expected.moving_chi2));
+    // The weak prior of fitPath() takes that much of a fast point's.
+    EXPECT_NEAR(fit.static_chi2, expected.static_chi2, 1e-5 * (1 + expected.static_chi2));
+    EXPECT_NEAR(fit.moving_chi2, expected.moving_chi2, 1e-5 * (1 + expected.moving_chi2));
   }
 }
 
