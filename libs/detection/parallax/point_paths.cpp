@@ -192,8 +192,7 @@ void PointPaths::test(PointPath& path) {
   const Eigen::Matrix2d whitening = whiteningOf(tensor_(pixelAt(path.at)), kNoise_px / scale_);
   UniformPathFit sightings;
   sightings.add({0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()});
-  for (size_t j = 0; j < count; ++j) {
-    if (!camera_.remembers(samples_[j].frame)) break;
+  for (size_t j = 0; j < count && camera_.remembers(samples_[j].frame); ++j) {
     CameraPath::Sighting seen = sighting(samples_[j], path.samples[j]);
     seen.base -= path.at;
     sightings.add(seen);
