@@ -3,11 +3,15 @@
 #include <spng.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "redbee/image_codec/run_deflate.hpp"
 
 namespace redbee {
 namespace {
@@ -34,12 +38,9 @@ Layout layoutOf(const spng_ihdr& header) {
 std::vector<uint8_t> encode(spng_ihdr header, const uint8_t* pixels, size_t size) {
   const Png png(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
   spng_set_option(png.get(), SPNG_ENCODE_TO_BUFFER, 1);
-  // Maps of one channel consist of runs, which a filter of differences, 16 million instructions a frame,
-  // makes no shorter.
-  const bool is_map = header.color_type == SPNG_COLOR_TYPE_GRAYSCALE;
   spng_set_option(png.get(), SPNG_IMG_COMPRESSION_LEVEL, Z_BEST_SPEED);
   spng_set_option(png.get(), SPNG_IMG_COMPRESSION_STRATEGY, Z_RLE);
-  spng_set_option(png.get(), SPNG_FILTER_CHOICE, is_map ? SPNG_FILTER_CHOICE_NONE : SPNG_FILTER_CHOICE_SUB);
+  spng_set_option(png.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB);
   int fault = spng_set_ihdr(png.get(), &header);
   if (!fault) fault = spng_encode_image(png.get(), pixels, size, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
   size_t length = 0;
@@ -50,13 +51,48 @@ std::vector<uint8_t> encode(spng_ihdr header, const uint8_t* pixels, size_t size
   return {first, first + length};
 }
 
-spng_ihdr pngHeader(const cv::Mat& image, spng_color_type colour, uint8_t bits) {
+spng_ihdr pngHeader(const cv::Mat& image, spng_color_type colour) {
   spng_ihdr header{};
   header.width = static_cast<uint32_t>(image.cols);
   header.height = static_cast<uint32_t>(image.rows);
-  header.bit_depth = bits;
+  header.bit_depth = 8;
   header.color_type = static_cast<uint8_t>(colour);
   return header;
+}
+
+void putNumber(std::vector<uint8_t>& to, uint32_t number) {
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) to.push_back(static_cast<uint8_t>(number >> shift));
+}
+
+void putChunk(std::vector<uint8_t>& to, const char* name, const std::vector<uint8_t>& content) {
+  putNumber(to, static_cast<uint32_t>(content.size()));
+  const size_t checked = to.size();
+  to.insert(to.end(), name, name + 4);
+  to.insert(to.end(), content.begin(), content.end());
+  putNumber(to, static_cast<uint32_t>(crc32(0, to.data() + checked, static_cast<uInt>(to.size() - checked))));
+}
+
+/// Maps of one channel consist of runs, which a filter of differences makes no shorter. `rows`: behind a byte
+/// for the filter each, which is 0.
+std::vector<uint8_t> encodeMap(cv::Size size, uint8_t bits, const std::vector<uint8_t>& rows) {
+  if (size.empty()) throw std::invalid_argument("encodePng: an empty image");
+  std::vector<uint8_t> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  std::vector<uint8_t> header;
+  putNumber(header, static_cast<uint32_t>(size.width));
+  putNumber(header, static_cast<uint32_t>(size.height));
+  for (const int value : {int{bits}, int{SPNG_COLOR_TYPE_GRAYSCALE}, 0, 0, 0})
+    header.push_back(static_cast<uint8_t>(value));
+  putChunk(png, "IHDR", header);
+  putChunk(png, "IDAT", deflateRuns(rows.data(), rows.size()));
+  putChunk(png, "IEND", {});
+  return png;
+}
+
+/// Eight pixels, the first one the highest bit.
+uint8_t packed(const uint8_t* pixels, int count) {
+  unsigned bits = 0;
+  for (int i = 0; i < count; ++i) bits |= pixels[i] != 0 ? 0x80U >> static_cast<unsigned>(i) : 0U;
+  return static_cast<uint8_t>(bits);
 }
 
 }  // namespace
@@ -81,33 +117,41 @@ cv::Mat decodePng(const std::vector<uint8_t>& bytes) {
 }
 
 std::vector<uint8_t> encodePng(const cv::Mat& image) {
-  cv::Mat pixels;
-  auto colour = SPNG_COLOR_TYPE_GRAYSCALE;
   if (image.type() == CV_8UC1) {
-    pixels = image.isContinuous() ? image : image.clone();
-  } else if (image.type() == CV_8UC3) {
-    cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);
-    colour = SPNG_COLOR_TYPE_TRUECOLOR;
-  } else if (image.type() == CV_8UC4) {
-    cv::cvtColor(image, pixels, cv::COLOR_BGRA2RGBA);
-    colour = SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
-  } else {
-    throw std::invalid_argument("encodePng: an image that is neither grey nor BGR nor BGRA of 8 bits");
+    const auto width = static_cast<size_t>(image.cols);
+    std::vector<uint8_t> rows((width + 1) * static_cast<size_t>(image.rows));
+    for (int v = 0; v < image.rows; ++v)
+      std::copy_n(image.ptr(v), width, rows.data() + static_cast<size_t>(v) * (width + 1) + 1);
+    return encodeMap(image.size(), 8, rows);
   }
-  return encode(pngHeader(image, colour, 8), pixels.data, pixels.total() * pixels.elemSize());
+  cv::Mat pixels;
+  if (image.type() == CV_8UC3) {
+    cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);
+    return encode(pngHeader(image, SPNG_COLOR_TYPE_TRUECOLOR), pixels.data,
+                  pixels.total() * pixels.elemSize());
+  }
+  if (image.type() == CV_8UC4) {
+    cv::cvtColor(image, pixels, cv::COLOR_BGRA2RGBA);
+    return encode(pngHeader(image, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA), pixels.data,
+                  pixels.total() * pixels.elemSize());
+  }
+  throw std::invalid_argument("encodePng: an image that is neither grey nor BGR nor BGRA of 8 bits");
 }
 
 std::vector<uint8_t> encodeBilevelPng(const cv::Mat1b& map) {
-  const size_t row_bytes = (static_cast<size_t>(map.cols) + 7) / 8;
-  std::vector<uint8_t> bits(row_bytes * static_cast<size_t>(map.rows));
+  constexpr int kBits = 8;
+  const auto row_bytes = static_cast<size_t>((map.cols + kBits - 1) / kBits);
+  std::vector<uint8_t> rows((row_bytes + 1) * static_cast<size_t>(map.rows));
   for (int v = 0; v < map.rows; ++v) {
-    uint8_t* packed = bits.data() + static_cast<size_t>(v) * row_bytes;
-    const uint8_t* row = map[v];
-    for (int u = 0; u < map.cols; ++u) {
-      if (row[u]) packed[u / 8] = static_cast<uint8_t>(packed[u / 8] | 0x80U >> static_cast<unsigned>(u % 8));
+    uint8_t* to = rows.data() + static_cast<size_t>(v) * (row_bytes + 1) + 1;
+    for (int u = 0; u < map.cols; u += kBits, ++to) {
+      uint64_t eight = 0;
+      const int count = std::min(kBits, map.cols - u);
+      std::memcpy(&eight, map[v] + u, static_cast<size_t>(count));
+      if (eight != 0) *to = eight == ~uint64_t{0} ? 0xFF : packed(map[v] + u, count);
     }
   }
-  return encode(pngHeader(map, SPNG_COLOR_TYPE_GRAYSCALE, 1), bits.data(), bits.size());
+  return encodeMap(map.size(), 1, rows);
 }
 
 }  // namespace redbee

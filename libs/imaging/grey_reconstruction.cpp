@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/imaging/connected_regions.hpp"
+
 namespace redbee {
 namespace {
 
@@ -44,16 +46,12 @@ cv::Mat1f fillHoles(const cv::Mat1f& map, int gap_px) {
   cv::Mat1f closed;
   cv::morphologyEx(map, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
   // An outline lies within one component: each is a small image of its own.
-  cv::Mat1i labels, boxes;
-  cv::Mat1d centroids;
-  const int components = cv::connectedComponentsWithStats(closed > kOutline, labels, boxes, centroids);
+  const ConnectedRegions components(closed > kOutline);
   cv::Mat1f filled = map.clone();
   const cv::Mat1f open = 1 - closed;
   cv::Mat1f outside(map.size());
-  for (int i = 1; i < components; ++i) {
-    const int* box = boxes[i];
-    const cv::Rect inside(box[cv::CC_STAT_LEFT], box[cv::CC_STAT_TOP], box[cv::CC_STAT_WIDTH],
-                          box[cv::CC_STAT_HEIGHT]);
+  for (size_t i = 0; i < components.size(); ++i) {
+    const cv::Rect inside = components.box(i);
     if (std::min(inside.width, inside.height) < 3) continue;
     cv::Mat1f level = outside(inside);
     level.setTo(0);

@@ -24,6 +24,7 @@ inline constexpr int kSampleBits = 5;
 inline constexpr int kProjectBits = 8;
 
 struct PortableLanes {
+  static constexpr bool kMayBeLonger = false;  ///< a processor may have longer vectors (patch_kernels.hpp)
   using I16 = std::array<int16_t, 8>;
   using I32 = std::array<int32_t, 4>;
 
@@ -97,6 +98,7 @@ struct PortableLanes {
 
 #if defined(__SSE2__)
 struct Sse2Lanes {
+  static constexpr bool kMayBeLonger = true;
   using I16 = __m128i;
   using I32 = __m128i;
 

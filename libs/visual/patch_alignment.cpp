@@ -9,6 +9,9 @@ namespace {
 
 constexpr int kMaxWindow = 31;
 
+/// std::lround(), which is a call.
+int32_t rounded(double value) { return static_cast<int32_t>(value + std::copysign(0.5, value)); }
+
 /// Where a patch's top left pixel and its bilinear weights lie for a centre between pixels.
 struct SamplePlace {
   SamplePlace(const PyramidLevel& level, const Eigen::Vector2d& centre, int half) {
@@ -17,7 +20,7 @@ struct SamplePlace {
     const double fx = centre.x() - floor_x;
     const double fy = centre.y() - floor_y;
     constexpr int kOne = 1 << BilinearWeights::kWeightBits;
-    const auto fixed = [](double w) { return static_cast<int16_t>(std::lround(w * kOne)); };
+    const auto fixed = [](double w) { return static_cast<int16_t>(rounded(w * kOne)); };
     weights.top_left = fixed((1 - fx) * (1 - fy));
     weights.top_right = fixed(fx * (1 - fy));
     weights.bottom_left = fixed((1 - fx) * fy);
@@ -136,11 +139,9 @@ void PatchTemplate<Lanes>::projectGradients() {
   const int unit = shape_.gradient_scale << kProjectBits;
   const auto factor = static_cast<int16_t>(unit / 2);
   const auto fixedSlope = [&](double s) {
-    return static_cast<int16_t>(-std::lround(std::clamp(s, -1.0, 1.0) * unit));
+    return static_cast<int16_t>(-rounded(std::clamp(s, -1.0, 1.0) * unit));
   };
-  const auto fixedConstant = [&](double c) {
-    return static_cast<int32_t>(-std::lround(c * unit)) + (1 << (kProjectBits - 1));
-  };
+  const auto fixedConstant = [&](double c) { return -rounded(c * unit) + (1 << (kProjectBits - 1)); };
   const int16_t fixed_slope_x = fixedSlope(slope_x_), fixed_slope_y = fixedSlope(slope_y_);
   const int32_t fixed_constant_x = fixedConstant(constant_x_), fixed_constant_y = fixedConstant(constant_y_);
   auto sum_x = Lanes::zero(), sum_y = Lanes::zero();
@@ -163,6 +164,26 @@ void PatchTemplate<Lanes>::projectGradients() {
   offset_y_ = Lanes::total(sum_y) * (1 << kSampleBits);
 }
 
+/// Of the samples at a place with either gradient.
+template <typename Lanes>
+PatchProducts PatchTemplate<Lanes>::products(const uint8_t* corner, std::size_t stride,
+                                             const BilinearWeights& weights) const {
+  PatchProducts sums{};
+  if (Lanes::kMayBeLonger && sampleProducts({corner, stride, shape_.side, shape_.lanes, weights},
+                                            gradient_x_.data(), gradient_y_.data(), sums))
+    return sums;
+  auto sum_x = Lanes::zero(), sum_y = Lanes::zero();
+  std::size_t at = 0;
+  for (int i = 0; i < shape_.side; ++i, corner += stride) {
+    for (int lane = 0; lane < shape_.lanes; ++lane, at += 8) {
+      const auto sample = Lanes::sample(corner + 8 * lane, corner + stride + 8 * lane, weights);
+      sum_x = Lanes::addProducts(sum_x, sample, Lanes::load(&gradient_x_[at]));
+      sum_y = Lanes::addProducts(sum_y, sample, Lanes::load(&gradient_y_[at]));
+    }
+  }
+  return {Lanes::total(sum_x), Lanes::total(sum_y)};
+}
+
 template <typename Lanes>
 Alignment PatchTemplate<Lanes>::align(const PyramidLevel& level, Eigen::Vector2d& centre,
                                       const AlignmentLimits& limits) const {
@@ -172,18 +193,9 @@ Alignment PatchTemplate<Lanes>::align(const PyramidLevel& level, Eigen::Vector2d
   for (int iteration = 0; iteration < limits.iterations; ++iteration) {
     if (!isNear(level, centre)) return Alignment::kLost;
     const SamplePlace place(level, centre, shape_.half);
-    auto sum_x = Lanes::zero(), sum_y = Lanes::zero();
-    const uint8_t* row = place.corner;
-    std::size_t at = 0;
-    for (int i = 0; i < shape_.side; ++i, row += stride) {
-      for (int lane = 0; lane < shape_.lanes; ++lane, at += 8) {
-        const auto sample = Lanes::sample(row + 8 * lane, row + stride + 8 * lane, place.weights);
-        sum_x = Lanes::addProducts(sum_x, sample, Lanes::load(&gradient_x_[at]));
-        sum_y = Lanes::addProducts(sum_y, sample, Lanes::load(&gradient_y_[at]));
-      }
-    }
-    const double bx = unit * static_cast<double>(Lanes::total(sum_x) - offset_x_);
-    const double by = unit * static_cast<double>(Lanes::total(sum_y) - offset_y_);
+    const PatchProducts sums = products(place.corner, stride, place.weights);
+    const double bx = unit * static_cast<double>(sums.x - offset_x_);
+    const double by = unit * static_cast<double>(sums.y - offset_y_);
     const Eigen::Vector2d step(inverse_xx_ * bx + inverse_xy_ * by, inverse_xy_ * bx + inverse_yy_ * by);
     centre -= step;
     if (step.squaredNorm() < limits.epsilon_px * limits.epsilon_px) {
@@ -216,7 +228,7 @@ double PatchTemplate<Lanes>::residual(const PyramidLevel& level, const Eigen::Ve
   });
   const double mean = static_cast<double>(Lanes::total(sum)) / pixels;
   const auto brightness =
-      Lanes::spread(static_cast<int16_t>(std::lround(mean - mean_grey_ * (1 << kSampleBits))));
+      Lanes::spread(static_cast<int16_t>(rounded(mean - mean_grey_ * (1 << kSampleBits))));
   auto absolute = Lanes::zero();
   visit([&](const auto& sample, std::size_t at, const auto& mask) {
     const auto expected = Lanes::multiply(Lanes::load(&grey_[at]), scale);

@@ -13,6 +13,7 @@
 
 #include "redbee/imaging/pyramid.hpp"
 #include "redbee/visual/lanes.hpp"
+#include "redbee/visual/patch_kernels.hpp"
 
 namespace redbee {
 
@@ -73,6 +74,7 @@ class PatchTemplate {
   Moments cut(const PyramidLevel& level, int x, int y);
   void solve(const Moments& m);
   void projectGradients();
+  PatchProducts products(const uint8_t* corner, std::size_t stride, const BilinearWeights& weights) const;
 
   PatchShape shape_;
   std::size_t size_;

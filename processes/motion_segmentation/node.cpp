@@ -1,5 +1,7 @@
 #include "processes/motion_segmentation/node.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
@@ -39,6 +41,8 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
                  fromSeconds(configuration.waits.segmentation_s), detector->needs().camera_motion),
       configuration_(configuration),
       detector_(std::move(detector)),
+      adjustable_(dynamic_cast<AdjustableQuality*>(detector_.get())),
+      ladder_(adjustable_ != nullptr ? adjustable_->rungs().size() : 0),
       needs_(detector_->needs()),
       camera_(configuration.camera, imageDownscale(needs_, configuration.camera), configuration.own_parts),
       foreground_(publisher(), configuration_, camera_),
@@ -60,6 +64,7 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
 
 void MotionSegmentationNode::reset(CameraTime newest) {
   visual_.eraseAfter(newest);
+  waited_until_ = CameraTime::min();
   fused_path_.reset();
   unbridged_.reset();
   last_.reset();
@@ -71,9 +76,24 @@ bool MotionSegmentationNode::isLeftOut(CameraTime frame) const {
 }
 
 bool MotionSegmentationNode::isWaiting(CameraTime frame) {
-  if (ImageStage::isWaiting(frame)) return true;
+  const bool is_waiting = ImageStage::isWaiting(frame) || isMotionPending(frame);
+  if (is_waiting) waited_until_ = now();
+  return is_waiting;
+}
+
+bool MotionSegmentationNode::isMotionPending(CameraTime frame) {
   if (!needs_.camera_motion || !last_ || fusedPathTo(frame)) return false;
   return isPending(visual_, frame) || isBridgePending(frame);
+}
+
+void MotionSegmentationNode::adjustQuality(CameraTime frame) {
+  if (adjustable_ == nullptr) return;
+  // What came while others were waited for is not old because of this stage.
+  const Duration backlog = frame > waited_until_ && !isFinishing() ? now() - frame : Duration(0);
+  const size_t before = ladder_.rung();
+  const size_t rung = ladder_.update(backlog, fromSeconds(configuration_.waits.segmentation_s));
+  if (rung != before) spdlog::warn("quality {} of {}", rung, adjustable_->rungs().size());
+  adjustable_->setQuality(rung);
 }
 
 FrameInput MotionSegmentationNode::inputFor(const image_t& message) {
@@ -156,6 +176,7 @@ void MotionSegmentationNode::work(const image_t& message) {
                          {std::nullopt, exposureOf(input.time).zoom});
   }
   const Exposure exposure = decodeInto(input, message);
+  adjustQuality(input.time);
   const DetectorOutput output = detector_->step(input);
   noteResultReady();
   publishOutput(message, input, output, exposure);
@@ -202,6 +223,12 @@ void MotionSegmentationNode::updateState(DetectorStatus status, bool has_fused) 
     health().setState(HealthState::kDegraded, toString(status));
   } else if (needs_.camera_motion && !has_fused) {
     health().setState(HealthState::kDegraded, "no fused homography: homography from vision");
+  } else if (ladder_.rung() > 0) {
+    const std::vector<std::string> rungs = adjustable_->rungs();
+    std::string message =
+        "overload: quality " + std::to_string(ladder_.rung()) + " of " + std::to_string(rungs.size());
+    for (size_t i = 0; i < ladder_.rung(); ++i) message += (i == 0 ? ": " : ", ") + rungs[i];
+    health().setState(HealthState::kDegraded, message);
   } else {
     health().setState(HealthState::kGood);
   }

@@ -11,10 +11,12 @@
 #include "processes/motion_segmentation/homography_path.hpp"
 #include "processes/motion_segmentation/track_id_store.hpp"
 #include "redbee/configuration/configuration.hpp"
+#include "redbee/detection/adjustable_quality.hpp"
 #include "redbee/detection/detector.hpp"
 #include "redbee/fused_homography_t.hpp"
 #include "redbee/image_t.hpp"
 #include "redbee/node/image_stage.hpp"
+#include "redbee/node/quality_ladder.hpp"
 #include "redbee/visual_homography_t.hpp"
 
 namespace redbee {
@@ -35,6 +37,7 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   /// Vision's homography is waited for as well where the fused ones say nothing about the frame; and where
   /// vision's does not either, what connects a later frame to the last processed one.
   bool isWaiting(CameraTime frame) override;
+  bool isMotionPending(CameraTime frame);
   FrameInput inputFor(const image_t& message);
   /// While the fusion is not running or has no estimate yet after a restart, vision's own homography
   /// preserves background and identities. False if there is none.
@@ -56,11 +59,16 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   Exposure decodeInto(FrameInput& input, const image_t& message);
   void publishOutput(const image_t& message, const FrameInput& input, DetectorOutput output,
                      const Exposure& exposure);
+  /// While this stage is slower than the camera it leaves out elements of the detection before frames.
+  void adjustQuality(CameraTime frame);
   void updateState(DetectorStatus status, bool has_fused);
   void reset(CameraTime newest) override;
 
   Configuration configuration_;
   std::unique_ptr<Detector> detector_;
+  AdjustableQuality* adjustable_;  ///< the detector; nullptr if it knows one quality only
+  QualityLadder ladder_;
+  CameraTime waited_until_ = CameraTime::min();  ///< frames up to this one have waited for others
   DetectorNeeds needs_;
   RectifiedCamera camera_;
   ForegroundPublisher foreground_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "processes/node_factory.hpp"
@@ -14,12 +15,22 @@
 
 namespace redbee::test {
 
-/// Frames' periods that a stage takes for a frame.
+/// Frames' periods that a stage takes for a frame of which it leaves out nothing.
 using Slowness = std::map<const ProcessDescription*, double>;
+
+/// The part that the segmentation takes at each rung of quality, by the instructions of its frame.
+constexpr double kCosts[] = {1, 0.8};
+
+/// What it says of itself: "overload: quality 1 of 1: ...".
+inline size_t rungOf(Node& node) {
+  const std::string message = node.health().nextMessage().message, name = "overload: quality ";
+  return message.rfind(name, 0) == 0 ? static_cast<size_t>(message.at(name.size()) - '0') : 0;
+}
 
 struct Answers {
   StackOutput output;
   std::map<int64_t, double> delay_s;  ///< message time between a frame and its mask
+  size_t lowest = 0;                  ///< rung of quality
 };
 
 /// Runs the stack, a stage of `slowness` being busy in message time after each frame. `leaves_out`: frames
@@ -36,20 +47,23 @@ inline Answers runSlowly(const StackFlight& flight, const Slowness& slowness,
   const double period_us = static_cast<double>(flight.frame_utimes[1] - flight.frame_utimes[0]);
   struct Worker {
     std::unique_ptr<Node> node;
+    const ProcessDescription* stage;
     double period_us;
     double free_at;
   };
   std::vector<Worker> workers;
   for (const ProcessDescription* stage : kStages) {
     const auto slow = slowness.find(stage);
-    workers.push_back({makeNode(*stage, *bus, flight.configuration),
+    workers.push_back({makeNode(*stage, *bus, flight.configuration), stage,
                        slow == slowness.end() ? 0 : slow->second * period_us, static_cast<double>(now)});
   }
   const auto work = [&](Worker& worker) {
     int64_t done = worker.node->health().published();
     while (worker.free_at <= static_cast<double>(now) && worker.node->processNext()) {
       const int64_t frames = worker.node->health().published();
-      if (frames > done) worker.free_at = static_cast<double>(now) + worker.period_us;
+      const size_t rung = worker.stage == &kMotionSegmentation ? rungOf(*worker.node) : 0;
+      if (frames > done) worker.free_at = static_cast<double>(now) + worker.period_us * kCosts[rung];
+      answers.lowest = std::max(answers.lowest, rung);
       done = frames;
     }
   };
@@ -71,11 +85,13 @@ struct Quality {
   double latest_s = 0;
   double found = 0;       ///< of the moving area, in trusted masks
   double false_area = 0;  ///< of the image, in trusted masks
+  size_t lowest = 0;      ///< rung of quality
 };
 
 /// Of the frames [from, to).
 inline Quality qualityOf(const Answers& answers, const StackFlight& flight, int from, int to) {
   Quality quality;
+  quality.lowest = answers.lowest;
   int gap = 0;
   double moving = 0, found = 0, wrong = 0;
   for (int k = from; k < to; ++k) {
@@ -102,8 +118,8 @@ inline Quality qualityOf(const Answers& answers, const StackFlight& flight, int 
 inline Quality printed(const char* name, const Quality& q, int frames) {
   std::printf(
       "%-34s %2d of %2d frames answered, %2d trusted, gaps of %d, at most %.2f s late; found %.3f, false "
-      "%.3f %%\n",
-      name, q.answered, frames, q.trusted, q.longest_gap, q.latest_s, q.found, 100 * q.false_area);
+      "%.3f %%; quality down to %zu\n",
+      name, q.answered, frames, q.trusted, q.longest_gap, q.latest_s, q.found, 100 * q.false_area, q.lowest);
   return q;
 }
 

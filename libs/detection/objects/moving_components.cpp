@@ -24,6 +24,27 @@ void growPart(ForegroundComponents& found, const cv::Rect& by) {
   found.labels = labels;
 }
 
+/// Where a map, resized to an image, exceeds kRegion, with holes closed. Only what is not 0, and as far
+/// around it as the closing reaches, is processed: `place`, in the image.
+cv::Mat1b movingMask(const cv::Mat1f& map, cv::Size image, int closing_px, cv::Rect& place) {
+  constexpr int kBeside_px = 2;  // of the map, for its interpolation
+  const cv::Rect whole({}, map.size());
+  const int scale = std::max(1, image.width / map.cols);
+  cv::Rect part = whole;
+  place = cv::Rect({}, image);
+  if (image == map.size() * scale) {
+    const int reach = kBeside_px + (closing_px + scale - 1) / scale;
+    const cv::Rect set = cv::boundingRect(cv::Mat1b(map > 0));
+    part = cv::Rect(set.x - reach, set.y - reach, set.width + 2 * reach, set.height + 2 * reach) & whole;
+    place = cv::Rect(part.tl() * scale, part.size() * scale);
+  }
+  cv::Mat1f moving;
+  cv::resize(map(part), moving, place.size(), 0, 0, cv::INTER_LINEAR);
+  cv::Mat1b mask = moving > kRegion;
+  if (closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(closing_px));
+  return mask;
+}
+
 bool isCovered(const ForegroundComponents& found, size_t count, const cv::Rect& box) {
   return std::any_of(
       found.components.begin(), found.components.begin() + static_cast<std::ptrdiff_t>(count),
@@ -34,21 +55,22 @@ bool isCovered(const ForegroundComponents& found, size_t count, const cv::Rect& 
 
 void addMovingComponents(ForegroundComponents& found, const cv::Mat1b& unknown,
                          const ObjectParameters& parameters, const ComponentMaps& maps) {
-  cv::Mat1f moving;
-  cv::resize(maps.moving, moving, found.image, 0, 0, cv::INTER_LINEAR);
-  cv::Mat1b mask = moving > kRegion;
-  if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
-  mask.setTo(0, unknown);
-  const cv::Rect part = cv::boundingRect(mask);
-  if (part.empty()) return;
+  cv::Rect place;
+  cv::Mat1b mask = movingMask(maps.moving, found.image, parameters.closing_px, place);
+  mask.setTo(0, unknown(place));
+  const cv::Rect inside = cv::boundingRect(mask), part = inside + place.tl();
+  if (inside.empty()) return;
   growPart(found, part);
   const size_t count = found.components.size();
   for (size_t i = 0; i < count; ++i) {
     Component& component = found.components[i];
-    if (cv::countNonZero(found.pixelsOf(i) & mask(component.box)) > kConfirmed * component.area_px)
+    const cv::Rect both = component.box & place;
+    if (both.empty()) continue;
+    const cv::Mat1b pixels = found.pixelsOf(i)(both - component.box.tl());
+    if (cv::countNonZero(pixels & mask(both - place.tl())) > kConfirmed * component.area_px)
       component.gain = std::max(component.gain, kGain);
   }
-  forEachRegion(mask(part), parameters.min_area_px,
+  forEachRegion(mask(inside), parameters.min_area_px,
                 [&](const cv::Rect& in_part, int, const cv::Mat1b& pixels) {
                   const cv::Rect region = in_part + part.tl();
                   if (isCovered(found, count, region)) return;

@@ -4,6 +4,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/imaging/connected_regions.hpp"
+
 namespace redbee {
 
 /// For morphology.
@@ -14,15 +16,9 @@ inline cv::Mat1b disc(int diameter) {
 /// Calls work(box, area, pixels of the region in the box) for each connected region that is large enough.
 template <typename Work>
 void forEachRegion(const cv::Mat1b& mask, double min_area_px, const Work& work) {
-  cv::Mat1i labels, statistics;
-  cv::Mat1d centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8, CV_32S);
-  for (int label = 1; label < count; ++label) {
-    const int* row = statistics[label];
-    if (row[cv::CC_STAT_AREA] < min_area_px) continue;
-    const cv::Rect box(row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
-                       row[cv::CC_STAT_HEIGHT]);
-    work(box, row[cv::CC_STAT_AREA], cv::Mat1b(labels(box) == label));
+  const ConnectedRegions regions(mask);
+  for (size_t i = 0; i < regions.size(); ++i) {
+    if (regions.area(i) >= min_area_px) work(regions.box(i), regions.area(i), regions.pixels(i));
   }
 }
 

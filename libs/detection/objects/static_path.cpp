@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSpan_s = 1.5;
 constexpr size_t kFewestPoints = 4;
+constexpr double kWeakPrior = 1e-9;            // keeps a fit regular where nothing observes an unknown
 constexpr double kLeastDirectionError = 1e-6;  // rad; 0 is allowed, and its weight is not a number
 // What a component shows of its object changes slowly: errors that are as far apart are independent.
 constexpr double kCorrelation_s = 0.17;
@@ -34,7 +35,6 @@ class LeastSquares {
   double chiSquare() const { return std::max(0.0, total_ - right_.dot(solve())); }
 
  private:
-  static constexpr double kWeakPrior = 1e-9;  // keeps the matrix regular where nothing observes an unknown
   Eigen::Matrix<double, Unknowns, Unknowns> normal_ =
       kWeakPrior * Eigen::Matrix<double, Unknowns, Unknowns>::Identity();
   Vector right_ = Vector::Zero();
@@ -117,6 +117,45 @@ CameraPath::Sighting CameraPath::project(int64_t frame, const Eigen::Vector2d& p
 
 PathFit fitPath(const std::vector<PathObservation>& observations, double direction_error) {
   return {chiSquareOfStatic(observations, direction_error), chiSquareOfMoving(observations)};
+}
+
+void UniformPathFit::add(const CameraPath::Sighting& seen) {
+  ++count_;
+  age_ += seen.age_s;
+  age_age_ += seen.age_s * seen.age_s;
+  base_ += seen.base;
+  parallax_ += seen.parallax;
+  age_base_ += seen.age_s * seen.base;
+  base_base_ += seen.base * seen.base.transpose();
+  parallax_base_ += seen.parallax * seen.base.transpose();
+  parallax_parallax_ += seen.parallax * seen.parallax.transpose();
+}
+
+/// The position is eliminated by sums about the means; what remains of each fit has one unknown, or two equal
+/// ones.
+PathFit UniformPathFit::solve(const Eigen::Matrix2d& whitening, double direction_error) const {
+  const Eigen::Matrix2d weight = whitening.transpose() * whitening;
+  const auto number = static_cast<double>(count_);
+  const auto weighted = [&](const Eigen::Matrix2d& products) { return weight.cwiseProduct(products).sum(); };
+  const Eigen::Matrix2d base_base = base_base_ - base_ * base_.transpose() / number;
+  const Eigen::Matrix2d parallax_base = parallax_base_ - parallax_ * base_.transpose() / number;
+  const Eigen::Matrix2d parallax_parallax = parallax_parallax_ - parallax_ * parallax_.transpose() / number;
+  const double total = weighted(base_base);
+
+  const double age_age = age_age_ - age_ * age_ / number + kWeakPrior;
+  const Eigen::Vector2d age_base = age_base_ - age_ * base_ / number;
+  const double moving = total - age_base.dot(weight * age_base) / age_age;
+
+  const double along = weighted(parallax_base), length2 = weighted(parallax_parallax);
+  const double depth = std::clamp(-along / (length2 + kWeakPrior), 0.0, 1.0);
+  Eigen::Matrix2d turn;  // of the parallax by a right angle
+  turn << 0, 1, -1, 0;
+  const double across = depth * (weighted(turn * parallax_base) + depth * weighted(turn * parallax_parallax));
+  const double across2 = depth * depth * weighted(turn * parallax_parallax * turn.transpose());
+  const double sigma = std::max(direction_error, kLeastDirectionError);
+  const double at_rest = total + 2 * depth * along + depth * depth * length2;
+  const double rest = at_rest - across * across / (across2 + 1 / (sigma * sigma));
+  return {std::max(0.0, rest), std::max(0.0, moving)};
 }
 
 std::optional<double> movingLogLikelihood(const std::deque<PathPoint>& points, const CameraPath& camera,

@@ -21,6 +21,7 @@ class ForegroundEvidence {
                      const ShadowParameters& shadow);
 
   void reset();
+  void setQuality(size_t rung) { motion_.setQuality(rung); }
   /// Propagates images and background by the camera's motion (previous to current; full-size pixels).
   void propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
                  const std::optional<PlaneMotion>& motion, const CameraPair& cameras);

@@ -66,7 +66,8 @@ InverseSearch makeMotionFlow(const ParallaxParameters& parameters) {
 }
 
 ParallaxEvidence::ParallaxEvidence(const ParallaxParameters& parameters)
-    : parameters_(parameters),
+    : configured_(parameters),
+      parameters_(parameters),
       scale_(std::max(parameters.work_downscale, 1)),
       work_(downscaling(scale_)),
       search_(makeMotionFlow(parameters)),
@@ -199,8 +200,7 @@ bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, double frames) const
     for (int x = kStep / 2; x < flow.cols; x += kStep) {
       if (unknown_(y, x) != 0) continue;
       ++known;
-      const bool moves = cv::norm(normalized_residual_(y, x)) > kSureSigmas;
-      if (moves && cv::norm(flow(y, x)) > fast) ++fast_movers;
+      if (cv::norm(normalized_residual_(y, x)) > kSureSigmas && cv::norm(flow(y, x)) > fast) ++fast_movers;
     }
   }
   return fast_movers > kFraction * known;

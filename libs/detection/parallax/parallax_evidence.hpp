@@ -33,6 +33,8 @@ class ParallaxEvidence {
   explicit ParallaxEvidence(const ParallaxParameters& parameters);
 
   void reset();
+  /// From the next image on: see ParallaxDetector::rungs().
+  void setQuality(size_t rung);
   /// Propagates the stored images and evidence by the camera's motion (previous to current; full-size
   /// pixels).
   void propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
@@ -75,9 +77,10 @@ class ParallaxEvidence {
   bool hasFastMovers(const cv::Mat2f& flow, double frames) const;
   void suppressBorderStructure(cv::Mat1f& motion) const;
 
-  ParallaxParameters parameters_;
-  double scale_;          ///< full-size pixels per pixel at work_downscale
-  Eigen::Matrix3d work_;  ///< full-size pixels to those at work_downscale
+  ParallaxParameters configured_;
+  ParallaxParameters parameters_;  ///< at the present quality
+  double scale_;                   ///< full-size pixels per pixel at work_downscale
+  Eigen::Matrix3d work_;           ///< full-size pixels to those at work_downscale
   InverseSearch search_;
   EarlierFrames frames_;
   EpipoleEstimator epipole_;

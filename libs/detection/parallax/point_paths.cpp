@@ -190,16 +190,16 @@ void PointPaths::test(PointPath& path) {
   const size_t count = std::min(path.sampled, samples_.size());
   if (count < kFewestSamples) return;
   const Eigen::Matrix2d whitening = whiteningOf(tensor_(pixelAt(path.at)), kNoise_px / scale_);
-  observations_.clear();
-  observations_.push_back({{0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, whitening});
-  for (size_t j = 0; j < count; ++j) {
-    if (!camera_.remembers(samples_[j].frame)) break;
-    observations_.push_back({sighting(samples_[j], path.samples[j]), whitening});
-    observations_.back().seen.base -= path.at;
+  UniformPathFit sightings;
+  sightings.add({0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()});
+  for (size_t j = 0; j < count && camera_.remembers(samples_[j].frame); ++j) {
+    CameraPath::Sighting seen = sighting(samples_[j], path.samples[j]);
+    seen.base -= path.at;
+    sightings.add(seen);
   }
-  if (observations_.size() <= kFewestSamples) return;
-  const PathFit fit = fitPath(observations_, direction_error_);
-  const auto number = static_cast<double>(observations_.size());
+  if (sightings.size() <= kFewestSamples) return;
+  const PathFit fit = sightings.solve(whitening, direction_error_);
+  const auto number = static_cast<double>(sightings.size());
   path.static_residual = std::sqrt(fit.static_chi2 / number);
   path.moving_residual = std::sqrt(fit.moving_chi2 / number);
   path.log_likelihood = 0.5 * (fit.static_chi2 - fit.moving_chi2) / kCorrelatedSamples;

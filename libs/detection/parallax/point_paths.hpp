@@ -82,7 +82,6 @@ class PointPaths {
   std::optional<PlaneMotion> motion_;      ///< since then
   Eigen::Matrix3d K_;                      ///< of that image [px]
   std::vector<PointPath> paths_, kept_;
-  std::vector<PathObservation> observations_;
 };
 
 }  // namespace redbee

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "redbee/detection/parallax/structure_tensor_kernels.hpp"
 
 namespace redbee {
 namespace {
@@ -33,24 +36,45 @@ Symmetric2f inverseRoot(const Symmetric2f& S) {
 }
 
 cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px) {
-  cv::Mat1f by_x, by_y;
-  cv::Sobel(grey, by_x, CV_32F, 1, 0, 3, 1 / kSobelGain);
-  cv::Sobel(grey, by_y, CV_32F, 0, 1, 3, 1 / kSobelGain);
-  cv::Mat3f products(grey.size());
-  for (int y = 0; y < grey.rows; ++y) {
-    for (int x = 0; x < grey.cols; ++x) {
-      const float gx = by_x(y, x), gy = by_y(y, x);
-      products(y, x) = {gx * gx, gx * gy, gy * gy};
+  const int width = grey.cols, radius = window_px / 2, side = 2 * radius + 1;
+  const auto stride = static_cast<size_t>(width + 2 * radius);
+  const auto mirrored = [](int at, int size) {
+    return cv::borderInterpolate(at, size, cv::BORDER_REFLECT_101);
+  };
+  std::vector<int16_t> smooth(static_cast<size_t>(width) + 2), difference(smooth.size());
+  std::vector<int32_t> sums(3 * stride, 0), products(3 * stride * static_cast<size_t>(side), 0);
+  cv::Mat3f tensor(grey.size());
+  for (int step = -radius; step < grey.rows + radius; ++step) {
+    const int y = mirrored(step, grey.rows);
+    const uint8_t* const rows[3] = {grey[mirrored(y - 1, grey.rows)], grey[y],
+                                    grey[mirrored(y + 1, grey.rows)]};
+    smoothAndDifference(rows, static_cast<size_t>(width), &smooth[1], &difference[1]);
+    for (std::vector<int16_t>* row : {&smooth, &difference}) {
+      row->front() = (*row)[static_cast<size_t>(mirrored(-1, width) + 1)];
+      row->back() = (*row)[static_cast<size_t>(mirrored(width, width) + 1)];
     }
+    const auto kept = static_cast<size_t>((step + radius) % side);
+    slideTensorColumns(&smooth[1], &difference[1], static_cast<size_t>(width),
+                       {&sums[static_cast<size_t>(radius)], &products[3 * stride * kept], stride});
+    if (step < radius) continue;
+    for (size_t entry = 0; entry < 3; ++entry) {
+      int32_t* const inner = &sums[entry * stride + static_cast<size_t>(radius)];
+      for (int k = 1; k <= radius; ++k) {
+        inner[-k] = inner[mirrored(-k, width)];
+        inner[width - 1 + k] = inner[mirrored(width - 1 + k, width)];
+      }
+    }
+    sumTensorRow(sums.data(), stride, side, 1 / (kSobelGain * kSobelGain * side * side),
+                 static_cast<size_t>(width), tensor.ptr<float>(step - radius));
   }
-  cv::blur(products, products, {window_px, window_px});
-  return products;
+  return tensor;
 }
 
 /// The inverse of S + kNoGradient2 I is its adjugate over its determinant.
 Symmetric2f displacementCovariance(const Symmetric2f& S, float variance, float min_gradient2) {
   const float xx = S[0] + kNoGradient2, yy = S[2] + kNoGradient2;
-  const float determinant = (largestEigenvalue(S) + kNoGradient2) * (smallestEigenvalue(S) + kNoGradient2);
+  const float mean = meanOf(S), radius = radiusOf(S);
+  const float determinant = (mean + radius + kNoGradient2) * (std::max(mean - radius, 0.0F) + kNoGradient2);
   const float scaled = variance * min_gradient2 / determinant;
   return {variance + scaled * yy, -scaled * S[1], variance + scaled * xx};
 }

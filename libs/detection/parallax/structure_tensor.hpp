@@ -19,7 +19,8 @@ inline cv::Vec2f operator*(const Symmetric2f& S, const cv::Vec2f& v) {
   return {S[0] * v[0] + S[1] * v[1], S[1] * v[0] + S[2] * v[1]};
 }
 
-/// S: mean of g g' over a window around each pixel, g the gradient [grey levels per px].
+/// S: mean of g g' over a window around each pixel, g the gradient [grey levels per px]; mirrored beyond the
+/// border. `window_px`: odd, at most 45.
 cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px);
 
 /// variance (I + min_gradient2 S^-1): `variance` over good texture, twice as much along a gradient of the

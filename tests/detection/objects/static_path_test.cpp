@@ -93,6 +93,34 @@ TEST(StaticPath, ADirectionWithoutErrorIsNoReasonToRest) {
   EXPECT_GT(*movingLogLikelihood(points, flight.path(), 0), 5);
 }
 
+TEST(StaticPath, OneWhiteningForAllSightingsNeedsNoMoreThanSums) {
+  std::srand(7);
+  const auto random = [] { return Eigen::Vector2d(Eigen::Vector2d::Random()); };
+  for (int trial = 0; trial < 200; ++trial) {
+    Eigen::Matrix2d whitening = 2 * Eigen::Matrix2d::Identity();
+    whitening += Eigen::Matrix2d(Eigen::Matrix2d::Random());
+    const Eigen::Vector2d travel = 30 * random(), velocity = 5 * random();
+    std::vector<PathObservation> observations;
+    UniformPathFit sums;
+    for (int i = 0; i < 8; ++i) {
+      const double age_s = 0.08 * i;
+      // Without travel no depth is seen.
+      const Eigen::Vector2d parallax =
+          trial % 4 == 0 ? Eigen::Vector2d::Zero() : Eigen::Vector2d(age_s * travel);
+      const CameraPath::Sighting seen{
+          age_s, -0.4 * parallax - (trial % 2) * age_s * velocity + 0.3 * random(), parallax};
+      observations.push_back({seen, whitening});
+      sums.add(seen);
+    }
+    const double direction_error = trial % 3 == 0 ? 0 : kDirectionError;
+    const PathFit expected = fitPath(observations, direction_error),
+                  fit = sums.solve(whitening, direction_error);
+    // The weak prior of fitPath() takes that much of a fast point's.
+    EXPECT_NEAR(fit.static_chi2, expected.static_chi2, 1e-5 * (1 + expected.static_chi2));
+    EXPECT_NEAR(fit.moving_chi2, expected.moving_chi2, 1e-5 * (1 + expected.moving_chi2));
+  }
+}
+
 TEST(StaticPath, APointAtAnyDepthRests) {
   for (const double height_m : {0.0, 1.0, 4.0, 8.0}) {
     // Negative where the path is curved, which a constant velocity does not explain.

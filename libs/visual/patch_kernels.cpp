@@ -1,0 +1,104 @@
+#include "redbee/imaging/simd.hpp"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "redbee/visual/patch_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "redbee/visual/patch_kernels.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace redbee {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+
+HWY_INLINE __m256i pairOf(int16_t even, int16_t odd) {
+  return _mm256_set1_epi32(static_cast<int32_t>(static_cast<uint32_t>(static_cast<uint16_t>(odd)) << 16U |
+                                                static_cast<uint16_t>(even)));
+}
+
+/// Eight pixels of a row, each with its right neighbour.
+HWY_INLINE __m256i neighbours(const uint8_t* row) {
+  const __m128i left = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(row));
+  const __m128i right = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(row + 1));
+  return _mm256_cvtepu8_epi16(_mm_unpacklo_epi8(left, right));
+}
+
+HWY_INLINE __m128i eight(const int16_t* from) {
+  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+}
+
+/// Eight of one row, eight of the next one.
+HWY_INLINE __m256i two(const int16_t* upper, const int16_t* lower) {
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(eight(upper)), eight(lower), 1);
+}
+
+HWY_INLINE int64_t total(__m256i sums) {
+  HWY_ALIGN int32_t lane[8];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(lane), sums);
+  int64_t sum = 0;
+  for (const int32_t value : lane) sum += value;
+  return sum;
+}
+
+bool products(const SampledPatch& patch, const int16_t* gradient_x, const int16_t* gradient_y,
+              PatchProducts& sums) {
+  constexpr int kShift = BilinearWeights::kWeightBits - kSampleBits;
+  const __m256i above = pairOf(patch.weights.top_left, patch.weights.top_right);
+  const __m256i below = pairOf(patch.weights.bottom_left, patch.weights.bottom_right);
+  const __m256i half = _mm256_set1_epi32(1 << (kShift - 1));
+  const auto sampled = [&](__m256i upper, __m256i lower) HWY_ATTR {
+    const __m256i sum = _mm256_add_epi32(_mm256_madd_epi16(upper, above), _mm256_madd_epi16(lower, below));
+    return _mm256_srai_epi32(_mm256_add_epi32(sum, half), kShift);
+  };
+  const ptrdiff_t step = 8 * static_cast<ptrdiff_t>(patch.lanes);  // from row to row of the gradients
+  __m256i sum_x = _mm256_setzero_si256(), sum_y = sum_x;
+  for (int lane = 0; lane < patch.lanes; ++lane) {
+    const uint8_t* row = patch.corner + 8 * lane;
+    const int16_t* x = gradient_x + 8 * lane;
+    const int16_t* y = gradient_y + 8 * lane;
+    __m256i first = neighbours(row);
+    int left = patch.side;
+    for (; left >= 2; left -= 2, x += 2 * step, y += 2 * step) {
+      const __m256i second = neighbours(row += patch.stride), third = neighbours(row += patch.stride);
+      const __m256i packed = _mm256_packs_epi32(sampled(first, second), sampled(second, third));
+      const __m256i samples = _mm256_permute4x64_epi64(packed, 0xD8);  // row by row
+      sum_x = _mm256_add_epi32(sum_x, _mm256_madd_epi16(samples, two(x, x + step)));
+      sum_y = _mm256_add_epi32(sum_y, _mm256_madd_epi16(samples, two(y, y + step)));
+      first = third;
+    }
+    if (left == 0) continue;
+    const __m256i last = sampled(first, neighbours(row + patch.stride));
+    const __m128i samples = _mm_packs_epi32(_mm256_castsi256_si128(last), _mm256_extracti128_si256(last, 1));
+    const auto alone = [&](const int16_t* gradient) HWY_ATTR {
+      return _mm256_inserti128_si256(_mm256_setzero_si256(), _mm_madd_epi16(samples, eight(gradient)), 0);
+    };
+    sum_x = _mm256_add_epi32(sum_x, alone(x));
+    sum_y = _mm256_add_epi32(sum_y, alone(y));
+  }
+  sums = {total(sum_x), total(sum_y)};
+  return true;
+}
+
+#else
+
+bool products(const SampledPatch&, const int16_t*, const int16_t*, PatchProducts&) { return false; }
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace redbee
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace redbee {
+
+HWY_EXPORT(products);
+
+bool sampleProducts(const SampledPatch& patch, const int16_t* gradient_x, const int16_t* gradient_y,
+                    PatchProducts& sums) {
+  return HWY_DYNAMIC_DISPATCH(products)(patch, gradient_x, gradient_y, sums);
+}
+
+}  // namespace redbee
+#endif
