@@ -18,7 +18,7 @@ struct LensSample {
 /// At one time. A lens that does not zoom has the default: known, without an error.
 struct Zoom {
   double value = 1;      ///< focal length over the configured one
-  double variance = 0;   ///< of its logarithm, anew in each frame
+  double variance = 0;   ///< of its logarithm, anew in each frame; of a guess: lasting
   bool is_known = true;  ///< false: a guess, which `variance` covers
 };
 

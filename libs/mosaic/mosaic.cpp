@@ -48,8 +48,14 @@ void Mosaic::moveTo(const cv::Rect& part) {
 }
 
 void Mosaic::fade() {
-  sum_ *= kFaded;
-  weight_ *= kFaded;
+  for (int y = 0; y < weight_.rows; ++y) {
+    for (int x = 0; x < weight_.cols; ++x) {
+      float& weight = weight_(y, x);
+      if (weight <= kFaded) continue;
+      sum_(y, x) *= kFaded / weight;
+      weight = kFaded;
+    }
+  }
 }
 
 /// Of four pixels one, in their middle, with what was added to them at its own size.

@@ -112,7 +112,7 @@ void HealthMonitor::noteWork(double milliseconds) {
   work_.note(milliseconds);
   work_sum_ += milliseconds;
   ++work_count_;
-  if (on_progress_) on_progress_();
+  noteProgress();
 }
 
 void HealthMonitor::noteCpu(const CpuTime& time) {

@@ -115,9 +115,13 @@ class HealthMonitor {
   /// Wall time of processing one frame, without waiting [ms].
   void noteWork(double milliseconds);
   void noteCpu(const CpuTime& time);
-  /// `callback` is called after each frame: several in a row may take longer than a pass of the main loop
-  /// should.
+  /// `callback` is called after each frame and by noteProgress(): several in a row may take longer than a
+  /// pass of the main loop should.
   void onProgress(std::function<void()> callback) { on_progress_ = std::move(callback); }
+  /// Of a process without frames of its own: a message has been handled.
+  void noteProgress() {
+    if (on_progress_) on_progress_();
+  }
 
   /// `message`: the reason in one line, empty for a good state. A change of either is published immediately.
   void setState(HealthState state, const std::string& message = "");

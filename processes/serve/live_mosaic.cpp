@@ -10,6 +10,7 @@ namespace {
 constexpr int64_t kKept_us = 2'000'000;  ///< of the chain: longer than a frame's way through the stack
 constexpr double kMisfit = 1.25;         ///< a plane is known to some percent, and to a degree or two
 constexpr int64_t kMisfit_us = 1'000'000;
+constexpr int64_t kUnknown_us = 500'000;  // without a plane: what was before says nothing of now
 
 }  // namespace
 
@@ -32,6 +33,8 @@ void LiveMosaic::followPlane(int64_t utime) {
   const Eigen::Matrix3d K = painting_.camera().K();
   const auto misfit = reference_->misfit(*frame, K, nearGround());
   if (!misfit) return;
+  if (utime > judged_utime_ + kUnknown_us) fits_utime_ = utime;
+  judged_utime_ = utime;
   if (*misfit < kMisfit || utime < fits_utime_) fits_utime_ = utime;
   if (utime < fits_utime_ + kMisfit_us) return;
   reference_ = reference_->relaid(*frame, K, nearGround());
@@ -100,15 +103,17 @@ void LiveMosaic::enqueue(MosaicFrame frame) {
   if (waiting_.size() > kMostFrames) waiting_.pop_front();
 }
 
-void LiveMosaic::release() {
+bool LiveMosaic::release() {
   reference_.reset();
   {
     const std::lock_guard<std::mutex> lock(waiting_mutex_);
     waiting_.clear();
     asked_ = {};
   }
-  const std::lock_guard<std::mutex> lock(paint_mutex_);
+  const std::unique_lock<std::mutex> lock(paint_mutex_, std::try_to_lock);
+  if (!lock) return false;
   painting_.clear();
+  return true;
 }
 
 std::shared_ptr<const std::string> LiveMosaic::newest(int64_t after, Time now) {

@@ -36,7 +36,7 @@ class LiveMosaic {
   void onFused(const fused_homography_t& fused);
   void onFrame(const FrameView& view, Time now);
   /// Nobody looks at the page at all: the next mosaic begins anew.
-  void release();
+  bool release();
 
   /// By any thread: see MosaicPainting::newest().
   std::shared_ptr<const std::string> newest(int64_t after, Time now);
@@ -55,8 +55,9 @@ class LiveMosaic {
   size_t piece_ = 0;   ///< of the chain, that the reference belongs to
   size_t number_ = 0;  ///< of the mosaic
   const char* why_ = "";
-  size_t maps_ = 0;         ///< that were laid
-  int64_t fits_utime_ = 0;  ///< us, of the last plane that fits the map
+  size_t maps_ = 0;           ///< that were laid
+  int64_t fits_utime_ = 0;    ///< us, of the last plane that fits the map
+  int64_t judged_utime_ = 0;  ///< us, of the last that was asked
   int64_t image_utime_ = 0;
 
   std::mutex waiting_mutex_;

@@ -66,6 +66,8 @@ void MosaicPainting::clear() {
   mosaic_.reset();
   tracks_.clear();
   bundle_.reset();
+  has_lost_flight_ = false;
+  refused_ = 0;
 }
 
 std::shared_ptr<const std::string> MosaicPainting::newest(int64_t after) {

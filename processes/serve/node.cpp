@@ -60,8 +60,13 @@ std::string healthText(const HealthBoard& board, HealthBoard::Time now) {
 
 template <typename Message, typename Handler>
 Subscription ServeNode::on(const std::string& channel, Handler handler) {
-  return subscribePlausible<Message>(bus_, channel, kQueue, std::move(handler),
-                                     [this] { health_.noteDamaged(); });
+  return subscribePlausible<Message>(
+      bus_, channel, kQueue,
+      [this, handler = std::move(handler)](const Message& message) {
+        handler(message);
+        health_.noteProgress();
+      },
+      [this] { health_.noteDamaged(); });
 }
 
 ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live, LiveMosaic& mosaic)
@@ -93,6 +98,12 @@ ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live, L
 
 void ServeNode::followViewers() {
   const bool is_watched = live_.viewers() > 0;
+  // Who asked last may still be drawing: it is not waited for.
+  if (is_watched) to_release_ = false;
+  if (to_release_ && mosaic_.release()) {
+    to_release_ = false;
+    malloc_trim(0);  // what the viewers' threads have freed stays with their arenas otherwise
+  }
   if (is_watched == !while_watched_.empty()) return;
   if (is_watched) {
     while_watched_.push_back(on<image_t>(channels_.camera, [this](const image_t& m) {
@@ -104,8 +115,7 @@ void ServeNode::followViewers() {
   } else {
     while_watched_.clear();
     assembly_.dropImages();
-    mosaic_.release();
-    malloc_trim(0);  // what the viewers' threads have freed stays with their arenas otherwise
+    to_release_ = true;
   }
 }
 

@@ -46,6 +46,7 @@ class ServeNode : public Node {
   Clock::time_point next_board_;
   std::vector<Subscription> always_;
   std::vector<Subscription> while_watched_;
+  bool to_release_ = false;  ///< what the viewers needed
 };
 
 /// The processes as the page lists them: name, state, tone, figures, remarks.

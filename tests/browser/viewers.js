@@ -7,6 +7,7 @@ const kSlow = 2;       // of them, which think a while about each frame
 const kThink_ms = 700;
 const kRate_hz = 24;    // of the flight
 const kFrames = 60;    // of a quick one
+const kLongest_s = 120; // for all of it
 const kAhead = 2;      // a frame may come between the answer to one viewer and to another
 
 const get = (url) => new Promise((resolve, reject) => {
@@ -63,7 +64,11 @@ async function watchAll(url) {
   const viewers = [...Array(kViewers)].map(() => ({newest: 0, frames: []}));
   const seen = {newest: 0};
   const quick = viewers.slice(kSlow);
-  const isOver = () => quick.every(({frames}) => frames.length >= kFrames);
+  const end = Date.now() + 1000 * kLongest_s;
+  const isOver = () => {
+    if (Date.now() > end) throw new Error(`after ${kLongest_s} s the viewers have been given ${quick.map(({frames}) => frames.length)} frames`);
+    return quick.every(({frames}) => frames.length >= kFrames);
+  };
   await Promise.all(viewers.map((viewer, i) => view(url, viewer, i < kSlow ? kThink_ms : 0, isOver, seen)));
   const {frames} = viewers[0];
   const leap = Math.max(...frames.slice(1).map((sequence, i) => sequence - frames[i]));

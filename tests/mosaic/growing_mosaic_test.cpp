@@ -113,7 +113,7 @@ TEST_F(GrowingMosaic, RefusesWhatWouldBeAFewPixels) {
 
 TEST_F(GrowingMosaic, WhatIsPaintedAfterItFadedReplacesWhatWasThere) {
   Mosaic mosaic = begun(0);
-  for (int i = 0; i < 4; ++i) mosaic.add(plain(100), nothing_, toMap(0));
+  for (int i = 0; i < 300; ++i) mosaic.add(plain(100), nothing_, toMap(0));  // as of a drone that hovers
   const Eigen::Vector2d at =
       mosaic.grid().pixelOf((toMap(0) * Eigen::Vector3d(kWidth / 2.0, kHeight / 2.0, 1)).hnormalized());
   mosaic.fade();

@@ -44,6 +44,16 @@ TEST_F(LongMosaic, AMapThatThePlaneContradictsIsLaidAnewWhereTheFlightIs) {
   EXPECT_GT(find(-98, 1, laid.image).first, 0.8) << "what was there stays, where nothing newer lies over it";
 }
 
+TEST_F(LongMosaic, OnePlaneAfterNoneForSecondsIsNoContradictionOfASecond) {
+  step(0);
+  ask();
+  fly(1, 20);
+  fly(20, 60, false);
+  height_m_ = 1.4 * kHeight_m;
+  fly(60, 61);
+  EXPECT_TRUE(ask().head["notes"].empty());
+}
+
 TEST_F(LongMosaic, FramesThatAreRefusedAddNothingToTheTracks) {
   step(0);
   ask();

@@ -132,6 +132,7 @@ void GstreamerSource::close() {
   sink_.reset();
   v4l2_source_.reset();
   exposure_s_.reset();
+  images_ = 0;  // the next pipeline's exposure is asked for at its first
   pipeline_.reset();
 }
 

@@ -54,7 +54,7 @@ class Exporter {
 
   void add(const LogEvent& event) {
     const std::string name = messageName(event.data);
-    const bool is_known =
+    bool is_known =
         take<image_t>(name, event, [&](const image_t& image) { addImage(event.channel, image); }) ||
         take<ins_t>(name, event,
                     [&](const ins_t& imu) {
@@ -72,7 +72,7 @@ class Exporter {
         take<process_health_t>(name, event,
                                [&](const process_health_t& health) { addHealth(event.channel, health); });
     if (cameras_ && event.channel == lens_channel_) {
-      take<lens_t>(name, event, [&](const lens_t& lens) { cameras_->add(lens); });
+      is_known |= take<lens_t>(name, event, [&](const lens_t& lens) { cameras_->add(lens); });
     }
     if (!is_known) ++exported_.left_out[event.channel];
   }

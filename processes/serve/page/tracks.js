@@ -60,5 +60,5 @@ export function drawTracks(mosaic, below) {
   const taken = [];
   for (const {at, text, colour} of labels) drawLabel(context, at, text, colour, taken, size);
   // What was drawn, for those who ask.
-  Object.assign(canvas.dataset, {labels: taken.length, letters: kLetters_px});
+  Object.assign(canvas.dataset, {labels: taken.length, letters: parseFloat(/([\d.]+)px/.exec(context.font)[1])});
 }
