@@ -76,10 +76,14 @@ Unit unitOf(const std::vector<ImuSample>& samples) {
   std::vector<double> lengths;
   lengths.reserve(samples.size());
   for (const ImuSample& sample : samples) lengths.push_back(sample.accel.norm());
+  const auto unitBy = [](double length) {
+    return Unit{isGravity(kStandardGravityOfGcsv * length), isGravity(length)};
+  };
   const double length = median(lengths);
-  const double mean = meanGravity(samples).value_or(length);
-  const auto fits = [&](double scale) { return isGravity(scale * length) || isGravity(scale * mean); };
-  return {fits(kStandardGravityOfGcsv), fits(1)};
+  const Unit unit = unitBy(length);
+  // The mean is right only with the gyro's unit; of a sensor that is shaken hard there is nothing better.
+  if (unit.is_g || unit.is_metric) return unit;
+  return unitBy(meanGravity(samples).value_or(length));
 }
 
 /// A camera is known (RunCam's Thumb, firmware 2.0.0) that writes the one's counts under the other's name.
@@ -129,7 +133,7 @@ bool isGcsv(const std::filesystem::path& file) {
   return line.rfind("GYROFLOW IMU LOG", 0) == 0 || line.rfind("CAMERA IMU LOG", 0) == 0;
 }
 
-ImuTable readGcsv(const std::filesystem::path& file) {
+ImuTable readGcsv(const std::filesystem::path& file, const ImuUnits& units) {
   constexpr double kLatest_s = 1e10;
   CsvReader csv(file);
   const GcsvHeader header = readGcsvHeader(csv);
@@ -154,6 +158,10 @@ ImuTable readGcsv(const std::filesystem::path& file) {
   }
   if (table.samples.empty()) throw InputError(file, "holds no samples");
   times.check(table.samples, table.warnings);
+  // Its scale is in the file, but may be wrong.
+  table.units.gyro = units.gyro;
+  const double gyro_factor = factorOf(gyroUnits(), units.gyro, "--gyro-unit");
+  for (ImuSample& sample : table.samples) sample.gyro *= gyro_factor;
   fixSwappedColumns(file, header, table);
   fixAccelUnit(file, table);
   noteOrientation(file, header, table);

@@ -49,7 +49,7 @@ void convertUnits(const ImuUnits& units, ImuTable& table) {
 
 ImuTable readImuTable(const fs::path& source, const fs::path& video, const ImuUnits& units) {
   const fs::path file = fs::is_directory(source) ? fileOf(source) : source;
-  if (isGcsv(file)) return readGcsv(file);
+  if (isGcsv(file)) return readGcsv(file, units);
   const std::vector<std::string> header = headerOf(file);
   ImuTable table;
   if (hasColumn(header, "seconds_elapsed") && !hasColumn(header, "gx")) {

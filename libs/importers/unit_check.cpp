@@ -83,7 +83,7 @@ void checkGravity(const std::vector<ImuSample>& imu, const ImuUnits& read_as, Im
   const double length = medianForce(imu);
   if (isGravity(length)) return;
   const double mean = meanGravity(imu).value_or(length);
-  if (isGravity(mean)) {
+  if (isGravity(mean) && length < kHardestShaking) {
     findings.warnings.push_back(
         fmt::format("the accelerometer's median length is {:.3g} m/s^2, as of a sensor that is shaken hard "
                     "(gravity is in "
@@ -121,11 +121,16 @@ void checkTurns(const std::vector<ImuSample>& imu, const ImuUnits& read_as, ImuF
   // rad/s, and then at least 5 times the right unit's.
   constexpr double kDisagreement = 10 * M_PI / 180;
   constexpr double kRatio = 4;
+  constexpr double kBetter = 0.7;
   const double period_s = medianPeriod_s(imu);
   const auto now = turnDisagreement(imu, period_s, 1);
   if (!now || *now < kDisagreement) return;
   const std::string unit = firstUnit(gyroUnits(), read_as.gyro, "--gyro-unit", [&](double factor) {
-    return *turnDisagreement(imu, period_s, factor) < std::min(kDisagreement, *now / kRatio);
+    const double other = *turnDisagreement(imu, period_s, factor);
+    if (other < std::min(kDisagreement, *now / kRatio)) return true;
+    // Of a sensor that is shaken: far better, also than no gyro at all.
+    return other < *now / kRatio && other < kBetter * *turnDisagreement(imu, period_s, 0) &&
+           isGravity(meanGravity(imu, factor).value_or(0));
   });
   const std::string what = fmt::format(
       "the gyro turns {:.0f} degrees away from the accelerometer's gravity within 0.2 s", *now * 180 / M_PI);

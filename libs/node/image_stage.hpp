@@ -71,6 +71,8 @@ class ImageStage : public Stage {
   virtual void noteMissing(CameraTime) {}
   /// Discards the state, and messages of frames after `newest`; called when the camera's clock was set back.
   virtual void reset(CameraTime newest) = 0;
+  /// How much older than the newest frame this one is, as far as this stage is the reason.
+  Duration backlogOf(CameraTime frame) const { return frame > waited_until_ ? now() - frame : Duration(0); }
   MessageSynchronizer<Companion>& companions() { return companions_; }
   const MessageSynchronizer<Companion>& companions() const { return companions_; }
   /// The newest frame received.

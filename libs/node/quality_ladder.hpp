@@ -22,7 +22,9 @@ class QualityLadder {
     calm_ = kCalm * backlog <= longest ? calm_ + 1 : 0;
     if (kFall * backlog > longest && since_change_ >= kSettling && rung_ < lowest_) {
       // What has just been taken back up was too much, and is tried more rarely.
-      patience_ = rose_ && since_change_ < patience_ ? std::min(2 * patience_, kMostPatience) : kPatience;
+      patience_ = rose_ && since_change_ < std::max(patience_, kTrial)
+                      ? std::min(2 * patience_, kMostPatience)
+                      : kPatience;
       changeTo(rung_ + 1, false);
     } else if (calm_ >= patience_ && since_change_ >= patience_ && rung_ > 0) {
       changeTo(rung_ - 1, true);
@@ -36,6 +38,7 @@ class QualityLadder {
   static constexpr int kCalm = 9;       // up below this one
   static constexpr int kSettling = 6;   // frames: before them a change has not shown yet
   static constexpr int kPatience = 48;  // frames without a backlog
+  static constexpr int kTrial = 768;    // frames: what is too much by 1 % has shown by then
   static constexpr int kMostPatience = 1536;
 
   void changeTo(size_t rung, bool rose) {

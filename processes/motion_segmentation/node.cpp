@@ -64,7 +64,6 @@ MotionSegmentationNode::MotionSegmentationNode(Bus& bus, const Configuration& co
 
 void MotionSegmentationNode::reset(CameraTime newest) {
   visual_.eraseAfter(newest);
-  waited_until_ = CameraTime::min();
   fused_path_.reset();
   unbridged_.reset();
   last_.reset();
@@ -76,20 +75,14 @@ bool MotionSegmentationNode::isLeftOut(CameraTime frame) const {
 }
 
 bool MotionSegmentationNode::isWaiting(CameraTime frame) {
-  const bool is_waiting = ImageStage::isWaiting(frame) || isMotionPending(frame);
-  if (is_waiting) waited_until_ = now();
-  return is_waiting;
-}
-
-bool MotionSegmentationNode::isMotionPending(CameraTime frame) {
+  if (ImageStage::isWaiting(frame)) return true;
   if (!needs_.camera_motion || !last_ || fusedPathTo(frame)) return false;
   return isPending(visual_, frame) || isBridgePending(frame);
 }
 
 void MotionSegmentationNode::adjustQuality(CameraTime frame) {
   if (adjustable_ == nullptr) return;
-  // What came while others were waited for is not old because of this stage.
-  const Duration backlog = frame > waited_until_ && !isFinishing() ? now() - frame : Duration(0);
+  const Duration backlog = isFinishing() ? Duration(0) : backlogOf(frame);
   const size_t before = ladder_.rung();
   const size_t rung = ladder_.update(backlog, fromSeconds(configuration_.waits.segmentation_s));
   if (rung != before) spdlog::warn("quality {} of {}", rung, adjustable_->rungs().size());

@@ -37,7 +37,6 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   /// Vision's homography is waited for as well where the fused ones say nothing about the frame; and where
   /// vision's does not either, what connects a later frame to the last processed one.
   bool isWaiting(CameraTime frame) override;
-  bool isMotionPending(CameraTime frame);
   FrameInput inputFor(const image_t& message);
   /// While the fusion is not running or has no estimate yet after a restart, vision's own homography
   /// preserves background and identities. False if there is none.
@@ -68,7 +67,6 @@ class MotionSegmentationNode : public ImageStage<fused_homography_t> {
   std::unique_ptr<Detector> detector_;
   AdjustableQuality* adjustable_;  ///< the detector; nullptr if it knows one quality only
   QualityLadder ladder_;
-  CameraTime waited_until_ = CameraTime::min();  ///< frames up to this one have waited for others
   DetectorNeeds needs_;
   RectifiedCamera camera_;
   ForegroundPublisher foreground_;

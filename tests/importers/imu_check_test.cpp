@@ -85,6 +85,20 @@ TEST(ImuCheckTest, ShakingHidesNoWrongUnit) {
   EXPECT_TRUE(says(faultsOf([](ImuSample& s) { s.accel = 1.2 * shakingAt(s); }), "linear acceleration"));
 }
 
+/// Neither does shaking that leaves the accelerometer's median as it is, at no whole part of what is
+/// compared.
+TEST(ImuCheckTest, LittleShakingHidesNoWrongUnitOfTheGyro) {
+  const auto shaken = [](double gyro_factor) {
+    return findingsOf([&](ImuSample& sample) {
+      const double angle = 2 * M_PI * 3.3 * seconds(sample.time.time_since_epoch());
+      sample.accel += 8 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+      sample.gyro *= gyro_factor;
+    });
+  };
+  EXPECT_TRUE(shaken(1).faults.empty());
+  EXPECT_TRUE(says(shaken(180 / M_PI).faults, "give --gyro-unit deg/s"));
+}
+
 /// As of a logger whose driver reads the gyro's registers wrongly.
 TEST(ImuCheckTest, AGyroThatContradictsGravityInEveryUnitIsAWarning) {
   EXPECT_TRUE(says(findingsOf([](ImuSample& s) { s.gyro = {17, 0, 17}; }).warnings, "the gyro is broken"));

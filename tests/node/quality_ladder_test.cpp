@@ -74,6 +74,16 @@ TEST(QualityLadder, DoesNotFlutter) {
   EXPECT_LE(stage.changes - early, 3);
 }
 
+TEST(QualityLadder, DoesNotFlutterWhereItIsAlmostFastEnough) {
+  for (const double cost : {1.02, 1.05, 1.07}) {
+    Stage stage({cost, 0.8 * cost});
+    stage.run(4000);
+    const int early = stage.changes;
+    stage.run(4000);
+    EXPECT_LE(stage.changes - early, 8) << cost;
+  }
+}
+
 TEST(QualityLadder, WithoutRungsNothingChanges) {
   Stage stage({2});
   stage.run(100);

@@ -9,7 +9,9 @@ constexpr size_t kWithoutPoints = 1;
 
 }  // namespace
 
-std::vector<std::string> ParallaxDetector::rungs() const { return {"points are not followed"}; }
+std::vector<std::string> ParallaxDetector::rungs() const {
+  return uses_points_ ? std::vector<std::string>{"points are not followed"} : std::vector<std::string>{};
+}
 
 void ParallaxDetector::setQuality(size_t rung) { evidence_.setQuality(rung); }
 

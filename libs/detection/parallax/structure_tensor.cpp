@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "redbee/detection/parallax/structure_tensor_kernels.hpp"
@@ -36,6 +37,9 @@ Symmetric2f inverseRoot(const Symmetric2f& S) {
 }
 
 cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px) {
+  constexpr int kWidest_px = 45;  // of the steepest gradients the sums still fit
+  if (window_px < 1 || window_px > kWidest_px || window_px % 2 == 0)
+    throw std::invalid_argument("structureTensor: the window must be odd, 1 to 45 px");
   const int width = grey.cols, radius = window_px / 2, side = 2 * radius + 1;
   const auto stride = static_cast<size_t>(width + 2 * radius);
   const auto mirrored = [](int at, int size) {

@@ -34,5 +34,12 @@ TEST_P(StructureTensor, IsThatOfOpenCvToTheBit) {
   }
 }
 
+TEST_P(StructureTensor, HoldsTheSteepestGradientsOfTheWidestWindow) {
+  cv::Mat1b stripes(64, 64);
+  for (int x = 0; x < stripes.cols; ++x) stripes.col(x).setTo(x / 2 % 2 == 0 ? 0 : 255);
+  EXPECT_LT(cv::norm(structureTensor(stripes, 45), byOpenCv(stripes, 45), cv::NORM_INF), 0.01);
+  EXPECT_THROW(structureTensor(stripes, 47), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace redbee::test
