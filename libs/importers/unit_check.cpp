@@ -121,7 +121,7 @@ void checkTurns(const std::vector<ImuSample>& imu, const ImuUnits& read_as, ImuF
   // rad/s, and then at least 5 times the right unit's.
   constexpr double kDisagreement = 10 * M_PI / 180;
   constexpr double kRatio = 4;
-  constexpr double kBetter = 0.7;
+  constexpr double kBetter = 0.95;  // a gyro of nearly nothing contradicts no more than none
   const double period_s = medianPeriod_s(imu);
   const auto now = turnDisagreement(imu, period_s, 1);
   if (!now || *now < kDisagreement) return;
