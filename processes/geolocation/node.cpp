@@ -144,7 +144,7 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
 }
 
 std::string GeolocationNode::faultText(const ViewEstimate& estimate) const {
-  const std::string words = wordsOf(estimate.fault, configuration_.channels);
+  std::string words = wordsOf(estimate.fault, configuration_.channels);
   if (estimate.fault == ViewFault::kNoPose)
     return words + " has come: redbee-autopilot publishes it, where autopilot.link is set";
   if (estimate.fault == ViewFault::kStalePose) {
