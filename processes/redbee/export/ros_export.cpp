@@ -103,15 +103,15 @@ CdrBytes exportBoxes(int64_t utime, const std::vector<Detection>& boxes) {
 }
 
 CdrBytes exportImu(const ins_t& imu) {
-  constexpr double kMissing = -1, kUnknown = 0;
+  constexpr double kMissing = -1, kNotKnown = 0;
   constexpr std::array<double, 4> kNoTurn{0, 0, 0, 1};
   CdrWriter out;
   writeHeader(out, imu.utime, kImuFrame).numbers(kNoTurn.data(), kNoTurn.size());
   writeCovariance(out, kMissing);
   out.numbers(imu.gyro, 3);
-  writeCovariance(out, kUnknown);
+  writeCovariance(out, kNotKnown);
   out.numbers(imu.accel, 3);
-  writeCovariance(out, kUnknown);
+  writeCovariance(out, kNotKnown);
   return out.bytes();
 }
 
