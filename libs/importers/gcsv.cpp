@@ -9,7 +9,6 @@
 #include "redbee/files/csv.hpp"
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
-#include "redbee/geometry/median.hpp"
 #include "redbee/importers/gravity.hpp"
 #include "redbee/importers/row_times.hpp"
 
@@ -73,13 +72,10 @@ struct Unit {
 };
 
 Unit unitOf(const std::vector<ImuSample>& samples) {
-  std::vector<double> lengths;
-  lengths.reserve(samples.size());
-  for (const ImuSample& sample : samples) lengths.push_back(sample.accel.norm());
   const auto unitBy = [](double length) {
     return Unit{isGravity(kStandardGravityOfGcsv * length), isGravity(length)};
   };
-  const double length = median(lengths);
+  const double length = medianForce(samples);
   const Unit unit = unitBy(length);
   // The mean is right only with the gyro's unit; of a sensor that is shaken hard there is nothing better.
   if (unit.is_g || unit.is_metric) return unit;

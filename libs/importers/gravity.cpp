@@ -42,6 +42,13 @@ class Window {
 
 bool isGravity(double length) { return length >= kLeastGravity && length <= kMostGravity; }
 
+double medianForce(const std::vector<ImuSample>& imu) {
+  std::vector<double> lengths;
+  lengths.reserve(imu.size());
+  for (const ImuSample& sample : imu) lengths.push_back(sample.accel.norm());
+  return median(lengths);
+}
+
 std::optional<double> meanGravity(const std::vector<ImuSample>& imu, double gyro_scale) {
   std::vector<double> lengths;
   Window window;

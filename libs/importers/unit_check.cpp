@@ -55,13 +55,6 @@ std::optional<double> turnDisagreement(const std::vector<ImuSample>& imu, double
   return sum / static_cast<double>(all.size() - 2);
 }
 
-double medianForce(const std::vector<ImuSample>& imu) {
-  std::vector<double> lengths;
-  lengths.reserve(imu.size());
-  for (const ImuSample& sample : imu) lengths.push_back(sample.accel.norm());
-  return median(lengths);
-}
-
 }  // namespace
 
 double medianPeriod_s(const std::vector<ImuSample>& imu) {
