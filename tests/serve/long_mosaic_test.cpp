@@ -58,14 +58,10 @@ TEST_F(LongMosaic, FramesThatAreRefusedAddNothingToTheTracks) {
   step(0);
   ask();
   fly(1, 40);
-  jump_px_ = 30'000;
-  step(40);
-  jump_px_ = 0;
+  leap(40, 30'000);
   fly(41, 60);
   ask();
-  jump_px_ = -30'000;
-  step(60);
-  jump_px_ = 0;
+  leap(60, -30'000);
   fly(61, 90);
   const Bundle bundle = ask();
   EXPECT_GT(find(80, 1, bundle.image).first, 0.95) << "goes on where it was";
@@ -78,9 +74,7 @@ TEST_F(LongMosaic, BeginsAnewWhereTheFlightIsTooFarFromIt) {
   step(0);
   ask();
   fly(1, 40);
-  jump_px_ = 30'000;
-  step(40);
-  jump_px_ = 0;
+  leap(40, 30'000);
   for (int k = 41; k < 161; k += 20) {
     fly(k, k + 20);
     ask();

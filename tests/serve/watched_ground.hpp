@@ -63,6 +63,13 @@ class WatchedGround : public testing::Test {
     mosaic().onFused(m);
   }
 
+  /// The step to frame k, of so many pixels more.
+  void leap(int k, double px) {
+    jump_px_ = px;
+    step(k);
+    jump_px_ = 0;
+  }
+
   FrameView frame(int k) const {
     cv::Mat1b grey = texture_(cv::Rect(kStep_px * k, 0, kWidth, kHeight)).clone();
     cv::Mat1b mask = cv::Mat1b::zeros(grey.size());
