@@ -1,43 +1,16 @@
 #include "redbee/visual/patch_alignment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+
+#include "redbee/visual/sample_place.hpp"
 
 namespace redbee {
 namespace {
 
 constexpr int kMaxWindow = 31;
-
-/// std::lround(), which is a call.
-int32_t rounded(double value) { return static_cast<int32_t>(value + std::copysign(0.5, value)); }
-
-/// Where a patch's top left pixel and its bilinear weights lie for a centre between pixels.
-struct SamplePlace {
-  SamplePlace(const PyramidLevel& level, const Eigen::Vector2d& centre, int half) {
-    const double floor_x = std::floor(centre.x());
-    const double floor_y = std::floor(centre.y());
-    const double fx = centre.x() - floor_x;
-    const double fy = centre.y() - floor_y;
-    constexpr int kOne = 1 << BilinearWeights::kWeightBits;
-    const auto fixed = [](double w) { return static_cast<int16_t>(rounded(w * kOne)); };
-    weights.top_left = fixed((1 - fx) * (1 - fy));
-    weights.top_right = fixed(fx * (1 - fy));
-    weights.bottom_left = fixed((1 - fx) * fy);
-    weights.bottom_right =
-        static_cast<int16_t>(kOne - weights.top_left - weights.top_right - weights.bottom_left);
-    corner = level.at(static_cast<int>(floor_x) - half, static_cast<int>(floor_y) - half);
-  }
-  const uint8_t* corner;
-  BilinearWeights weights{};
-};
-
-bool isNear(const PyramidLevel& level, const Eigen::Vector2d& centre) {
-  const double reach = PatchShape::kOverhang - 1;
-  // Written so that a NaN is not near.
-  return centre.x() >= -reach && centre.y() >= -reach && centre.x() <= level.width - 1 + reach &&
-         centre.y() <= level.height - 1 + reach;
-}
 
 }  // namespace
 
@@ -54,8 +27,24 @@ PatchShape::PatchShape(int window_px) : side(window_px), half(window_px / 2), la
 
 template <typename Lanes>
 struct PatchTemplate<Lanes>::Moments {
+  /// The stored differences span two pixels: half of them is the gradient.
+  explicit Moments(const TemplateSums& sums)
+      : grey(static_cast<double>(sums.grey)),
+        grey_grey(static_cast<double>(sums.grey_grey)),
+        x(static_cast<double>(sums.x) / 2),
+        y(static_cast<double>(sums.y) / 2),
+        x_grey(static_cast<double>(sums.x_grey) / 2),
+        y_grey(static_cast<double>(sums.y_grey) / 2),
+        xx(static_cast<double>(sums.xx) / 4),
+        xy(static_cast<double>(sums.xy) / 4),
+        yy(static_cast<double>(sums.yy) / 4) {}
   double grey, grey_grey, x, y, x_grey, y_grey, xx, xy, yy;
 };
+
+template <typename Lanes>
+TemplateRows PatchTemplate<Lanes>::stored() {
+  return {shape_.side, shape_.lanes, mask_.data(), grey_.data(), gradient_x_.data(), gradient_y_.data()};
+}
 
 template <typename Lanes>
 void PatchTemplate<Lanes>::extract(const PyramidLevel& level, int x, int y) {
@@ -73,6 +62,8 @@ template <typename Lanes>
 typename PatchTemplate<Lanes>::Moments PatchTemplate<Lanes>::cut(const PyramidLevel& level, int x, int y) {
   const std::size_t stride = level.stride();
   const uint8_t* row = level.at(x - shape_.half, y - shape_.half);
+  TemplateSums sums{};
+  if (Lanes::kMayBeLonger && cutTemplate(row, stride, stored(), sums)) return Moments(sums);
   const auto one = Lanes::spread(1);
   auto grey = Lanes::zero(), grey_grey = Lanes::zero(), sum_x = Lanes::zero(), sum_y = Lanes::zero();
   auto x_grey = Lanes::zero(), y_grey = Lanes::zero();
@@ -100,12 +91,9 @@ typename PatchTemplate<Lanes>::Moments PatchTemplate<Lanes>::cut(const PyramidLe
       yy = Lanes::addProducts(yy, gy, gy);
     }
   }
-  // The differences above span two pixels: half of them is the gradient.
-  const auto sum = [](const auto& lanes, double scale) {
-    return scale * static_cast<double>(Lanes::total(lanes));
-  };
-  return {sum(grey, 1),     sum(grey_grey, 1), sum(sum_x, 0.5), sum(sum_y, 0.5), sum(x_grey, 0.5),
-          sum(y_grey, 0.5), sum(xx, 0.25),     sum(xy, 0.25),   sum(yy, 0.25)};
+  return Moments({Lanes::total(grey), Lanes::total(grey_grey), Lanes::total(sum_x), Lanes::total(sum_y),
+                  Lanes::total(x_grey), Lanes::total(y_grey), Lanes::total(xx), Lanes::total(xy),
+                  Lanes::total(yy)});
 }
 
 template <typename Lanes>
@@ -144,6 +132,13 @@ void PatchTemplate<Lanes>::projectGradients() {
   const auto fixedConstant = [&](double c) { return -rounded(c * unit) + (1 << (kProjectBits - 1)); };
   const int16_t fixed_slope_x = fixedSlope(slope_x_), fixed_slope_y = fixedSlope(slope_y_);
   const int32_t fixed_constant_x = fixedConstant(constant_x_), fixed_constant_y = fixedConstant(constant_y_);
+  const GradientProjection projection{factor, fixed_slope_x, fixed_slope_y, fixed_constant_x,
+                                      fixed_constant_y};
+  if (Lanes::kMayBeLonger && projectTemplate(stored(), projection, offset_x_, offset_y_)) {
+    offset_x_ *= 1 << kSampleBits;
+    offset_y_ *= 1 << kSampleBits;
+    return;
+  }
   auto sum_x = Lanes::zero(), sum_y = Lanes::zero();
   std::size_t at = 0;
   for (int i = 0; i < shape_.side; ++i) {
@@ -206,33 +201,41 @@ Alignment PatchTemplate<Lanes>::align(const PyramidLevel& level, Eigen::Vector2d
 }
 
 template <typename Lanes>
+void PatchTemplate<Lanes>::sample(const SampledPatch& patch, int16_t* samples) const {
+  if (Lanes::kMayBeLonger && storeSamples(patch, samples)) return;
+  const uint8_t* row = patch.corner;
+  for (int i = 0; i < shape_.side; ++i, row += patch.stride) {
+    for (int lane = 0; lane < shape_.lanes; ++lane, samples += 8)
+      Lanes::store(samples, Lanes::sample(row + 8 * lane, row + patch.stride + 8 * lane, patch.weights));
+  }
+}
+
+template <typename Lanes>
 double PatchTemplate<Lanes>::residual(const PyramidLevel& level, const Eigen::Vector2d& centre) const {
-  const std::size_t stride = level.stride();
   const SamplePlace place(level, centre, shape_.half);
   const auto one = Lanes::spread(1);
   const auto scale = Lanes::spread(1 << kSampleBits);
   const int pixels = shape_.side * shape_.side;
+  std::array<int16_t, kMaxWindow * 8 * ((kMaxWindow + 7) / 8)> samples;
+  sample({place.corner, level.stride(), shape_.side, shape_.lanes, place.weights}, samples.data());
   const auto visit = [&](const auto& use) {
-    const uint8_t* row = place.corner;
     std::size_t at = 0;
-    for (int i = 0; i < shape_.side; ++i, row += stride) {
-      for (int lane = 0; lane < shape_.lanes; ++lane, at += 8) {
-        use(Lanes::sample(row + 8 * lane, row + stride + 8 * lane, place.weights), at,
-            Lanes::load(&mask_[static_cast<std::size_t>(8 * lane)]));
-      }
+    for (int i = 0; i < shape_.side; ++i) {
+      for (int lane = 0; lane < shape_.lanes; ++lane, at += 8)
+        use(Lanes::load(&samples[at]), at, Lanes::load(&mask_[static_cast<std::size_t>(8 * lane)]));
     }
   };
   auto sum = Lanes::zero();
-  visit([&](const auto& sample, std::size_t, const auto& mask) {
-    sum = Lanes::addProducts(sum, Lanes::mask(sample, mask), one);
+  visit([&](const auto& value, std::size_t, const auto& mask) {
+    sum = Lanes::addProducts(sum, Lanes::mask(value, mask), one);
   });
   const double mean = static_cast<double>(Lanes::total(sum)) / pixels;
   const auto brightness =
       Lanes::spread(static_cast<int16_t>(rounded(mean - mean_grey_ * (1 << kSampleBits))));
   auto absolute = Lanes::zero();
-  visit([&](const auto& sample, std::size_t at, const auto& mask) {
+  visit([&](const auto& value, std::size_t at, const auto& mask) {
     const auto expected = Lanes::multiply(Lanes::load(&grey_[at]), scale);
-    const auto difference = Lanes::subtract(Lanes::subtract(sample, expected), brightness);
+    const auto difference = Lanes::subtract(Lanes::subtract(value, expected), brightness);
     absolute = Lanes::addProducts(absolute, Lanes::mask(Lanes::magnitude(difference), mask), one);
   });
   return static_cast<double>(Lanes::total(absolute)) / (pixels << kSampleBits);

@@ -14,6 +14,7 @@
 #include "redbee/imaging/pyramid.hpp"
 #include "redbee/visual/lanes.hpp"
 #include "redbee/visual/patch_kernels.hpp"
+#include "redbee/visual/template_kernels.hpp"
 
 namespace redbee {
 
@@ -71,9 +72,11 @@ class PatchTemplate {
 
  private:
   struct Moments;
+  TemplateRows stored();
   Moments cut(const PyramidLevel& level, int x, int y);
   void solve(const Moments& m);
   void projectGradients();
+  void sample(const SampledPatch& patch, int16_t* samples) const;
   PatchProducts products(const uint8_t* corner, std::size_t stride, const BilinearWeights& weights) const;
 
   PatchShape shape_;

@@ -25,4 +25,7 @@ struct PatchProducts {
 bool sampleProducts(const SampledPatch& patch, const int16_t* gradient_x, const int16_t* gradient_y,
                     PatchProducts& sums);
 
+/// The samples, stored like the gradients; the columns beyond the patch hold what lies beside it.
+bool storeSamples(const SampledPatch& patch, int16_t* samples);
+
 }  // namespace redbee

@@ -4,34 +4,25 @@
 #include <cstdint>
 
 #include "redbee/geometry/small_decompositions.hpp"
+#include "redbee/visual/sharpness_kernels.hpp"
 
 namespace redbee {
 
 double sharpnessOf(const cv::Mat1b& half) {
   if (half.empty()) return 0;
-  int64_t xx = 0, xy = 0, yy = 0;
+  GradientProducts total{0, 0, 0};
   for (int y = 1; y + 1 < half.rows; ++y) {
-    const uint8_t* above = half.ptr(y - 1);
-    const uint8_t* row = half.ptr(y);
-    const uint8_t* below = half.ptr(y + 1);
-    int32_t row_xx = 0, row_xy = 0, row_yy = 0;
-    for (int x = 1; x + 1 < half.cols; ++x) {
-      const int dx =
-          above[x + 1] - above[x - 1] + 2 * (row[x + 1] - row[x - 1]) + below[x + 1] - below[x - 1];
-      const int dy = below[x - 1] - above[x - 1] + 2 * (below[x] - above[x]) + below[x + 1] - above[x + 1];
-      row_xx += dx * dx;
-      row_xy += dx * dy;
-      row_yy += dy * dy;
-    }
-    xx += row_xx;
-    xy += row_xy;
-    yy += row_yy;
+    const uint8_t* const rows[3] = {half.ptr(y - 1), half.ptr(y), half.ptr(y + 1)};
+    const GradientProducts row = gradientProducts(rows, static_cast<size_t>(half.cols));
+    total.xx += row.xx;
+    total.xy += row.xy;
+    total.yy += row.yy;
   }
   constexpr double kSobelGain = 8;
   const double scale = 1 / (kSobelGain * kSobelGain * (half.cols - 2.0) * (half.rows - 2.0));
   Eigen::Matrix2d tensor;
-  tensor << static_cast<double>(xx), static_cast<double>(xy), static_cast<double>(xy),
-      static_cast<double>(yy);
+  tensor << static_cast<double>(total.xx), static_cast<double>(total.xy), static_cast<double>(total.xy),
+      static_cast<double>(total.yy);
   return smallestEigenvalue(scale * tensor);
 }
 

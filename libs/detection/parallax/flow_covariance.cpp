@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/detection/parallax/flow_covariance_kernels.hpp"
 #include "redbee/imaging/resampled.hpp"
 
 namespace redbee {
@@ -12,44 +13,49 @@ namespace {
 constexpr double kQuarter = 4;
 // Wider than a trunk or a post, the window holds the texture beside it, which says nothing of their flow.
 constexpr int kWindow_px = 3;  // of the quarter-size image
+constexpr int kEntries = 3;    // xx, xy, yy
 
 }  // namespace
 
 FlowCovariance::FlowCovariance(const cv::Mat3f& map, cv::Size size) : map_(map), size_(size) {
-  columns_.reserve(static_cast<size_t>(size.width));
   for (int x = 0; x < size.width; ++x) {
     const Resampled at(x, map.cols, size.width);
     const int left = std::clamp(at.before, 0, map.cols - 1);
     const bool is_between = at.before >= 0 && at.before < map.cols - 1;
-    columns_.push_back({left, std::min(left + 1, map.cols - 1), is_between ? at.beyond : 0});
+    left_.push_back(kEntries * left);
+    right_.push_back(kEntries * std::min(left + 1, map.cols - 1));
+    right_weight_.push_back(is_between ? static_cast<float>(at.beyond) : 0);
   }
 }
 
 FlowCovariance::FlowCovariance(cv::Size size, float variance)
     : FlowCovariance(cv::Mat3f(size, Symmetric2f(variance, 0, variance)), size) {}
 
-Symmetric2f FlowCovariance::along(const Symmetric2f* row, const Column& column) const {
-  return row[column.left] * (1 - column.right_weight) + row[column.right] * column.right_weight;
+Symmetric2f FlowCovariance::along(int row, size_t column) const {
+  const auto* values = map_.ptr<float>(row);
+  const auto entry = [&](int offset) {
+    return Symmetric2f(values[offset], values[offset + 1], values[offset + 2]);
+  };
+  const float beyond = right_weight_[column];
+  return entry(left_[column]) * (1 - beyond) + entry(right_[column]) * beyond;
 }
 
 Symmetric2f FlowCovariance::operator()(int y, int x) const {
   const Resampled at(y, map_.rows, size_.height);
   const auto inside = [&](int row) { return std::clamp(row, 0, map_.rows - 1); };
-  const Column& column = columns_[static_cast<size_t>(x)];
-  return along(map_[inside(at.before)], column) * (1 - at.beyond) +
-         along(map_[inside(at.before + 1)], column) * at.beyond;
+  const auto column = static_cast<size_t>(x);
+  return along(inside(at.before), column) * (1 - at.beyond) +
+         along(inside(at.before + 1), column) * at.beyond;
 }
 
 FlowCovariance::InterpolatedRow& FlowCovariance::interpolated(int row) {
   InterpolatedRow& kept = kept_[row % 2];
   if (kept.row == row) return kept;
   kept.row = row;
-  const size_t width = columns_.size();
-  kept.values.resize(3 * width);
-  for (size_t x = 0; x < width; ++x) {
-    const Symmetric2f value = along(map_[row], columns_[x]);
-    for (size_t i = 0; i < 3; ++i) kept.values[i * width + x] = value[static_cast<int>(i)];
-  }
+  const size_t width = right_weight_.size();
+  kept.values.resize(kEntries * width);
+  interpolateTensors(map_.ptr<float>(row), {left_.data(), right_.data(), right_weight_.data(), width},
+                     kept.values.data());
   return kept;
 }
 
@@ -57,7 +63,7 @@ FlowCovariance::Rows FlowCovariance::rows(int y) {
   const Resampled at(y, map_.rows, size_.height);
   const float* upper = interpolated(std::clamp(at.before, 0, map_.rows - 1)).values.data();
   const float* lower = interpolated(std::clamp(at.before + 1, 0, map_.rows - 1)).values.data();
-  const size_t width = columns_.size();
+  const size_t width = right_weight_.size();
   return {{upper, upper + width, upper + 2 * width},
           {lower, lower + width, lower + 2 * width},
           1 - at.beyond,
@@ -74,10 +80,7 @@ FlowCovariance FlowTexture::covariance(const FlowNoise& noise) const {
   cv::Mat3f covariance(gradients_.size());
   const auto variance = static_cast<float>(std::pow(noise.sigma_px / scale_, 2));
   const auto gradient2 = static_cast<float>(noise.min_gradient * noise.min_gradient);
-  const auto covarianceOf = [&](const Symmetric2f& S) {
-    return displacementCovariance(S, variance, gradient2);
-  };
-  std::transform(gradients_.begin(), gradients_.end(), covariance.begin(), covarianceOf);
+  displacementCovariances(gradients_, variance, gradient2, covariance);
   return {covariance, size_};
 }
 

@@ -1,6 +1,7 @@
 // Covariance of dense flow by the image's texture: along an edge the flow is not observed (aperture problem).
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -30,20 +31,17 @@ class FlowCovariance {
   Rows rows(int y);
 
  private:
-  struct Column {
-    int left, right;
-    float right_weight;
-  };
   struct InterpolatedRow {
     int row = -1;
     std::vector<float> values;  ///< xx, xy, yy
   };
-  Symmetric2f along(const Symmetric2f* row, const Column& column) const;
+  Symmetric2f along(int row, size_t column) const;
   InterpolatedRow& interpolated(int row);
 
   cv::Mat3f map_;
   cv::Size size_;
-  std::vector<Column> columns_;
+  std::vector<int32_t> left_, right_;  ///< of each column: offsets of its neighbours in a row of the map
+  std::vector<float> right_weight_;
   InterpolatedRow kept_[2];
 };
 

@@ -51,13 +51,18 @@ cv::Vec3f meanAround(const cv::Mat3f& of, int x, int y) {
 cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, double noise) {
   const cv::Size size = images.current.size();
   cv::Mat1f gain(size, kNotCompared);
-  if (cv::countNonZero(where) == 0) return gain;
+  const cv::Rect part = cv::boundingRect(where);
+  if (part.empty()) return gain;
   cv::Mat3f squared(size);  // where needed: by the flow, the segment's nearest point, the ground
+  constexpr int kBeside_px = kWindow_px / 2;
+  const cv::Rect around = cv::Rect(part.x - kBeside_px, part.y - kBeside_px, part.width + 2 * kBeside_px,
+                                   part.height + 2 * kBeside_px) &
+                          cv::Rect({}, size);
   cv::Mat1b needed;
-  cv::dilate(where, needed, cv::Mat1b::ones(kWindow_px, kWindow_px));
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      if (needed(y, x) == 0) continue;
+  cv::dilate(where(around), needed, cv::Mat1b::ones(kWindow_px, kWindow_px));
+  for (int y = around.y; y < around.br().y; ++y) {
+    for (int x = around.x; x < around.br().x; ++x) {
+      if (needed(y - around.y, x - around.x) == 0) continue;
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const cv::Vec2f ground = pixel - images.ground.at(pixel[0], pixel[1]);
       const auto now = static_cast<float>(images.current(y, x));
@@ -68,8 +73,8 @@ cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, doubl
     }
   }
   const auto noise2 = static_cast<float>(std::clamp(noise * noise, kLeastNoise2, kMostNoise2));
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
+  for (int y = part.y; y < part.br().y; ++y) {
+    for (int x = part.x; x < part.br().x; ++x) {
       if (where(y, x) == 0) continue;
       const cv::Vec3f mean = meanAround(squared, x, y);
       const float by_flow = mean[0];

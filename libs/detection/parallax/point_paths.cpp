@@ -221,9 +221,10 @@ void PointPaths::begin(const cv::Mat1b& excluded) {
       std::optional<cv::Point> at;
       for (int y = row * cell; y < (row + 1) * cell; ++y) {
         for (int x = column * cell; x < (column + 1) * cell; ++x) {
-          const float texture = smallestEigenvalue(tensor_(y, x));
-          if (texture <= best) continue;
-          best = texture;
+          const Symmetric2f& S = tensor_(y, x);
+          if (0.5F * (S[0] + S[2]) <= best) continue;  // the mean of both eigenvalues
+          if (smallestEigenvalue(S) <= best) continue;
+          best = smallestEigenvalue(S);
           at = cv::Point(x, y);
         }
       }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "redbee/detection/parallax/flow_covariance_kernels.hpp"
 #include "redbee/detection/parallax/structure_tensor_kernels.hpp"
 
 namespace redbee {
@@ -81,6 +82,13 @@ Symmetric2f displacementCovariance(const Symmetric2f& S, float variance, float m
   const float determinant = (mean + radius + kNoGradient2) * (std::max(mean - radius, 0.0F) + kNoGradient2);
   const float scaled = variance * min_gradient2 / determinant;
   return {variance + scaled * yy, -scaled * S[1], variance + scaled * xx};
+}
+
+void displacementCovariances(const cv::Mat3f& tensors, float variance, float min_gradient2,
+                             cv::Mat3f& covariances) {
+  for (int y = 0; y < tensors.rows; ++y)
+    covariancesOfTensors(tensors.ptr<float>(y), static_cast<size_t>(tensors.cols), variance, min_gradient2,
+                         kNoGradient2, covariances.ptr<float>(y));
 }
 
 }  // namespace redbee

@@ -26,5 +26,8 @@ cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px);
 /// variance (I + min_gradient2 S^-1): `variance` over good texture, twice as much along a gradient of the
 /// root of `min_gradient2`.
 Symmetric2f displacementCovariance(const Symmetric2f& S, float variance, float min_gradient2);
+/// Of all pixels. `covariances`: of the tensors' size.
+void displacementCovariances(const cv::Mat3f& tensors, float variance, float min_gradient2,
+                             cv::Mat3f& covariances);
 
 }  // namespace redbee
