@@ -58,11 +58,12 @@ double meanGain(const cv::Mat1f& map, cv::Size image, const cv::Rect& box, const
   return count > 0 ? sum / count : 1;
 }
 
-/// Adds a region of `found.part`, if it is strong enough. `pixels`: of the region in its box.
-void add(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Rect& in_part, int area,
+/// Adds a region, if it is strong enough. `box`: of the image, in `found.part`; `pixels`: of the region in
+/// it.
+void add(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Rect& box, int area,
          const cv::Mat1b& pixels, double weak_threshold, const ComponentMaps& maps) {
   Component component;
-  component.box = in_part + found.part.tl();
+  component.box = box;
   component.area_px = area;
   component.score = cv::mean(probability(component.box), pixels)[0] / kFull;
   component.peak = peakOf(probability(component.box), pixels) / kFull;
@@ -71,7 +72,7 @@ void add(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Re
   if (!maps.residual.empty())
     component.residual_around = meanAround(maps.residual, probability.size(), component.box);
   found.components.push_back(component);
-  found.labels(in_part).setTo(static_cast<double>(found.components.size()), pixels);
+  found.labels(box - found.part.tl()).setTo(static_cast<double>(found.components.size()), pixels);
 }
 
 /// Of the box whose centre is nearest in units of its sides.
@@ -91,18 +92,21 @@ size_t nearestBox(const std::vector<cv::Rect2d>& boxes, int x, int y) {
 
 void addForeground(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Mat1b& unknown,
                    const ObjectParameters& parameters, const ComponentMaps& maps) {
-  const cv::Mat1b foreground = foregroundPart(probability, unknown, parameters, found.part);
+  cv::Rect part;
+  const cv::Mat1b foreground = foregroundPart(probability, unknown, parameters, part);
   if (foreground.empty()) return;
-  found.labels = cv::Mat1i::zeros(foreground.size());
+  found.part = part;
+  if (!maps.moving.empty()) found.part |= movingPart(maps.moving, found.image, parameters.closing_px);
+  found.labels = cv::Mat1i::zeros(found.part.size());
   const double min_area_px = parameters.min_area_px;
   forEachRegion(foreground, min_area_px, [&](const cv::Rect& region, int, const cv::Mat1b& own) {
-    const cv::Mat1b values = probability(region + found.part.tl());
+    const cv::Mat1b values = probability(region + part.tl());
     const double peak = peakOf(values, own);
     if (peak <= kFull * parameters.weak_threshold) return;
     const double end = std::min(kExtentOfPeak * peak, kExtentOfThreshold * kFull * parameters.threshold);
     const cv::Mat1b extents = own & (values > end);
     forEachRegion(extents, min_area_px, [&](const cv::Rect& box, int area, const cv::Mat1b& pixels) {
-      add(found, probability, box + region.tl(), area, pixels, parameters.weak_threshold, maps);
+      add(found, probability, box + region.tl() + part.tl(), area, pixels, parameters.weak_threshold, maps);
     });
   });
 }

@@ -18,26 +18,37 @@ constexpr double kGain = 1.5;
 /// Grows the part of the image in which components are labelled.
 void growPart(ForegroundComponents& found, const cv::Rect& by) {
   const cv::Rect grown = found.part | by;
+  if (grown == found.part) return;
   cv::Mat1i labels = cv::Mat1i::zeros(grown.size());
   if (!found.labels.empty()) found.labels.copyTo(labels(found.part - grown.tl()));
   found.part = grown;
   found.labels = labels;
 }
 
-/// Where a map, resized to an image, exceeds kRegion, with holes closed. Only what is not 0, and as far
-/// around it as the closing reaches, is processed: `place`, in the image.
-cv::Mat1b movingMask(const cv::Mat1f& map, cv::Size image, int closing_px, cv::Rect& place) {
+/// Of the map: only what is not 0, and as far around it as the closing reaches, is processed. All of it where
+/// the image is no multiple of it.
+cv::Rect partOfMap(const cv::Mat1f& map, cv::Size image, int closing_px) {
   constexpr int kBeside_px = 2;  // of the map, for its interpolation
   const cv::Rect whole({}, map.size());
   const int scale = std::max(1, image.width / map.cols);
-  cv::Rect part = whole;
-  place = cv::Rect({}, image);
-  if (image == map.size() * scale) {
-    const int reach = kBeside_px + (closing_px + scale - 1) / scale;
-    const cv::Rect set = cv::boundingRect(cv::Mat1b(map > 0));
-    part = cv::Rect(set.x - reach, set.y - reach, set.width + 2 * reach, set.height + 2 * reach) & whole;
-    place = cv::Rect(part.tl() * scale, part.size() * scale);
-  }
+  if (image != map.size() * scale) return whole;
+  const cv::Rect set = cv::boundingRect(cv::Mat1b(map > 0));
+  if (set.empty()) return {};
+  const int reach = kBeside_px + (closing_px + scale - 1) / scale;
+  return cv::Rect(set.x - reach, set.y - reach, set.width + 2 * reach, set.height + 2 * reach) & whole;
+}
+
+cv::Rect inImage(const cv::Rect& part, const cv::Mat1f& map, cv::Size image) {
+  if (part.size() == map.size()) return {{}, image};
+  const int scale = std::max(1, image.width / map.cols);
+  return {part.tl() * scale, part.size() * scale};
+}
+
+/// Where the map, resized to the image, exceeds kRegion, with holes closed. `place`: in the image.
+cv::Mat1b movingMask(const cv::Mat1f& map, cv::Size image, int closing_px, cv::Rect& place) {
+  const cv::Rect part = partOfMap(map, image, closing_px);
+  place = inImage(part, map, image);
+  if (part.empty()) return {};
   cv::Mat1f moving;
   cv::resize(map(part), moving, place.size(), 0, 0, cv::INTER_LINEAR);
   cv::Mat1b mask = moving > kRegion;
@@ -53,10 +64,15 @@ bool isCovered(const ForegroundComponents& found, size_t count, const cv::Rect& 
 
 }  // namespace
 
+cv::Rect movingPart(const cv::Mat1f& moving, cv::Size image, int closing_px) {
+  return inImage(partOfMap(moving, image, closing_px), moving, image);
+}
+
 void addMovingComponents(ForegroundComponents& found, const cv::Mat1b& unknown,
                          const ObjectParameters& parameters, const ComponentMaps& maps) {
   cv::Rect place;
   cv::Mat1b mask = movingMask(maps.moving, found.image, parameters.closing_px, place);
+  if (mask.empty()) return;
   mask.setTo(0, unknown(place));
   const cv::Rect inside = cv::boundingRect(mask), part = inside + place.tl();
   if (inside.empty()) return;

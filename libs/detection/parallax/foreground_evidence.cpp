@@ -7,6 +7,7 @@
 
 #include "redbee/imaging/grey_reconstruction.hpp"
 #include "redbee/imaging/guided_filter.hpp"
+#include "redbee/imaging/repeated_pixels.hpp"
 
 namespace redbee {
 namespace {
@@ -124,7 +125,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   maps.gain = motion_.photometricGain(foreground);
   maps.residual = motion_.residual();
   maps.moving = around_points;
-  cv::resize(motion_.unknown(), maps.unknown, full, 0, 0, cv::INTER_NEAREST);
+  maps.unknown = repeatedPixels(motion_.unknown(), full);
   foreground.convertTo(maps.foreground, CV_8U, 255);
   cv::resize(maps.foreground, maps.foreground, full, 0, 0, cv::INTER_LINEAR);
   return maps;
