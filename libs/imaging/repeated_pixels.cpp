@@ -1,10 +1,16 @@
 #include "redbee/imaging/repeated_pixels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
 
 namespace redbee {
+namespace {
+
+constexpr int kTogether = 16;
+
+}  // namespace
 
 cv::Mat1b repeatedPixels(const cv::Mat1b& mask, cv::Size size) {
   cv::Mat1b repeated;
@@ -16,7 +22,16 @@ cv::Mat1b repeatedPixels(const cv::Mat1b& mask, cv::Size size) {
   for (int y = 0; y < mask.rows; ++y) {
     const uint8_t* from = mask[y];
     uint8_t* first = repeated[2 * y];
-    for (int x = 0; x < mask.cols; ++x) first[2 * x] = first[2 * x + 1] = from[x];
+    int x = 0;
+    for (; x + kTogether <= mask.cols;
+         x += kTogether) {  // copies, so that the compiler need not fear overlap
+      std::array<uint8_t, kTogether> once{};
+      std::array<uint8_t, 2 * kTogether> twice{};
+      std::copy_n(from + x, kTogether, once.begin());
+      for (size_t i = 0; i < kTogether; ++i) twice[2 * i] = twice[2 * i + 1] = once[i];
+      std::copy_n(twice.begin(), 2 * kTogether, first + 2 * x);
+    }
+    for (; x < mask.cols; ++x) first[2 * x] = first[2 * x + 1] = from[x];
     std::copy_n(first, size.width, repeated[2 * y + 1]);
   }
   return repeated;
