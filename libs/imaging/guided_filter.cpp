@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "redbee/imaging/guided_filter_kernels.hpp"
+#include "redbee/imaging/resampled.hpp"
 
 namespace redbee {
 namespace {
@@ -31,13 +32,6 @@ cv::Mat1f product(const cv::Mat1f& a, const cv::Mat1f& b) {
   cv::Mat1f product;
   cv::multiply(a, b, product);
   return product;
-}
-
-cv::Mat1f resized(const cv::Mat1f& map, cv::Size size, int interpolation) {
-  if (map.size() == size) return map;
-  cv::Mat1f to;
-  cv::resize(map, to, size, 0, 0, interpolation);
-  return to;
 }
 
 }  // namespace

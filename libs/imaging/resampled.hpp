@@ -1,7 +1,8 @@
-// Where cv::resize() with linear interpolation takes a pixel from.
+// cv::resize(): not where nothing changes, and where it takes a pixel from.
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace redbee {
 
@@ -17,5 +18,13 @@ struct Resampled {
   int before;
   float beyond;
 };
+
+/// The map itself, not copied, if it has that size already.
+inline cv::Mat1f resized(const cv::Mat1f& map, cv::Size size, int interpolation = cv::INTER_LINEAR) {
+  if (map.size() == size) return map;
+  cv::Mat1f to;
+  cv::resize(map, to, size, 0, 0, interpolation);
+  return to;
+}
 
 }  // namespace redbee

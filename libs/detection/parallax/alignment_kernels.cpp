@@ -4,7 +4,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "redbee/detection/parallax/alignment_kernels.hpp"
+#include "redbee/imaging/for_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace redbee {
@@ -59,6 +62,41 @@ HWY_INLINE uint8_t interpolated(const EarlierImage& image, int x32, int y32) {
   return blend(right, below, pixel(x, y), pixel(x + 1, y), pixel(x, y + 1), pixel(x + 1, y + 1));
 }
 
+/// interpolated() for as many pixels as there are lanes; false, and nothing done, if one of them needs what
+/// lies beyond the border, or the bytes behind the image.
+template <typename D>
+HWY_INLINE bool interpolate(D d, const EarlierImage& image, const int32_t* x32, const int32_t* y32,
+                            uint8_t* to) {
+  const hn::RebindToUnsigned<D> without_sign;
+  const auto constant = [&](int value) HWY_ATTR { return hn::Set(d, value); };
+  const auto x = hn::LoadU(d, x32), y = hn::LoadU(d, y32);
+  const auto column = hn::ShiftRight<5>(x), row = hn::ShiftRight<5>(y);
+  const auto is_inside = [&](auto at, int size) HWY_ATTR {
+    return hn::Lt(hn::BitCast(without_sign, at), hn::Set(without_sign, static_cast<uint32_t>(size)));
+  };
+  constexpr int kBehind = 3;  // four bytes are read
+  if (image.width <= kBehind || image.height <= 1) return false;
+  if (!hn::AllTrue(without_sign,
+                   hn::And(is_inside(column, image.width - kBehind), is_inside(row, image.height - 1))))
+    return false;
+  const auto offset = hn::Add(hn::Mul(row, constant(static_cast<int>(image.stride))), column);
+  const auto* const top = reinterpret_cast<const int32_t*>(image.pixels);
+  const auto* const bottom = reinterpret_cast<const int32_t*>(image.pixels + image.stride);
+  const auto right = hn::And(x, constant(kSubpixels - 1)), below = hn::And(y, constant(kSubpixels - 1));
+  const auto between = [&](auto pixels) HWY_ATTR {
+    const auto first = hn::And(pixels, constant(0xFF));
+    const auto second = hn::And(hn::ShiftRight<8>(pixels), constant(0xFF));
+    return hn::Add(hn::ShiftLeft<5>(first), hn::Mul(right, hn::Sub(second, first)));
+  };
+  const auto upper = between(hn::GatherOffset(d, top, offset));
+  const auto lower = between(hn::GatherOffset(d, bottom, offset));
+  const auto sum = hn::Add(hn::ShiftLeft<5>(upper), hn::Mul(below, hn::Sub(lower, upper)));
+  const auto value = hn::ShiftRight<10>(hn::Add(sum, constant(kSubpixels * kSubpixels / 2)));
+  const hn::Rebind<uint8_t, D> narrow;
+  hn::StoreU(hn::DemoteTo(narrow, value), narrow, to);
+  return true;
+}
+
 void align(const EarlierImage& image, const double* back, const AlignedRow& row) {
   const hn::ScalableTag<double> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -68,14 +106,30 @@ void align(const EarlierImage& image, const double* back, const AlignedRow& row)
   const int pixels = row.end - row.begin;
   const int32_t* x = row.places;
   const int32_t* y = x + pixels;
-  for (int i = 0; i < pixels; ++i) {
-    const bool is_inside = (static_cast<unsigned>(x[i]) < static_cast<unsigned>(image.width)) &
-                           (static_cast<unsigned>(y[i]) < static_cast<unsigned>(image.height));
-    row.unknown[row.begin + i] = is_inside ? 0 : 255;
-  }
+  forLanes<int32_t>(static_cast<size_t>(pixels), [&](auto tag, size_t i) HWY_ATTR {
+    const hn::RebindToUnsigned<decltype(tag)> without_sign;
+    const auto is_inside = [&](const int32_t* coordinates, int size) HWY_ATTR {
+      return hn::Lt(hn::BitCast(without_sign, hn::LoadU(tag, coordinates + i)),
+                    hn::Set(without_sign, static_cast<uint32_t>(size)));
+    };
+    const auto known = hn::And(is_inside(x, image.width), is_inside(y, image.height));
+    const auto value = hn::BitCast(tag, hn::IfThenZeroElse(known, hn::Set(without_sign, 255)));
+    const hn::Rebind<uint8_t, decltype(tag)> narrow;
+    hn::StoreU(hn::DemoteTo(narrow, value), narrow, row.unknown + row.begin + i);
+  });
   x += 2 * pixels;
   y += 2 * pixels;
-  for (int i = 0; i < pixels; ++i) row.grey[row.begin + i] = interpolated(image, x[i], y[i]);
+  const hn::ScalableTag<int32_t> wide;
+  const int together = static_cast<int>(hn::Lanes(wide));
+  uint8_t* grey = row.grey + row.begin;
+  for (int i = 0; i < pixels;) {
+    const int end = std::min(i + together, pixels);
+    if (end - i == together && interpolate(wide, image, x + i, y + i, grey + i)) {
+      i = end;
+      continue;
+    }
+    for (; i < end; ++i) grey[i] = interpolated(image, x[i], y[i]);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -8,6 +8,7 @@
 #include "redbee/imaging/grey_reconstruction.hpp"
 #include "redbee/imaging/guided_filter.hpp"
 #include "redbee/imaging/repeated_pixels.hpp"
+#include "redbee/imaging/resampled.hpp"
 
 namespace redbee {
 namespace {
@@ -108,8 +109,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
       // Half is enough: an object learned as background would be missed for the model's whole span.
       moving = cv::min(2 * foreground, 1);
       if (!around_points.empty()) {
-        cv::Mat1f small_movers;
-        cv::resize(around_points, small_movers, moving.size(), 0, 0, cv::INTER_LINEAR);
+        const cv::Mat1f small_movers = resized(around_points, moving.size());
         moving = cv::max(moving, cv::min(2 * small_movers, 1));
       }
     }

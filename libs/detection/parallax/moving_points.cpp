@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/imaging/resampled.hpp"
+
 namespace redbee {
 namespace {
 
@@ -96,8 +98,7 @@ std::vector<cv::Point> movingPoints(const std::vector<PointPath>& paths, double 
 cv::Mat1f movingRegion(const std::vector<cv::Point>& points, const cv::Mat1f& difference_of_any_size,
                        cv::Size size, double scale) {
   if (points.empty()) return {};
-  cv::Mat1f difference;
-  cv::resize(difference_of_any_size, difference, size, 0, 0, cv::INTER_LINEAR);
+  const cv::Mat1f difference = resized(difference_of_any_size, size);
   cv::Mat1f region = cv::Mat1f::zeros(size);
   const double reach_px = kReach_px / scale;
   const int reach = static_cast<int>(std::ceil(reach_px));

@@ -11,6 +11,7 @@
 #include "redbee/detection/parallax/moving_points.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
 #include "redbee/imaging/guided_filter.hpp"
+#include "redbee/imaging/resampled.hpp"
 #include "redbee/imaging/warping.hpp"
 
 namespace redbee {
@@ -182,8 +183,7 @@ std::optional<ParallaxSegment> ParallaxEvidence::segmentWithoutMotion(const Earl
 cv::Mat1f ParallaxEvidence::photometricGain(const cv::Mat1f& foreground) const {
   constexpr double kCompared = 0.1;  // objects begin above
   if (!compared_) return {};
-  cv::Mat1f at_work;
-  cv::resize(foreground, at_work, unknown_.size(), 0, 0, cv::INTER_LINEAR);
+  const cv::Mat1f at_work = resized(foreground, unknown_.size());
   return redbee::photometricGain(*compared_, at_work > kCompared, parameters_.photometric_noise);
 }
 
