@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "redbee/visual/patch_alignment.hpp"
+#include "tests/support/instruction_sets.hpp"
 #include "tests/support/textured_images.hpp"
 
 namespace redbee::test {
@@ -127,7 +128,10 @@ TEST(PointTracker, APartOfALargerImageEndsAtItsOwnEdge) {
   EXPECT_EQ(a.current, b.current);
 }
 
-TEST(PatchTemplate, PortableAndNativeAgreeToTheBit) {
+using PatchTemplateLanes = WithInstructions;
+REDBEE_WITH_INSTRUCTIONS(PatchTemplateLanes);
+
+TEST_P(PatchTemplateLanes, PortableAndNativeAgreeToTheBit) {
   const Canvas canvas(6);
   for (const int window : {5, 13, 21, 31}) {
     const PatchShape shape(window);

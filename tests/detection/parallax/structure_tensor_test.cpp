@@ -9,6 +9,8 @@
 namespace redbee::test {
 namespace {
 
+using DisplacementCovariances = WithInstructions;
+REDBEE_WITH_INSTRUCTIONS(DisplacementCovariances);
 using StructureTensor = WithInstructions;
 REDBEE_WITH_INSTRUCTIONS(StructureTensor);
 
@@ -39,6 +41,23 @@ TEST_P(StructureTensor, HoldsTheSteepestGradientsOfTheWidestWindow) {
   for (int x = 0; x < stripes.cols; ++x) stripes.col(x).setTo(x / 2 % 2 == 0 ? 0 : 255);
   EXPECT_LT(cv::norm(structureTensor(stripes, 45), byOpenCv(stripes, 45), cv::NORM_INF), 0.01);
   EXPECT_THROW(structureTensor(stripes, 47), std::invalid_argument);
+}
+
+TEST_P(DisplacementCovariances, AreTheScalarOnesToTheBit) {
+  cv::RNG random(6);
+  cv::Mat3f tensors(3, 37), covariances(tensors.size());
+  for (cv::Vec3f& S : tensors) {
+    const float x = random.uniform(-30.0F, 30.0F), y = random.uniform(-30.0F, 30.0F),
+                more = random.uniform(0.0F, 9.0F);
+    S = {x * x + more, x * y, y * y + more};
+  }
+  tensors(0, 0) = {0, 0, 0};
+  tensors(1, 1) = {900, 0, 0};
+  displacementCovariances(tensors, 0.25F, 64, covariances);
+  for (int y = 0; y < tensors.rows; ++y) {
+    for (int x = 0; x < tensors.cols; ++x)
+      EXPECT_EQ(covariances(y, x), displacementCovariance(tensors(y, x), 0.25F, 64)) << y << ' ' << x;
+  }
 }
 
 }  // namespace
