@@ -54,9 +54,11 @@ void ForegroundPublisher::publish(const image_t& image, CameraTime time_previous
   const Rectifier& rectifier = camera_.rectifier();
   // Of any detector: most know nothing of the vehicle's own parts.
   if (const cv::Mat1b& own_parts = rectifier.ownParts(exposure); !own_parts.empty()) {
-    output.probability.setTo(0, own_parts);
-    output.mask.setTo(0, own_parts);
-    output.unknown.setTo(kUnknown, own_parts);
+    for (const auto& [map, value] : {std::pair(&output.probability, 0), std::pair(&output.mask, 0),
+                                     std::pair(&output.unknown, static_cast<int>(kUnknown))}) {
+      *map = map->clone();
+      map->setTo(value, own_parts);
+    }
   }
   output.probability = rectifier.toRaw(output.probability, 0, exposure);
   output.mask = rectifier.toRaw(output.mask, 0, exposure);

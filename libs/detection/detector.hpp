@@ -57,7 +57,7 @@ enum class DetectorStatus {
 };
 const char* toString(DetectorStatus status);
 
-/// Images of FrameInput's full size.
+/// Images of FrameInput's full size. The detector may keep them: who changes one changes a copy.
 struct DetectorOutput {
   CameraTime time{};
   DetectorStatus status = DetectorStatus::kLearning;

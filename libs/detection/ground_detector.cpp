@@ -58,28 +58,22 @@ DetectorOutput GroundDetector::process(const FrameInput& input, bool continues, 
   tracker_.propagate(
       elapsed, continues ? input.ground : std::nullopt,
       is_camera_known ? std::optional(CameraStep{*input.motion, input.cameras()}) : std::nullopt);
-  DetectorOutput output = DetectorOutput::empty(input.time, size_, DetectorStatus::kLearning);
-  if (content == ImageContent::kUnusable || content == ImageContent::kFrozen) {
-    output.status = DetectorStatus::kBadImage;
+  const auto nothing = [&](DetectorStatus status) {
+    DetectorOutput output = DetectorOutput::empty(input.time, size_, status);
     output.detections = tracker_.skip(size_);
     return output;
-  }
+  };
+  if (content == ImageContent::kUnusable || content == ImageContent::kFrozen)
+    return nothing(DetectorStatus::kBadImage);
   ForegroundMaps maps = learn(input);
   if (maps.foreground.empty()) maps.foreground = cv::Mat1b::zeros(size_);
-  if (maps.unknown.empty()) maps.unknown = output.unknown;
+  if (maps.unknown.empty()) maps.unknown = cv::Mat1b(size_, 255);
   if (!input.own_parts.empty()) maps.unknown |= input.own_parts;
   cv::Mat1b probability = refinement_.enabled ? refined(maps.foreground, input) : maps.foreground;
   ++learned_;
-  if (!continues && !is_first) {
-    output.status = DetectorStatus::kNoHomography;
-  } else if (learned_ <= learning_frames_) {
-    output.status = DetectorStatus::kLearning;
-  } else {
-    output.status = DetectorStatus::kGood;
-    findObjects(std::move(probability), maps, output);
-  }
-  if (output.status != DetectorStatus::kGood) output.detections = tracker_.skip(size_);
-  return output;
+  if (!continues && !is_first) return nothing(DetectorStatus::kNoHomography);
+  if (learned_ <= learning_frames_) return nothing(DetectorStatus::kLearning);
+  return withObjects(input.time, std::move(probability), maps);
 }
 
 bool GroundDetector::isConsecutive(const FrameInput& input) const {
@@ -109,7 +103,11 @@ cv::Mat1b GroundDetector::refined(const cv::Mat1b& foreground, const FrameInput&
   return probability;
 }
 
-void GroundDetector::findObjects(cv::Mat1b probability, const ForegroundMaps& maps, DetectorOutput& output) {
+DetectorOutput GroundDetector::withObjects(CameraTime time, cv::Mat1b probability,
+                                           const ForegroundMaps& maps) {
+  DetectorOutput output;
+  output.time = time;
+  output.status = DetectorStatus::kGood;
   output.unknown = maps.unknown;
   probability.setTo(0, maps.unknown);
   cv::threshold(probability, output.probability, kNoise, 0, cv::THRESH_TOZERO);
@@ -118,6 +116,7 @@ void GroundDetector::findObjects(cv::Mat1b probability, const ForegroundMaps& ma
   TrackedObjects objects = tracker_.update(found);
   output.mask = found.mask(objects.components);
   output.detections = std::move(objects.detections);
+  return output;
 }
 
 }  // namespace redbee

@@ -34,7 +34,7 @@ class GroundDetector : public Detector {
   void reset();
   void propagate(const FrameInput& input);
   cv::Mat1b refined(const cv::Mat1b& foreground, const FrameInput& input);
-  void findObjects(cv::Mat1b probability, const ForegroundMaps& maps, DetectorOutput& output);
+  DetectorOutput withObjects(CameraTime time, cv::Mat1b probability, const ForegroundMaps& maps);
 
   int learning_frames_;
   RefinementParameters refinement_;

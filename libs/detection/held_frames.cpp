@@ -4,21 +4,8 @@
 #include "redbee/imaging/repeated_image.hpp"
 
 namespace redbee {
-namespace {
-
-/// The images of an output belong to the caller.
-DetectorOutput copyOf(const DetectorOutput& output) {
-  DetectorOutput copy = output;
-  copy.probability = output.probability.clone();
-  copy.mask = output.mask.clone();
-  copy.unknown = output.unknown.clone();
-  return copy;
-}
-
-}  // namespace
-
 void HeldFrames::begin(const DetectorOutput& output) {
-  output_ = copyOf(output);
+  output_ = output;
   since_.reset();
 }
 
@@ -27,7 +14,7 @@ bool HeldFrames::covers(CameraTime time) const { return output_ && time - output
 DetectorOutput HeldFrames::hold(const FrameInput& repeated) {
   const FrameInput whole = sinceImage(repeated);
   since_ = Motion{*whole.ground, whole.front, whole.motion, whole.K_previous};
-  DetectorOutput held = copyOf(*output_);
+  DetectorOutput held = *output_;
   held.time = repeated.time;
   return held;
 }
