@@ -131,7 +131,7 @@ class RtpSender {
   RtpSender& operator=(const RtpSender&) = delete;
 
   /// From a time [us] to the nearest at which an image was taken.
-  int64_t toNearest_us(int64_t utime) {
+  int64_t toNearest(int64_t utime) {
     const std::lock_guard lock(mutex_);
     int64_t nearest = 1'000'000'000;
     for (const int64_t taken : taken_us_) nearest = std::min(nearest, std::abs(taken - utime));
@@ -194,7 +194,7 @@ TEST(SenderClock, ImagesOverRtpHaveTheTimeAtWhichTheyWereTaken) {
   for (int i = 0; i < kMostWaits && stated < kImages && source.isOpen(); ++i) {
     const auto image = source.next(std::chrono::milliseconds(20));
     if (!image) continue;
-    const int64_t off_us = sender.toNearest_us(image->utime);
+    const int64_t off_us = sender.toNearest(image->utime);
     if (!source.timeFault().empty()) {
       EXPECT_THAT(source.timeFault(), HasSubstr("does not say when"));
       worst_before_us = std::max(worst_before_us, off_us);
