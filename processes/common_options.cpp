@@ -1,5 +1,7 @@
 #include "processes/common_options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "redbee/bus/receive_buffer.hpp"
@@ -29,6 +31,14 @@ CLI::Option* addResultsOption(CLI::App& command, std::filesystem::path& folder) 
   return command
       .add_option("--results,--detections", folder, "results of a run of detect or collect, a folder")
       ->required();
+}
+
+std::function<std::string(const std::string&)> numberFrom(double low, double high) {
+  return [low, high](const std::string& text) {
+    double value = 0;
+    const bool is_within = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+    return is_within ? "" : fmt::format("'{}' is no number from {} to {}", text, low, high);
+  };
 }
 
 }  // namespace redbee

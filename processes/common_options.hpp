@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace CLI {
@@ -21,5 +22,9 @@ CLI::Option* addLogOption(CLI::App& command, std::filesystem::path& file);
 CLI::Option* addOutOption(CLI::App& command, std::filesystem::path& path, const std::string& what);
 /// --results DIR, required; --detections is an alias.
 CLI::Option* addResultsOption(CLI::App& command, std::filesystem::path& folder);
+
+/// For CLI::Option::check(): a number from `low` to `high`. CLI::Range and CLI::PositiveNumber let "nan"
+/// pass.
+std::function<std::string(const std::string&)> numberFrom(double low, double high);
 
 }  // namespace redbee

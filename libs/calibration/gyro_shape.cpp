@@ -1,9 +1,11 @@
 #include "redbee/calibration/gyro_shape.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
+#include "redbee/geometry/chi_square.hpp"
 #include "redbee/geometry/median.hpp"
 #include "redbee/geometry/so3.hpp"
 
@@ -11,6 +13,9 @@ namespace redbee::calibration {
 namespace {
 
 constexpr int kUnknowns = 12;  // S, a rotation, the rest of the bias
+// Relative errors that a calibration of the lens leaves: of the focal length, and of all else (aspect,
+// distortion).
+constexpr double kFocalSigma = 0.002, kLensSigma = 0.0005;
 using Design = Eigen::Matrix<double, 3, kUnknowns>;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
@@ -31,6 +36,14 @@ Design designOf(const Eigen::Vector3d& w) {
   return J;
 }
 
+/// Images that are too large by a part e show rotations about the camera's x and y axes as too large by e.
+Vector6d scaleByFocalLength(const Eigen::Matrix3d& R_CI) {
+  const Eigen::Matrix3d S = R_CI.transpose() * Eigen::Vector3d(1, 1, 0).asDiagonal() * R_CI;
+  Vector6d shape;
+  shape << S.diagonal(), S(0, 1), S(0, 2), S(1, 2);
+  return shape;
+}
+
 }  // namespace
 
 Eigen::Matrix3d GyroShape::correction() const {
@@ -39,14 +52,26 @@ Eigen::Matrix3d GyroShape::correction() const {
   return Eigen::Matrix3d::Identity() + S;
 }
 
+double GyroShape::worstSigma() const {
+  if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
+  return std::sqrt(
+      std::max(0.0, Eigen::SelfAdjointEigenSolver<Matrix6d>(covariance).eigenvalues().maxCoeff()));
+}
+
+bool GyroShape::isSignificant() const {
+  constexpr double kCertain = 0.9973;  // three sigma
+  return covariance.allFinite() && shape.dot(covariance.ldlt().solve(shape)) > chiSquareQuantile(kCertain, 6);
+}
+
 GyroShape estimateGyroShape(const std::vector<RatePair>& pairs, const HandEye& solution) {
   constexpr int kRounds = 6;
+  // Of the recording, in time: within a part the pairs' errors, of frames in common and of the same motion,
+  // are correlated, so that the scatter is that of the parts' sums (cluster-robust, Liang and Zeger 1986).
+  constexpr size_t kParts = 36;
   constexpr double kLeastKnee = 1e-6;  // rad/s
   GyroShape result;
-  const double infinity = std::numeric_limits<double>::infinity();
-  result.sigma.setConstant(infinity);
-  result.worst_sigma = infinity;
-  if (pairs.size() < kUnknowns) return result;
+  result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  if (pairs.size() < 2 * kParts) return result;
   std::vector<double> squared(pairs.size(), 0.0), weight(pairs.size(), 1.0);
   Unknowns x = Unknowns::Zero();
   Information A, scatter;
@@ -66,24 +91,27 @@ GyroShape estimateGyroShape(const std::vector<RatePair>& pairs, const HandEye& s
     const double least = 1e-9 * eigen.eigenvalues().maxCoeff();
     if (eigen.eigenvalues().minCoeff() <= least) return result;
     x = A.ldlt().solve(b);
+    Unknowns of_part = Unknowns::Zero();
     for (size_t i = 0; i < pairs.size(); ++i) {
       const Design J = designOf(pairs[i].imu - solution.gyro_bias);
       const Eigen::Vector3d left = residualOf(i) - J * x;
       squared[i] = left.squaredNorm();
-      const Unknowns gradient = weight[i] * J.transpose() * left;
-      scatter += gradient * gradient.transpose();
+      of_part += weight[i] * J.transpose() * left;
+      const bool is_last_of_part = (i + 1) * kParts / pairs.size() != i * kParts / pairs.size();
+      if (!is_last_of_part) continue;
+      scatter += of_part * of_part.transpose();
+      of_part.setZero();
     }
     const double knee = std::max(2 * std::sqrt(median(squared)), kLeastKnee);
     for (size_t i = 0; i < pairs.size(); ++i) weight[i] = 1 / (1 + squared[i] / (knee * knee));
   }
-  constexpr double kPairsOfAFrame = 2;  // whose errors are correlated
+  constexpr double kFreedom = static_cast<double>(kParts) / (kParts - kUnknowns);
   const Information inverse = A.inverse();
-  const Information covariance = kPairsOfAFrame * inverse * scatter * inverse;
-  const Eigen::Matrix<double, 6, 6> of_shape = covariance.topLeftCorner<6, 6>();
+  const Information covariance = kFreedom * inverse * scatter * inverse;
+  const Vector6d focal = kFocalSigma * scaleByFocalLength(solution.R_CI);
   result.shape = x.head<6>();
-  result.sigma = of_shape.diagonal().cwiseMax(0).cwiseSqrt();
-  result.worst_sigma = std::sqrt(std::max(
-      0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(of_shape).eigenvalues().maxCoeff()));
+  result.covariance = covariance.topLeftCorner<6, 6>() + focal * focal.transpose() +
+                      kLensSigma * kLensSigma * Matrix6d::Identity();
   return result;
 }
 

@@ -2,7 +2,8 @@
 //
 //     R_CI' w_C = (I + S) (w_I - b)        S: symmetric; its antisymmetric part is a rotation of the mounting
 //
-// A wrong focal length looks like a scale about the camera's x and y axes.
+// A wrong focal length looks like a scale about the camera's x and y axes: what a calibration of the lens
+// leaves is part of the covariance, so that a scale about both has to be larger than a misalignment to count.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,22 +14,21 @@
 namespace redbee::calibration {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 struct GyroShape {
   Vector6d shape = Vector6d::Zero();  ///< of S: xx yy zz, xy xz yz
-  Vector6d sigma = Vector6d::Zero();  ///< infinity where the rotation does not show the entry
-  double worst_sigma = 0;             ///< along the least certain direction
+  /// Infinite on its diagonal where the rotation does not show S.
+  Matrix6d covariance = Matrix6d::Zero();
 
   /// I + S: turns measured rates, their bias taken off, into true ones.
   Eigen::Matrix3d correction() const;
-  /// Whether an entry is beyond its deviation and beyond what a focal length's ordinary error looks like.
-  bool isSignificant() const {
-    constexpr double kOrdinary = 0.005;
-    return (shape.array().abs() > (3 * sigma.array()).max(kOrdinary)).any();
-  }
+  double worstSigma() const;  ///< along the least certain direction
+  /// Whether axes without an error are out of the question, by all entries together.
+  bool isSignificant() const;
 };
 
-/// At least twelve pairs, and the closed form's solution of them.
+/// At least 72 pairs in order of time, and the closed form's solution of them.
 GyroShape estimateGyroShape(const std::vector<RatePair>& pairs, const HandEye& solution);
 
 }  // namespace redbee::calibration

@@ -142,10 +142,9 @@ ParameterReport lineDelayReport(const LineDelay& delay, const CalibrationInput& 
 }
 
 ParameterReport gyroShapeReport(const GyroShape& gyro) {
-  auto report = vectorReport("imu.gyro_correction", "", gyro.shape, Vector6d::Zero(),
-                             Eigen::Matrix<double, 6, 6>(gyro.sigma.cwiseAbs2().asDiagonal()), 1);
-  report.worst_sigma = gyro.worst_sigma;
-  report.found_below = 0.003;
+  auto report = vectorReport("imu.gyro_correction", "", gyro.shape, Vector6d::Zero(), gyro.covariance, 1);
+  report.worst_sigma = gyro.worstSigma();
+  report.found_below = 0.004;  // of which a focal length's ordinary error is 0.0028
   report.weak_below = 0.01;
   classify(report, "strong rotation about all three axes");
   return report;
@@ -161,8 +160,7 @@ void addSensorReports(LineDelay delay, GyroShape gyro, const CalibrationInput& i
                       CalibrationResult& result) {
   const double scale = result.halves_sigma_scale * result.misfit_sigma_scale;
   delay.sigma_s *= scale;
-  gyro.sigma *= scale;
-  gyro.worst_sigma *= scale;
+  gyro.covariance *= scale * scale;
   ParameterReport shutter = lineDelayReport(delay, input);
   if (shutter.verdict != Verdict::kNotApplicable) refuseWithoutRotation(shutter, result.excitation);
   CalibratedValues& values = result.values;

@@ -20,6 +20,8 @@ class FrameSource {
   /// (libs/node/host_clock.hpp). Where the source has failed or ended, it is closed, and fault() says why.
   virtual std::optional<image_t> next(std::chrono::milliseconds timeout) = 0;
   virtual std::string fault() const = 0;
+  /// What is wrong with the last image's time, in one line without figures that change; empty: nothing.
+  virtual std::string timeFault() const { return ""; }
   /// Of the last image [s], where the driver tells it.
   virtual std::optional<double> exposure_s() const { return std::nullopt; }
 };

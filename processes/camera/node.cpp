@@ -107,6 +107,7 @@ void CameraNode::publish(image_t image) {
   bus_.publish(configuration_.channels.camera, image);
   noteDone(health_, CameraTime(fromUtime(image.utime)), timers.wall, timers);
   std::string fault = watch_.fault();
+  if (fault.empty()) fault = source_->timeFault();
   if (fault.empty() && configuration_.capture.stamp != "middle" && exposureTime() == 0) {
     fault =
         "the driver does not tell the exposure time, and capture.exposure_s is not set: the images' times "

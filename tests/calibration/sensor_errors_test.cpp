@@ -82,5 +82,26 @@ TEST(Calibration, FindsScaleAndMisalignmentOfTheGyro) {
   EXPECT_LT(rotationError_deg(result, r), 0.15);
 }
 
+/// What counts is what the recording shows, not a fixed size.
+TEST(Calibration, FindsASmallMisalignmentOfTheGyro) {
+  RecordingOptions options = briefly();
+  options.gyro_axes(0, 1) = options.gyro_axes(1, 0) = 0.004;
+  const SimulatedRecording r = simulateRecording(Trajectory::calibration(35, 6), 35, options);
+  const CalibrationResult result = calibrate(r.input);
+  const ParameterReport& report = result.parameter("imu.gyro_correction");
+  constexpr size_t kXy = 3;
+  std::cout << "misalignment " << report.value[kXy] << " +- " << report.sigma[kXy] << '\n';
+  EXPECT_NEAR(result.values.gyro_correction(0, 1), -0.004, 4 * report.sigma[kXy]);
+  EXPECT_LT(report.sigma[kXy], 0.001);
+}
+
+TEST(Calibration, AnOrdinaryErrorOfTheFocalLengthIsNoneOfTheGyros) {
+  SimulatedRecording r = simulateRecording(Trajectory::calibration(36, 6), 36, briefly());
+  r.input.camera.fx *= 1.003;
+  r.input.camera.fy *= 1.003;
+  const CalibrationResult result = calibrate(r.input);
+  EXPECT_TRUE(result.values.gyro_correction.isIdentity(0)) << result.values.gyro_correction;
+}
+
 }  // namespace
 }  // namespace redbee::calibration

@@ -26,6 +26,7 @@ struct Camera {
   int opened = 0;
   std::deque<image_t> images;
   std::optional<double> exposure_s;
+  std::string time_fault;
 };
 
 class SimulatedSource : public FrameSource {
@@ -47,6 +48,7 @@ class SimulatedSource : public FrameSource {
     return image;
   }
   std::string fault() const override { return camera_.fault; }
+  std::string timeFault() const override { return camera_.time_fault; }
   std::optional<double> exposure_s() const override { return camera_.exposure_s; }
 
  private:
@@ -173,6 +175,19 @@ TEST_F(CameraNodeTest, AnExposureThatIsNotToldIsTheConfiguredOneOrMissing) {
   camera_.images = {rawGreyMessage(200'000, picture(0))};
   run(1);
   EXPECT_EQ(published_.back().utime, 195'000);
+  EXPECT_EQ(health().state, process_health_t::GOOD);
+}
+
+TEST_F(CameraNodeTest, ImagesWithDoubtfulTimesArePublishedAndTheDoubtIsSaid) {
+  start();
+  camera_.images = {rawGreyMessage(100, picture(0)), rawGreyMessage(200, picture(1))};
+  camera_.time_fault = "the sender does not say when";
+  run(1);
+  EXPECT_EQ(published_.size(), 1U);
+  EXPECT_EQ(health().state, process_health_t::DEGRADED);
+  EXPECT_THAT(health().message, HasSubstr("the sender does not say when"));
+  camera_.time_fault.clear();
+  run(1);
   EXPECT_EQ(health().state, process_health_t::GOOD);
 }
 

@@ -11,6 +11,7 @@
 #include "processes/conversions.hpp"
 #include "redbee/evaluation/pixel_measures.hpp"
 #include "redbee/node/message_check.hpp"
+#include "tests/support/silent_bus.hpp"
 #include "tests/support/stack_run.hpp"
 
 namespace redbee::test {
@@ -101,6 +102,35 @@ TEST(RollingShutterFlight, MoversAndGroundAreFoundAsWithAGlobalShutter) {
     EXPECT_LT(rolling.band_px[edge], 1.5 * std::max(rolling.band_px[1], global.band_px[edge]));
     EXPECT_LT(rolling.band_px[edge], uncorrected.band_px[edge] / 2) << "there was something to correct";
   }
+}
+
+/// Error@50% of a second in which vision gives no homography, as over water or in blur: the IMU's carries it.
+double errorWithoutVision(double readout_s, bool is_corrected) {
+  constexpr int kFrom = 36, kScored = 40, kTo = 66;
+  StackFlight flight = stackFlight(shutter(readout_s), kTo + 4);
+  if (!is_corrected) flight.configuration.camera.line_delay_s = 0;
+  const auto memq = makeLcmBus("memq://");
+  SilentBus<visual_homography_t> bus(*memq, "VISUAL_HOMOGRAPHY", flight.frame_utimes[kFrom],
+                                     flight.frame_utimes[kTo]);
+  const StackOutput output = StackRun(flight, bus).run();
+  PixelMeasures measures;
+  for (int k = kScored; k < kTo; ++k) {
+    const auto index = static_cast<size_t>(k);
+    const int64_t utime = flight.frame_utimes[index];
+    if (is_corrected) EXPECT_EQ(output.fused.at(utime).source, fused_homography_t::INERTIAL) << k;
+    measures.add(cv::imdecode(output.foreground.at(utime).probability, cv::IMREAD_GRAYSCALE),
+                 flight.masks[index]);
+  }
+  std::cout << "without vision, read-out " << readout_s << (is_corrected ? "" : ", uncorrected")
+            << ": Error@50% " << measures.errorAtHalfRecall() << '\n';
+  return measures.errorAtHalfRecall();
+}
+
+/// An image's own homography takes up most of what a rolling shutter does to it, the IMU's nothing.
+TEST(RollingShutterFlight, MoversAreFoundAsWithAGlobalShutterWhereTheImuAloneCarriesTheHomography) {
+  const double global = errorWithoutVision(0, true);
+  EXPECT_NEAR(errorWithoutVision(kReadout_s, true), global, 0.03);
+  EXPECT_GT(errorWithoutVision(kReadout_s, false), global + 0.03) << "there was something to correct";
 }
 
 /// A recorder fills a gap with the frame before, encoded once more.

@@ -105,6 +105,7 @@ std::string GstreamerSource::build() {
     return "must end in one appsink: ... ! videoconvert ! video/x-raw,format=GRAY8 ! appsink";
   sink_.reset(sink);
   v4l2_source_.reset(firstOf(GST_BIN(made), "v4l2src"));
+  sender_clock_.emplace(GST_BIN(made));
   const std::unique_ptr<GstCaps, UnrefCaps> caps(gst_caps_from_string(kCaps));
   g_object_set(sink, "caps", caps.get(), "max-buffers", kMostQueued, "drop", TRUE, nullptr);
   return "";
@@ -175,8 +176,10 @@ void GstreamerSource::readExposure() {
   exposure_s_ = v4l2Exposure(device);
 }
 
-int64_t GstreamerSource::hostTimeOf(GstSample* sample, int64_t arrived_ns) const {
-  const GstClockTime stamp = GST_BUFFER_PTS(gst_sample_get_buffer(sample));
+int64_t GstreamerSource::hostTimeOf(GstSample* sample, int64_t arrived_ns) {
+  GstBuffer* buffer = gst_sample_get_buffer(sample);
+  if (const auto stated_ns = sender_clock_->hostTimeOf(buffer, arrived_ns)) return *stated_ns;
+  const GstClockTime stamp = GST_BUFFER_PTS(buffer);
   if (GST_CLOCK_TIME_IS_VALID(stamp) == FALSE) return arrived_ns;
   const guint64 running = gst_segment_to_running_time(gst_sample_get_segment(sample), GST_FORMAT_TIME, stamp);
   if (GST_CLOCK_TIME_IS_VALID(running) == FALSE) return arrived_ns;

@@ -27,9 +27,9 @@ void setUp(CLI::App& command) {
   auto* height = command
                      .add_option("--height", options->height_m,
                                  "measured height of the camera above the ground at the first frame, m")
-                     ->check(CLI::PositiveNumber);
+                     ->check(numberFrom(0.01, 20000));
   command.add_option("--height-sigma", options->height_sigma_m, "its standard deviation, m")
-      ->check(CLI::PositiveNumber)
+      ->check(numberFrom(1e-4, 1000))
       ->needs(height)
       ->capture_default_str();
   command.add_flag("--no-altimeter", options->no_altimeter, "ignore a recorded altimeter");

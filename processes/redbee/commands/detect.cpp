@@ -32,7 +32,7 @@ const Command kDetectCommand(
       command.add_option("--frames", options->frames, "stop after this many frames of the log")
           ->check(CLI::PositiveNumber);
       auto* rate = command.add_option("--rate", options->rate, "replay speed; 1 is the log's own")
-                       ->check(CLI::PositiveNumber);
+                       ->check(numberFrom(0.001, 1000));
       command.add_flag("--max-rate", "as fast as possible (the default without --rate)")->excludes(rate);
       command.callback([options] {
         const int64_t frames = runDetect(*options);

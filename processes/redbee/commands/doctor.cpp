@@ -38,7 +38,7 @@ const Command kDoctorCommand(
       live->needs(
           addConfigurationOption(command, options->stack.configuration)->required(false)->needs(live));
       command.add_option("--seconds", options->stack.listen_s, "with --live: how long to listen")
-          ->check(CLI::PositiveNumber)
+          ->check(numberFrom(0.1, 3600))
           ->needs(live)
           ->capture_default_str();
       command

@@ -48,7 +48,7 @@ void addImporterOptions(CLI::App& command, ImportOptions& options, const Importe
   }
   if (takes.fps)
     command.add_option("--fps", options.fps, "frames per second of a folder of images, or of a raw stream")
-        ->check(CLI::Range(kLeastFps, kMostFps));
+        ->check(numberFrom(kLeastFps, kMostFps));
   if (takes.keep_going)
     command.add_flag("--keep-going", options.keep_going, "pass over damage, up to the next key frame");
   if (takes.topics) addTopicOptions(command, options.topics);

@@ -19,12 +19,12 @@ const Command kRecordCommand(
           ->required(false)
           ->capture_default_str();
       command.add_option("--split", options->split_mb, "size at which a new file is started, MB")
-          ->check(CLI::PositiveNumber)
+          ->check(numberFrom(0.001, 1e9))
           ->capture_default_str();
       command
           .add_option("--min-free", options->min_free_mb,
                       "free disk space below which it stops (exit code 3), MB")
-          ->check(CLI::NonNegativeNumber)
+          ->check(numberFrom(0, 1e9))
           ->capture_default_str();
       addLcmUrlOption(command, options->url);
       command.callback([options] {

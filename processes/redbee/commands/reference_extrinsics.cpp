@@ -19,12 +19,15 @@ void setUp(CLI::App& command) {
   auto degrees = std::make_shared<double>(options->disturbance.rotation_rad / kDegree);
   auto milliseconds = std::make_shared<double>(1e3 * options->disturbance.timeshift_s);
   command.add_option("--rotation-deg", *degrees, "rotation error about a random axis, degrees")
+      ->check(numberFrom(0, 180))
       ->capture_default_str();
   command.add_option("--timeshift-ms", *milliseconds, "error of the time shift, early or late, ms")
+      ->check(numberFrom(0, 1000))
       ->capture_default_str();
   command
       .add_option("--height-fraction", options->disturbance.height_fraction,
                   "error of the start height, up or down, as a fraction of it")
+      ->check(numberFrom(0, 0.9))
       ->capture_default_str();
   command.callback([options, degrees, milliseconds] {
     options->disturbance.rotation_rad = *degrees * kDegree;

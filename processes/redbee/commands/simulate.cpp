@@ -16,12 +16,12 @@ const Command kSimulateCommand(
       command.add_option("--seed", options->seed, "of the random numbers: equal seeds give equal flights")
           ->capture_default_str();
       command.add_option("--seconds", options->seconds, "duration of the flight, s")
-          ->check(CLI::Range(0.2, 600.0))
+          ->check(numberFrom(0.2, 600))
           ->capture_default_str();
       command
           .add_option("--readout-ms", options->readout_ms,
                       "read-out time of a rolling shutter, ms; 0: global shutter")
-          ->check(CLI::Range(0.0, 100.0))
+          ->check(numberFrom(0, 100))
           ->capture_default_str();
       addOutOption(command, options->log, "log to write; its configuration is written beside it");
       command.add_option("--truth", options->truth, "folder for ground-truth masks and homographies");

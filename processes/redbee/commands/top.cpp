@@ -20,7 +20,7 @@ const Command kTopCommand(
                                     "print one table and end; exit code 1 if no process is running");
       command
           .add_option("--listen", options->listen_s, "with --once: how long to wait for health messages, s")
-          ->check(CLI::PositiveNumber)
+          ->check(numberFrom(0.001, 3600))
           ->needs(once)
           ->capture_default_str();
       command.callback([options] {

@@ -109,6 +109,36 @@ TEST(CommandLine, NumbersHaveBounds) {
   }
 }
 
+/// "nan" is neither below a lower bound nor above an upper one.
+TEST(CommandLine, NoNumberIsNotANumberOrEndless) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> options = {
+      {{"import", "video", "/nowhere.mp4", "--out", "/nowhere.lcm"}, "--fps"},
+      {{"simulate", "--out", "/nowhere.lcm"}, "--seconds"},
+      {{"simulate", "--out", "/nowhere.lcm"}, "--readout-ms"},
+      {{"detect", "--log", "/nowhere.lcm", "--config", "/nowhere.yaml", "--out", "/nowhere"}, "--rate"},
+      {{"doctor", "--live", "--config", "/nowhere.yaml"}, "--seconds"},
+      {{"top", "--once"}, "--listen"},
+      {{"record", "--out", "/nowhere"}, "--split"},
+      {{"record", "--out", "/nowhere"}, "--min-free"},
+      {{"reference-extrinsics", "--flight", "/nowhere", "--config", "/nowhere.yaml", "--out", "/nowhere"},
+       "--rotation-deg"},
+      {{"reference-extrinsics", "--flight", "/nowhere", "--config", "/nowhere.yaml", "--out", "/nowhere"},
+       "--timeshift-ms"},
+      {{"reference-extrinsics", "--flight", "/nowhere", "--config", "/nowhere.yaml", "--out", "/nowhere"},
+       "--height-fraction"}};
+  for (const auto& [command, option] : options) {
+    for (const char* value : {"nan", "inf", "1e300", "-1", "1x"}) {
+      std::vector<std::string> arguments = command;
+      arguments.insert(arguments.end(), {option, value});
+      const ToolOutput output = run(arguments);
+      EXPECT_EQ(output.exit_code, 2) << option << " " << value;
+      EXPECT_NE(output.error.find(option + ": '" + value + "' is no number from"), std::string::npos)
+          << output.error;
+      EXPECT_EQ(output.error.find('\n'), output.error.size() - 1) << output.error;
+    }
+  }
+}
+
 TEST(CommandLine, ResultsAndDetectionsAreOneOption) {
   for (const char* name : {"evaluate", "overlay", "report"}) {
     const std::string help = run({name, "--help"}).out;
