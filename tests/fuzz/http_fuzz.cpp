@@ -11,7 +11,7 @@
 namespace redbee::fuzz {
 namespace {
 
-constexpr time_t kPatience_s = 10;
+constexpr time_t kPatience_s = 18;  ///< libFuzzer has 20
 
 /// All that comes back.
 std::string answerTo(const std::string& socket_file, const uint8_t* data, size_t size) {
