@@ -53,8 +53,8 @@ class BusyChild {
 TEST(StarvedProcess, IsKilledOnlyOnceItHasHadTheProcessor) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
   BusyChild starved(SCHED_IDLE);
-  const std::vector<SupervisedProcess> supervised{{kName, starved.pid(), true}};
-  ProcessWatch watch({getpid(), {{kName, program}}, kTimeout}, [&] { return supervised; });
+  std::vector<SupervisedProcess> supervised{{kName, starved.pid(), true}};
+  ProcessWatch watch({getpid(), {{kName, program}}, kTimeout}, [&] { return std::optional(supervised); });
   const auto killedWithin = [&](Clock::duration duration) {
     for (const auto end = Clock::now() + duration; Clock::now() < end; std::this_thread::sleep_for(kPeriod)) {
       if (!watch.killHanging(Clock::now()).empty()) return true;
