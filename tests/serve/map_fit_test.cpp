@@ -76,7 +76,7 @@ struct Course {
 Course follow(const std::vector<fused_homography_t>& fused, const std::map<int64_t, GroundPlane>& truth,
               const Configuration& configuration) {
   const Camera camera(configuration.camera);
-  const Eigen::Matrix3d K = camera.K();
+  const Eigen::Matrix3d& K = camera.K();
   const Eigen::Vector2d near(0.5 * camera.ideal().width, 0.75 * camera.ideal().height);
   GroundChain chain;
   Exposures exposures;
