@@ -41,7 +41,6 @@ class FrameAssembly {
   std::deque<std::shared_ptr<const image_t>> images_;  ///< newest last
   std::deque<foreground_t> masks_;
   int64_t detections_utime_ = 0;
-  int64_t source_utime_ = 0;
   std::string source_;
   std::optional<FrameView> ready_;
 };

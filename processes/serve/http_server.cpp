@@ -87,6 +87,13 @@ void streamEvents(Live& live, httplib::Response& response) {
       });
 }
 
+/// Every answer is sent whole, as a server may (RFC 9110, 14.2): httplib takes a range's end from the client,
+/// also one beyond the answer's. The request is the server's own, which it reads the ranges of again when it
+/// answers.
+void ignoreRanges(const httplib::Request& request) {
+  const_cast<httplib::Request&>(request).ranges.clear();  // NOLINT(*-const-cast)
+}
+
 /// The body is sent and the connection ends: what the client still sends of its own is read by nobody.
 void refuse(const WebResponse& refusal, httplib::Response& to) {
   to.status = refusal.status;
@@ -217,6 +224,7 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
     if (response.status != 204) to.set_content(response.body, response.type);
   };
   server.set_pre_routing_handler([&station](const httplib::Request& from, httplib::Response& to) {
+    ignoreRanges(from);
     const auto refused = station.refusal(requestOf(from));
     if (!refused) return httplib::Server::HandlerResponse::Unhandled;
     refuse(*refused, to);

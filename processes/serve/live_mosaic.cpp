@@ -8,9 +8,6 @@ namespace redbee {
 namespace {
 
 constexpr int64_t kKept_us = 2'000'000;  ///< of the chain: longer than a frame's way through the stack
-constexpr double kMisfit = 1.25;         ///< a plane is known to some percent, and to a degree or two
-constexpr int64_t kMisfit_us = 1'000'000;
-constexpr int64_t kUnknown_us = 500'000;  // without a plane: what was before says nothing of now
 
 }  // namespace
 
@@ -32,14 +29,10 @@ void LiveMosaic::followPlane(int64_t utime) {
   if (frame == nullptr) return;
   const Eigen::Matrix3d K = painting_.camera().K();
   const auto misfit = reference_->misfit(*frame, K, nearGround());
-  if (!misfit) return;
-  if (utime > judged_utime_ + kUnknown_us) fits_utime_ = utime;
-  judged_utime_ = utime;
-  if (*misfit < kMisfit || utime < fits_utime_) fits_utime_ = utime;
-  if (utime < fits_utime_ + kMisfit_us) return;
+  if (!misfit || !fit_.isContradicted(utime, *misfit)) return;
   reference_ = reference_->relaid(*frame, K, nearGround());
   ++maps_;
-  fits_utime_ = utime;
+  fit_.laid(utime);
 }
 
 bool LiveMosaic::isAskedFor(Time now) {
@@ -58,7 +51,7 @@ bool LiveMosaic::layMap() {
   why_ = !reference_     ? ""
          : is_same_piece ? "the scale is known now"
                          : "no homography led on from the frame before";
-  fits_utime_ = frame->utime;
+  fit_.laid(frame->utime);
   reference_.emplace(*frame, painting_.camera().K());
   piece_ = chain_.pieces();
   ++number_;

@@ -12,6 +12,7 @@
 
 #include "processes/redbee/mosaic/ground_observer.hpp"
 #include "processes/serve/frame_view.hpp"
+#include "processes/serve/map_fit.hpp"
 #include "processes/serve/mosaic_painting.hpp"
 #include "redbee/fused_homography_t.hpp"
 
@@ -55,9 +56,8 @@ class LiveMosaic {
   size_t piece_ = 0;   ///< of the chain, that the reference belongs to
   size_t number_ = 0;  ///< of the mosaic
   const char* why_ = "";
-  size_t maps_ = 0;           ///< that were laid
-  int64_t fits_utime_ = 0;    ///< us, of the last plane that fits the map
-  int64_t judged_utime_ = 0;  ///< us, of the last that was asked
+  size_t maps_ = 0;  ///< that were laid
+  MapFit fit_;
   int64_t image_utime_ = 0;
 
   std::mutex waiting_mutex_;

@@ -94,7 +94,11 @@ async function check(browser) {
   await note(page, 'no TARGETS: redbee-geolocation does not answer');
   // Most processes are silent here, in the longest word for a state, and their table stays within its panel.
   await page.until('the processes', 'document.querySelectorAll("#processes td.bad").length >= 4');
-  const [wide, room] = await page.value('((s) => [s.scrollWidth, s.clientWidth])(document.querySelector("section[aria-label=processes]"))');
+  await page.until('the words for it', 'document.getElementById("processes").hidden && /no process of a stack reports/.test(document.getElementById("remarks").textContent)');
+  const [wide, room] = await page.value(`(() => {
+    document.getElementById("processes").hidden = false;
+    return ((s) => [s.scrollWidth, s.clientWidth])(document.querySelector("section[aria-label=processes]"));
+  })()`);
   assert(wide <= room, `the table of the processes is ${wide} px wide in ${room} px`);
   const program = spawn(geolocation[0], geolocation.slice(1), {stdio: 'ignore'});
   try {

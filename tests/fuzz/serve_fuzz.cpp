@@ -2,6 +2,8 @@
 // the input: the method, the path, then names and values, each pair of lines a parameter, or a header where
 // the name begins with a colon.
 #include "processes/serve/station.hpp"
+#include "redbee/bus/image.hpp"
+#include "redbee/files/log.hpp"
 #include "redbee/files/user_error.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 #include "tests/fuzz/small_vehicle.hpp"
@@ -36,13 +38,23 @@ WebRequest requestOf(const std::vector<std::string>& lines) {
   return request;
 }
 
+std::filesystem::path writeFlight(const std::filesystem::path& file) {
+  LogWriter log(file);
+  for (int k = 0; k < 3; ++k)
+    log.write("CAMERA", rawGreyMessage(1'000'000'000 + k * 40'000, cv::Mat1b(kHeight, kWidth, uchar{90})));
+  log.close();
+  return file;
+}
+
 }  // namespace
 }  // namespace redbee::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace redbee;  // NOLINT: a target is one function
   static const fuzz::Folder folder;
-  static const auto log = folder.write("flights/a.lcm", "no log");
+  static const auto no_log = folder.write("flights/a.lcm", "no log");
+  static const auto log = fuzz::writeFlight(folder / "flights/b.lcm");
+  static const auto report = folder.write("flights/report.html", "<html></html>");
   static const Configuration configuration = fuzz::smallVehicle();
   static Live live;
   static Archive archive(configuration, {folder / "flights"});

@@ -117,7 +117,9 @@ double errorWithoutVision(double readout_s, bool is_corrected) {
   for (int k = kScored; k < kTo; ++k) {
     const auto index = static_cast<size_t>(k);
     const int64_t utime = flight.frame_utimes[index];
-    if (is_corrected) EXPECT_EQ(output.fused.at(utime).source, fused_homography_t::INERTIAL) << k;
+    if (is_corrected) {
+      EXPECT_EQ(output.fused.at(utime).source, fused_homography_t::INERTIAL) << k;
+    }
     measures.add(cv::imdecode(output.foreground.at(utime).probability, cv::IMREAD_GRAYSCALE),
                  flight.masks[index]);
   }

@@ -36,6 +36,22 @@ TEST_F(HttpRefusal, EveryErrorHasALine) {
   }
 }
 
+/// Of a range that the client names, the server sends nothing that lies behind the answer in its memory.
+TEST_F(HttpRefusal, AnAnswerIsSentWholeWhateverRangeIsAskedFor) {
+  const std::string close = "Connection: close\r\n";
+  const std::string token = withToken();
+  for (const char* line : {"GET /", "GET /icon.svg", "GET /report?name=flights/none.html"}) {
+    for (const std::string& access : {std::string(), token}) {
+      const std::string whole = answerTo(request(line, access + close));
+      for (const char* range :
+           {"1-4000", "1-1,0-100000", "4000-5000", "-9999", "9-", "0-9223372036854775806"}) {
+        const std::string answer = answerTo(request(line, access + close + "Range: bytes=" + range + "\r\n"));
+        EXPECT_EQ(answer, whole) << line << " " << range;
+      }
+    }
+  }
+}
+
 TEST_F(HttpRefusal, AReportComesWhole) {
   const std::string answer =
       answerTo(request("GET /report?name=flights/report.html", withToken() + "Connection: close\r\n"));

@@ -5,6 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
+#include <string>
+
 namespace redbee::test {
 
 class IdleChild {
@@ -13,6 +16,7 @@ class IdleChild {
     if (pid_ == 0) {
       while (true) pause();
     }
+    while (!isAsleep()) usleep(1000);
   }
   ~IdleChild() {
     ::kill(pid_, SIGKILL);
@@ -38,6 +42,13 @@ class IdleChild {
   }
 
  private:
+  /// Before it has come to its pause it waits for a processor, which a test in simulated time would see.
+  bool isAsleep() const {
+    std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
+    std::string text;
+    return std::getline(file, text) && text.find(") S ") != std::string::npos;
+  }
+
   int pid_;
 };
 

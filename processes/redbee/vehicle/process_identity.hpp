@@ -20,4 +20,13 @@ struct ProcessIdentity {
 /// std::nullopt if there is no such process, or it belongs to another user.
 std::optional<ProcessIdentity> identityOf(pid_t pid);
 
+/// Of a process's main thread.
+struct Scheduling {
+  bool is_runnable = false;         ///< it runs, or waits for a processor
+  std::chrono::nanoseconds ran{0};  ///< since its start
+};
+
+/// std::nullopt if there is no such process, or a kernel that does not say.
+std::optional<Scheduling> schedulingOf(pid_t pid);
+
 }  // namespace redbee

@@ -53,7 +53,8 @@ class ProcessWatch {
   int64_t strangers() const { return strangers_; }
 
   /// Kills hanging processes (SIGKILL, as they do not react to SIGTERM), each only if supervisor, its parent,
-  /// its program and its start agree that it is the one that was watched. Returns their names.
+  /// its program and its start agree that it is the one that was watched. Returns their names. To be called
+  /// several times a second: who waits for a processor, which others have, does not hang meanwhile.
   std::vector<std::string> killHanging(Clock::time_point now);
 
   /// The processes that exited since the last call: the last message of each, with the state kDead and a text
@@ -68,8 +69,11 @@ class ProcessWatch {
     Clock::time_point deadline;  ///< for its next heartbeat
     bool killed = false;
     process_health_t last{};
+    Clock::time_point silent_since{};
+    std::optional<std::chrono::nanoseconds> ran{};  ///< when it was last looked at in its silence
   };
   void watch(const SupervisedProcess& process, Clock::time_point now);
+  static Clock::duration waited(Watched& watched, Clock::time_point now, Clock::duration period);
   bool isStillWatched(const std::string& name, const Watched& watched) const;
   void noteDeath(const std::string& name, Watched& watched);
   Clock::duration hangTimeout() const {

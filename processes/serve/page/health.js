@@ -27,6 +27,13 @@ function restartButton(name) {
 
 const figure = (value, digits) => (value === undefined ? '' : value.toFixed(digits));
 
+/** Nobody but this page's own process: a flight on disk is looked at, and nothing is missing. */
+function sayThatNothingFlies() {
+  const item = document.createElement('li');
+  item.textContent = 'no process of a stack reports here: none flies, or in another network. Flights on disk: choose one above';
+  remarks.replaceChildren(item);
+}
+
 /** `health`: as node.cpp writes it. `may_write`: with a button each. */
 export function drawHealth(health, may_write) {
   body.replaceChildren();
@@ -53,4 +60,7 @@ export function drawHealth(health, may_write) {
       remarks.append(item);
     }
   }
+  const is_alone = health.processes.every(({name, pid}) => name === 'serve' || pid === undefined);
+  document.getElementById('processes').hidden = is_alone;
+  if (is_alone) sayThatNothingFlies();
 }

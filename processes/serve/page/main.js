@@ -12,7 +12,7 @@ const kSilence_s = 2;
 let replay = null;
 let state = {writes: false, supervised: false, recording: false};
 let drawn = [];
-let live_map = {note: '', path: [], footprint: [], targets: []};
+let live_map = {note: 'no POSE and no TARGETS have come', path: [], footprint: [], targets: []};
 
 function drawObjects(detections) {
   const body = document.querySelector('#objects tbody');
@@ -40,7 +40,8 @@ function show(frame) {
   if (frame.map) drawMap(frame.map, colourOf);
   drawObjects(frame.detections ?? []);
   element('note').textContent = frame.note;
-  const words = [replay ? `frame ${replay.wanted + 1} of ${replay.times.length}` : 'live', `${frameRate().toFixed(1)} fps`,
+  const fps = frameRate();
+  const words = [replay ? `frame ${replay.wanted + 1} of ${replay.times.length}` : 'live', fps > 0 && `${fps.toFixed(1)} fps`,
                  `${(frame.utime / 1e6).toFixed(3)} s`, frame.status, frame.source && `ground: ${frame.source}`];
   element('status').textContent = words.filter((word) => word).join('  \u00b7  ');
   const view = element('view');
