@@ -11,6 +11,7 @@
 #include "processes/common_options.hpp"
 #include "redbee/bus/bus.hpp"
 #include "redbee/configuration/process_table.hpp"
+#include "redbee/foreground_t.hpp"
 #include "redbee/process_health_t.hpp"
 #include "tests/support/live_player.hpp"
 
@@ -29,14 +30,20 @@ constexpr double kMostDrift = 1.5;      ///< of the median work on a frame
 
 using Point = std::map<std::string, process_health_t>;
 
+struct Masks {
+  int64_t answered = 0;  ///< frames with a FOREGROUND
+  int64_t trusted = 0;   ///< of these, with status GOOD
+};
+
 struct Options {
   std::string url;
   double minutes = 60;
   double speed = 1;
 };
 
-void print(const Point& point, double minutes, int64_t frames) {
-  std::printf("%6.1f min, %lld frames", minutes, static_cast<long long>(frames));
+void print(const Point& point, double minutes, int64_t frames, const Masks& masks) {
+  std::printf("%6.1f min, %lld frames, %lld answered, %lld trusted", minutes, static_cast<long long>(frames),
+              static_cast<long long>(masks.answered), static_cast<long long>(masks.trusted));
   for (const auto& [process, health] : point) {
     std::printf(" | %s %.1f MB, work %.1f ms, latency %.1f/%.1f ms, skipped %lld, lost %lld",
                 process.c_str() + 7, static_cast<double>(health.resident) / 1e6, health.work_median,
@@ -92,6 +99,11 @@ bool soak(const Options& options) {
   Point newest;
   const Subscription subscription = bus->subscribe<process_health_t>(
       "PROCESS_HEALTH", 64, [&](const process_health_t& m) { newest[m.process] = m; });
+  Masks masks;
+  const Subscription foreground = bus->subscribe<foreground_t>("FOREGROUND", 64, [&](const foreground_t& m) {
+    ++masks.answered;
+    masks.trusted += m.status == foreground_t::GOOD ? 1 : 0;
+  });
   const EndlessFlight flight;
   const double seconds = 60 * options.minutes;
   LivePlayer player(*bus, flight, (seconds + 5) * options.speed, options.speed);
@@ -103,7 +115,7 @@ bool soak(const Options& options) {
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
     if (elapsed < seconds * static_cast<double>(points.size() + 1) / kPoints) continue;
     points.push_back(newest);
-    print(newest, elapsed / 60, player.frames());
+    print(newest, elapsed / 60, player.frames(), masks);
   }
   return isSteady(points);
 }
