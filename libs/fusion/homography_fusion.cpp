@@ -5,6 +5,7 @@
 
 #include "redbee/fusion/overlap.hpp"
 #include "redbee/fusion/transfer_sigma.hpp"
+#include "redbee/fusion/working_units.hpp"
 #include "redbee/geometry/chi_square.hpp"
 #include "redbee/geometry/products.hpp"
 #include "redbee/geometry/small_decompositions.hpp"
@@ -20,19 +21,8 @@ constexpr double kMaxStepSigma_px = 2;
 constexpr Duration kProven = std::chrono::seconds(1);
 constexpr int kContradictionWeight = 3;
 constexpr Duration kMostOfOneStep =
-    std::chrono::milliseconds(250);       ///< a step across lost frames is one test
+    std::chrono::milliseconds(250);       ///< a step across lost frames is one test, and one correction
 constexpr double kUnknownVariance = 1.0;  // scaled units: half the image's width
-
-/// The paper's filter works in pixels: its Q and P_0 are diagonal in these units only.
-ImageScaling workingUnits(const ImageScaling& scaled, FusionNoise noise) {
-  ImageScaling units = scaled;
-  if (noise == FusionNoise::kPaper) {
-    units.T.setIdentity();
-    units.T_inverse.setIdentity();
-    units.unit_px = 1;
-  }
-  return units;
-}
 
 }  // namespace
 
@@ -84,7 +74,7 @@ std::optional<Eigen::Matrix3d> HomographyFusion::since(CameraTime time) const {
 }
 
 Estimate HomographyFusion::advance(const Sources& sources, FusedHomography& out) {
-  if (sources.inertial && sources.visual) return fuse(*sources.inertial, *sources.visual, out);
+  if (sources.inertial && sources.visual) return fuse(sources, out);
   if (sources.inertial) {
     out.source = FusionSource::kInertial;
     return follow(*sources.inertial);
@@ -122,6 +112,11 @@ HomographyFusion::Sources HomographyFusion::anchorSources(const std::optional<In
     std::optional<Estimate> step =
         stepFrom(visual->time_previous, visual->H, measurementCovariance(*visual, parameters_));
     if (step) sources.visual = ontoAnchor(*step, visualNoiseRatio(*visual) * parameters_.paper_P0);
+    const bool is_across = parameters_.noise == FusionNoise::kPropagated &&
+                           visual->time_previous < chain_.newest() &&
+                           chain_.newest() - visual->time_previous <= kMostOfOneStep;
+    if (is_across) step = stepFrom(visual->time_previous, visual->H, Matrix8d::Zero());
+    if (is_across && step) sources.across = ontoAnchor(*step, Vector8d::Zero()).P;
   }
   return sources;
 }
@@ -146,7 +141,8 @@ Estimate HomographyFusion::follow(const Estimate& source) {
   return accept(source.H, source.P, propagatedCovariance(source.H) + source.P);
 }
 
-Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual, FusedHomography& out) {
+Estimate HomographyFusion::fuse(const Sources& sources, FusedHomography& out) {
+  const Estimate &inertial = *sources.inertial, &visual = *sources.visual;
   const bool paper = parameters_.noise == FusionNoise::kPaper;
   const Matrix8d propagated = propagatedCovariance(inertial.H);
   const Matrix8d prior = paper ? Matrix8d(propagated + inertial.P) : inertial.P;
@@ -174,7 +170,9 @@ Estimate HomographyFusion::fuse(const Estimate& inertial, const Estimate& visual
     return step;
   }
   out.source = FusionSource::kFused;
-  const Matrix8d gain = factors.solve(prior).transpose();
+  // What vision skipped it has measured with this step: their errors are corrected together, so that the way
+  // across is as good as one step.
+  const Matrix8d gain = factors.solve(Matrix8d(prior + sources.across)).transpose();
   const Matrix8d rest = Matrix8d::Identity() - gain;
   const Eigen::Matrix3d H = fromVector(toVector(inertial.H) + gain * innovation);
   // The step's error contains no part of the propagated error: both sources were composed onto the same

@@ -37,6 +37,8 @@ class HomographyFusion {
   struct Sources {
     std::optional<Estimate> inertial;
     std::optional<Estimate> visual;
+    /// The part of visual's covariance that is of the steps between its start and the newest frame.
+    Matrix8d across = Matrix8d::Zero();
   };
 
   /// The step of a homography from the frame at `time_previous`, which may be older than the newest frame.
@@ -50,7 +52,7 @@ class HomographyFusion {
   /// These update the anchor homography to the newest frame and return the step.
   Estimate advance(const Sources& sources, FusedHomography& out);
   Estimate follow(const Estimate& source);
-  Estimate fuse(const Estimate& inertial, const Estimate& visual, FusedHomography& out);
+  Estimate fuse(const Sources& sources, FusedHomography& out);
   /// An IMU that has just started may have another clock or mounting than configured: until it has agreed
   /// with vision for a second, vision is followed where they contradict each other. `step`: the time
   /// compared.
