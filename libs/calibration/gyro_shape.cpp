@@ -110,8 +110,8 @@ GyroShape estimateGyroShape(const std::vector<RatePair>& pairs, const HandEye& s
   const Information covariance = kFreedom * inverse * scatter * inverse;
   const Vector6d focal = kFocalSigma * scaleByFocalLength(solution.R_CI);
   result.shape = x.head<6>();
-  result.covariance = covariance.topLeftCorner<6, 6>() + focal * focal.transpose() +
-                      kLensSigma * kLensSigma * Matrix6d::Identity();
+  result.lens_covariance = focal * focal.transpose() + kLensSigma * kLensSigma * Matrix6d::Identity();
+  result.covariance = covariance.topLeftCorner<6, 6>() + result.lens_covariance;
   return result;
 }
 

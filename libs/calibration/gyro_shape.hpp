@@ -20,6 +20,7 @@ struct GyroShape {
   Vector6d shape = Vector6d::Zero();  ///< of S: xx yy zz, xy xz yz
   /// Infinite on its diagonal where the rotation does not show S.
   Matrix6d covariance = Matrix6d::Zero();
+  Matrix6d lens_covariance = Matrix6d::Zero();  ///< part of it: what a calibration of the lens leaves
 
   /// I + S: turns measured rates, their bias taken off, into true ones.
   Eigen::Matrix3d correction() const;

@@ -160,7 +160,8 @@ void addSensorReports(LineDelay delay, GyroShape gyro, const CalibrationInput& i
                       CalibrationResult& result) {
   const double scale = result.halves_sigma_scale * result.misfit_sigma_scale;
   delay.sigma_s *= scale;
-  gyro.covariance *= scale * scale;
+  // What the lens' calibration leaves is no misfit of the recording.
+  gyro.covariance = scale * scale * (gyro.covariance - gyro.lens_covariance) + gyro.lens_covariance;
   ParameterReport shutter = lineDelayReport(delay, input);
   if (shutter.verdict != Verdict::kNotApplicable) refuseWithoutRotation(shutter, result.excitation);
   CalibratedValues& values = result.values;

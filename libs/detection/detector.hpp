@@ -1,6 +1,6 @@
 // The interface of all detectors of moving objects: ours, the paper's and the rivals. A new one is a class
 // behind it and a line in detector_factory.cpp. Assigning a cv::Mat shares its memory: images of a FrameInput
-// must not be modified, a detector may keep them, and the images of a DetectorOutput belong to the caller.
+// must not be modified, a detector may keep them, and those of its DetectorOutput: change a copy.
 #pragma once
 
 #include <Eigen/Core>

@@ -21,8 +21,7 @@ constexpr double kMaxStepSigma_px = 2;
 constexpr Duration kProven = std::chrono::seconds(1);
 constexpr int kContradictionWeight = 3;
 constexpr Duration kMostOfOneStep =
-    std::chrono::milliseconds(250);       ///< a step across lost frames is one test, and one correction
-constexpr double kUnknownVariance = 1.0;  // scaled units: half the image's width
+    std::chrono::milliseconds(250);  ///< a step across lost frames is one test, and one correction
 
 }  // namespace
 
@@ -47,8 +46,7 @@ FusedHomography HomographyFusion::step(CameraTime time, const std::optional<Iner
   const Estimate step = advance(sources, out);
   if (!isUsable(step) || !isUsable(anchor_)) return beginChain(time);
   // The paper's constant noise is not an estimate of this step's error.
-  const bool knows_its_error = parameters_.noise == FusionNoise::kPropagated;
-  if (knows_its_error && transferSigma(step.H, step.P, width_, height_) > kMaxStepSigma_px) {
+  if (parameters_.noise == FusionNoise::kPropagated && isTooUncertain(step)) {
     // The chain goes on, so that a homography of vision across this frame still measures the next step.
     FusedHomography none = beginEpoch(time);
     none.visual_step = out.visual_step;
@@ -113,7 +111,7 @@ HomographyFusion::Sources HomographyFusion::anchorSources(const std::optional<In
         stepFrom(visual->time_previous, visual->H, measurementCovariance(*visual, parameters_));
     if (step) sources.visual = ontoAnchor(*step, visualNoiseRatio(*visual) * parameters_.paper_P0);
     const bool is_across = parameters_.noise == FusionNoise::kPropagated &&
-                           visual->time_previous < chain_.newest() &&
+                           visual->time_previous >= time_epoch_ && visual->time_previous < chain_.newest() &&
                            chain_.newest() - visual->time_previous <= kMostOfOneStep;
     if (is_across) step = stepFrom(visual->time_previous, visual->H, Matrix8d::Zero());
     if (is_across && step) sources.across = ontoAnchor(*step, Vector8d::Zero()).P;
@@ -170,17 +168,24 @@ Estimate HomographyFusion::fuse(const Sources& sources, FusedHomography& out) {
     return step;
   }
   out.source = FusionSource::kFused;
+  const auto correctedBy = [&](const Matrix8d& gain) -> Estimate {
+    return {fromVector(toVector(inertial.H) + gain * innovation),
+            transformed(Matrix8d::Identity() - gain, inertial.P) + transformed(gain, visual.P)};
+  };
   // What vision skipped it has measured with this step: their errors are corrected together, so that the way
-  // across is as good as one step.
-  const Matrix8d gain = factors.solve(Matrix8d(prior + sources.across)).transpose();
+  // across is as good as one step, but not where that leaves a step that is too bad by itself. Of the
+  // propagated error the step contains this part alone; the anchor's covariance takes them as independent:
+  // too large.
+  Matrix8d gain = factors.solve(Matrix8d(prior + sources.across)).transpose();
+  Estimate corrected = correctedBy(gain);
+  if (!paper && isTooUncertain(stepTo(corrected))) {
+    gain = factors.solve(prior).transpose();
+    corrected = correctedBy(gain);
+  }
   const Matrix8d rest = Matrix8d::Identity() - gain;
-  const Eigen::Matrix3d H = fromVector(toVector(inertial.H) + gain * innovation);
-  // The step's error contains no part of the propagated error: both sources were composed onto the same
-  // x_{k-1}.
-  const Matrix8d step_noise = transformed(rest, inertial.P) + transformed(gain, visual.P);
-  return accept(H, step_noise,
+  return accept(corrected.H, corrected.P,
                 paper ? Matrix8d(transformed(rest, prior) + transformed(gain, visual.P))
-                      : Matrix8d(propagated + step_noise));
+                      : Matrix8d(propagated + corrected.P));
 }
 
 void HomographyFusion::proveInertial(bool agrees, Duration step) {
@@ -189,58 +194,21 @@ void HomographyFusion::proveInertial(bool agrees, Duration step) {
   inertial_is_proven_ = inertial_is_proven_ || agreed_ >= kProven;
 }
 
+bool HomographyFusion::isTooUncertain(const Estimate& step) const {
+  return transferSigma(step.H, step.P, width_, height_) > kMaxStepSigma_px;
+}
+
+/// The newest step, of the homography that follows on the anchor's, and the covariance that it adds.
+Estimate HomographyFusion::stepTo(const Estimate& next) const {
+  const Eigen::Matrix3d H = normaliseHomography(next.H * anchor_.H.inverse());
+  return {H, transformed(composeJacobians(H, anchor_.H).by_left.inverse(), next.P)};
+}
+
 Estimate HomographyFusion::accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,
                                   const Matrix8d& covariance_anchor) {
-  Estimate step;
-  step.H = normaliseHomography(H_anchor * anchor_.H.inverse());
-  step.P = transformed(composeJacobians(step.H, anchor_.H).by_left.inverse(), step_noise);
+  const Estimate step = stepTo({H_anchor, step_noise});
   anchor_ = {H_anchor, symmetric(covariance_anchor)};
   return step;
-}
-
-void HomographyFusion::anchorAt(CameraTime time) {
-  ++epoch_;
-  time_anchor_ = time;
-  anchor_ = identityEstimate();
-}
-
-std::optional<MeasuredStep> HomographyFusion::measuredStep(const std::optional<VisualInput>& visual) const {
-  if (!visual || visual->inliers <= 0) return std::nullopt;
-  const Matrix8d covariance = measurementCovariance(*visual, parameters_);
-  const std::optional<Estimate> step = stepFrom(visual->time_previous, visual->H, covariance);
-  if (!step) return std::nullopt;
-  if (visual->time_previous == chain_.newest()) return MeasuredStep{visual->H, covariance};
-  const MeasuredStep measured{units_.unscale(step->H), toScaled(*step)};
-  // Across steps that are not known nothing is measured.
-  if (!isUsable(measured.H) || !isInformative(measured.covariance)) return std::nullopt;
-  return measured;
-}
-
-FusedHomography HomographyFusion::beginChain(CameraTime time) {
-  FusedHomography out = beginEpoch(time);
-  chain_.beginAt(time);
-  return out;
-}
-
-FusedHomography HomographyFusion::beginEpoch(CameraTime time) {
-  FusedHomography out;
-  out.time_previous = time;
-  if (!chain_.empty()) {
-    out.time_previous = chain_.newest() == time ? chain_.secondNewest() : chain_.newest();
-    ++epoch_;
-  }
-  time_anchor_ = time;
-  anchor_ = identityEstimate();
-  gated_in_a_row_ = 0;
-
-  out.time = time;
-  out.epoch = epoch_;
-  out.time_anchor = time;
-  out.H_step.setIdentity();
-  out.covariance_step = kUnknownVariance * Matrix8d::Identity();
-  out.H_anchor.setIdentity();
-  out.covariance_anchor.setZero();
-  return out;
 }
 
 }  // namespace redbee

@@ -57,6 +57,8 @@ class HomographyFusion {
   /// with vision for a second, vision is followed where they contradict each other. `step`: the time
   /// compared.
   void proveInertial(bool agrees, Duration step);
+  bool isTooUncertain(const Estimate& step) const;
+  Estimate stepTo(const Estimate& next) const;
   Estimate accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,
                   const Matrix8d& covariance_anchor);
   void anchorAt(CameraTime time);
@@ -72,6 +74,7 @@ class HomographyFusion {
   ImageScaling units_;  ///< units of the filter
   double gate_;
   int32_t epoch_ = 0;
+  CameraTime time_epoch_{};  ///< its first frame
   CameraTime time_anchor_{};
   Estimate anchor_ = identityEstimate();  ///< anchor frame to the newest frame
   StepChain chain_;

@@ -1,7 +1,6 @@
 // The fusion with wrong, damaged, late or lost sources.
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <limits>
 
 #include "redbee/fusion/estimate.hpp"
@@ -167,30 +166,6 @@ TEST(HomographyFusion, VisionThatSkippedFramesIsUsedWithItsOwnStart) {
   EXPECT_LT(inputs.error(out.H_anchor, 0, 5), 0.1);
   const FusedHomography lost = fusion.step(frameTime(6), std::nullopt, inputs.visual(-1, 6));
   EXPECT_EQ(lost.source, FusionSource::kNone);  // starts at a frame that the fusion never had
-}
-
-/// Where vision skips every other frame, the way across is known as well as if that frame had never been.
-TEST(HomographyFusion, AcrossAFrameThatVisionSkippedItIsAsGoodAsOneStep) {
-  double error_across = 0, error_of_one = 0;
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    FusionInputs inputs(seed);
-    HomographyFusion fusion = makeFusion(), of_one = makeFusion();
-    for (int k = 2; k <= 40; k += 2) {
-      const InertialInput first = inputs.inertial(k - 2, k - 1), second = inputs.inertial(k - 1, k);
-      const VisualInput visual = inputs.visual(k - 2, k);
-      fusion.step(frameTime(k - 1), first, std::nullopt);
-      fusion.step(frameTime(k), second, visual);
-      error_across += inputs.error(fusion.since(frameTime(k - 2)).value(), k - 2, k);
-
-      const ImageScaling scaling(kWidth, kHeight);
-      const Estimate both =
-          composed({scaling.scale(second.H), second.covariance}, {scaling.scale(first.H), first.covariance});
-      const InertialInput whole{frameTime(k - 2), scaling.unscale(both.H), both.P};
-      error_of_one += inputs.error(of_one.step(frameTime(k), whole, visual).H_step, k - 2, k);
-    }
-  }
-  std::printf("across %.3f px, of one step %.3f px\n", error_across / 200, error_of_one / 200);
-  EXPECT_LT(error_across, 1.02 * error_of_one);
 }
 
 TEST(HomographyFusion, TimeThatDoesNotMoveForwardIsRefusedNotThrown) {

@@ -105,6 +105,8 @@ TEST_P(RenderedOverload, ASlowSegmentationFindsAsMuchAsAnEvenShareOfTheFrames) {
                                 runSlowly(flight_, {{&kMotionSegmentation, kind.periods}}));
     expectEvenShare(slow, share);
     EXPECT_GE(slow.found * slow.answered / kFlown, even * share - 0.01) << kind.periods;
+    // Without points a frame is worth less, on grove2 by .055; not by any more.
+    EXPECT_GE(slow.found, even - 0.07) << kind.periods;
     EXPECT_LE(slow.false_area, even_false + 0.001) << kind.periods;
   }
 }
@@ -125,7 +127,7 @@ TEST_P(RenderedOverload, WhatSlowVisionLeavesIsWorthAsMuchAsIfTheOtherFramesHadN
     more_false += (slow.false_area - same.false_area) / static_cast<double>(std::size(all_periods));
   }
   std::printf("found %+.3f, false %+.3f %%\n", more, 100 * more_false);
-  EXPECT_GE(more, -0.02);
+  EXPECT_GE(more, -0.01);
   EXPECT_LE(more_false, 0.0005);
 }
 

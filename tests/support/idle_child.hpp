@@ -16,7 +16,7 @@ class IdleChild {
     if (pid_ == 0) {
       while (true) pause();
     }
-    while (!isAsleep()) usleep(1000);
+    for (int ms = 0; ms < 60'000 && !isAsleep(); ++ms) usleep(1000);
   }
   ~IdleChild() {
     ::kill(pid_, SIGKILL);

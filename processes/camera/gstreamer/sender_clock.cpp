@@ -11,7 +11,7 @@ namespace {
 constexpr int64_t kSecond_ns = 1'000'000'000;
 constexpr int64_t kNtpToUnix_ns = int64_t{2'208'988'800} * kSecond_ns;  // 1900 to 1970
 // An image arrives after it was taken, by both clocks' difference less, and not as late as this.
-constexpr int64_t kLatest_ns = 10 * kSecond_ns, kClocksDiffer_ns = kSecond_ns / 10;
+constexpr int64_t kLatest_ns = 2 * kSecond_ns, kClocksDiffer_ns = kSecond_ns / 10;
 
 struct StatedClock {
   const char* caps;

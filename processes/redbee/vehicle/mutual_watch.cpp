@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "processes/redbee/vehicle/pidfd.hpp"
 #include "redbee/node/node.hpp"
@@ -54,25 +55,31 @@ int guard(Partner& worker, pid_t child, int fd) {
 
 }  // namespace
 
-Partner::Partner(int fd, int pidfd, std::chrono::duration<double> timeout)
+Partner::Partner(int fd, const Process& partner, std::chrono::duration<double> timeout)
     : fd_(fd),
-      pidfd_(pidfd),
+      partner_(partner),
       timeout_(std::chrono::duration_cast<Clock::duration>(timeout)),
       deadline_(Clock::now() + kStartTimeout),
-      last_call_(Clock::now()) {}
+      last_call_(Clock::now()) {
+  silence_.end(last_call_);
+}
 
 Partner::~Partner() {
   close(fd_);
-  close(pidfd_);
+  close(partner_.pidfd);
 }
 
 Partner::State Partner::exchange(Clock::time_point now) {
   // Who was itself not scheduled cannot tell how long the other was silent.
-  if (now - last_call_ > kPartnerLate) deadline_ += now - last_call_;
-  last_call_ = now;
+  const auto period = now - std::exchange(last_call_, now);
+  const auto waited = silence_.waited(partner_.pid, now, period);
+  deadline_ += period > kPartnerLate ? period : waited;
   char signs[256];
   ssize_t count = 0;
-  while ((count = recv(fd_, signs, sizeof signs, MSG_DONTWAIT)) > 0) deadline_ = now + timeout_;
+  while ((count = recv(fd_, signs, sizeof signs, MSG_DONTWAIT)) > 0) {
+    deadline_ = now + timeout_;
+    silence_.end(now);
+  }
   if (count == 0) return State::kGone;
   if (now >= next_) {
     next_ = now + kSignPeriod;
@@ -82,7 +89,7 @@ Partner::State Partner::exchange(Clock::time_point now) {
   return now < deadline_ ? State::kAlive : State::kHung;
 }
 
-void Partner::end() const { pidfd::send(pidfd_, SIGKILL); }
+void Partner::end() const { pidfd::send(partner_.pidfd, SIGKILL); }
 
 int watchEachOther(std::chrono::duration<double> timeout, const std::function<void(Partner&)>& work) {
   int ends[2];
@@ -96,13 +103,13 @@ int watchEachOther(std::chrono::duration<double> timeout, const std::function<vo
   if (child == 0) {
     close(ends[0]);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    Partner partner(ends[1], parent_fd, timeout);
+    Partner partner(ends[1], {parent, parent_fd}, timeout);
     work(partner);
     return 0;
   }
   close(ends[1]);
   close(parent_fd);
-  Partner worker(ends[0], pidfd::open(child), timeout);
+  Partner worker(ends[0], {child, pidfd::open(child)}, timeout);
   return guard(worker, child, ends[0]);
 }
 

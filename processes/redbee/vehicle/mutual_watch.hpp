@@ -6,20 +6,27 @@
 #include <chrono>
 #include <functional>
 
+#include "processes/redbee/vehicle/silence.hpp"
+
 namespace redbee {
 
 /// One end of the pair.
 class Partner {
  public:
   using Clock = std::chrono::steady_clock;
-  /// `fd`: a connected socket; `pidfd`: the partner.
-  Partner(int fd, int pidfd, std::chrono::duration<double> timeout);
+  struct Process {
+    pid_t pid;
+    int pidfd;
+  };
+  /// `fd`: a connected socket.
+  Partner(int fd, const Process& partner, std::chrono::duration<double> timeout);
   ~Partner();
   Partner(const Partner&) = delete;
   Partner& operator=(const Partner&) = delete;
 
   enum class State { kAlive, kGone, kHung };
-  /// Sends a sign of life and reads the partner's. Before its first one it may take kStartTimeout.
+  /// Sends a sign of life and reads the partner's. Before its first one it may take kStartTimeout. To be
+  /// called several times a second: a partner that waits for a processor does not hang meanwhile.
   State exchange(Clock::time_point now);
   /// SIGKILL to the partner, and to no other process that may have its number by now.
   void end() const;
@@ -28,7 +35,8 @@ class Partner {
 
  private:
   int fd_;
-  int pidfd_;
+  Process partner_;
+  Silence silence_;
   Clock::duration timeout_;
   Clock::time_point deadline_;
   Clock::time_point last_call_;

@@ -30,7 +30,7 @@ std::optional<Scheduling> schedulingOf(pid_t pid) {
   std::string state;
   int64_t ran_ns = 0;
   std::ifstream schedstat(folderOf(pid) / "schedstat");
-  if (!fields || !(*fields >> state) || !(schedstat >> ran_ns)) return std::nullopt;
+  if (!fields || !(*fields >> state) || !(schedstat >> ran_ns) || ran_ns <= 0) return std::nullopt;
   return Scheduling{state == "R", std::chrono::nanoseconds(ran_ns)};
 }
 

@@ -26,7 +26,7 @@ struct Scheduling {
   std::chrono::nanoseconds ran{0};  ///< since its start
 };
 
-/// std::nullopt if there is no such process, or a kernel that does not say.
+/// std::nullopt if there is no such process, or a kernel that does not say (some print zeros).
 std::optional<Scheduling> schedulingOf(pid_t pid);
 
 }  // namespace redbee

@@ -14,7 +14,6 @@ namespace redbee {
 namespace {
 
 constexpr std::chrono::milliseconds kWatchLate{500};
-constexpr std::chrono::milliseconds kSilent{300};  ///< three heartbeats missed: looked at more closely
 
 }  // namespace
 
@@ -53,7 +52,8 @@ void ProcessWatch::watch(const SupervisedProcess& process, Clock::time_point now
     return;
   }
   if (watched.fd >= 0) noteDeath(process.name, watched);
-  watched = {fd, process.pid, identity->start_ticks, now + hangTimeout(), false, {}, now, {}};
+  watched = {fd, process.pid, identity->start_ticks, now + hangTimeout(), false, {}, {}};
+  watched.silence.end(now);
   watched.deadline = std::max(watched.deadline, now - identity->age + kStartTimeout);
 }
 
@@ -61,8 +61,7 @@ bool ProcessWatch::onHeartbeat(pid_t pid, Clock::time_point now) {
   for (auto& [name, watched] : watched_) {
     if (watched.fd < 0 || watched.pid != pid) continue;
     watched.deadline = now + hangTimeout();
-    watched.silent_since = now;
-    watched.ran.reset();
+    watched.silence.end(now);
     return true;
   }
   return false;
@@ -91,18 +90,6 @@ bool ProcessWatch::isStillWatched(const std::string& name, const Watched& watche
          });
 }
 
-/// How long of the last period a silent process has waited for a processor: on a machine that is overloaded
-/// the page, which has the lowest priority, takes longer to start than it may, and would be killed each time.
-ProcessWatch::Clock::duration ProcessWatch::waited(Watched& watched, Clock::time_point now,
-                                                   Clock::duration period) {
-  if (watched.fd < 0 || now < watched.silent_since + kSilent) return Clock::duration::zero();
-  const auto scheduling = schedulingOf(watched.pid);
-  if (!scheduling) return Clock::duration::zero();
-  const auto before = std::exchange(watched.ran, scheduling->ran);
-  if (!before || !scheduling->is_runnable) return Clock::duration::zero();
-  return std::max(Clock::duration::zero(), period - (scheduling->ran - *before));
-}
-
 std::vector<std::string> ProcessWatch::killHanging(Clock::time_point now) {
   const auto period = last_look_ ? now - *last_look_ : Clock::duration::zero();
   // Who was itself not scheduled cannot tell how long the others were silent.
@@ -110,9 +97,10 @@ std::vector<std::string> ProcessWatch::killHanging(Clock::time_point now) {
   last_look_ = now;
   std::vector<std::string> killed;
   for (auto& [name, watched] : watched_) {
-    const auto waiting = waited(watched, now, period);
-    watched.deadline += is_late ? period : waiting;
-    if (watched.fd < 0 || now < watched.deadline) continue;
+    if (watched.fd < 0) continue;
+    const auto waited = watched.silence.waited(watched.pid, now, period);
+    watched.deadline += is_late ? period : waited;
+    if (now < watched.deadline) continue;
     watched.deadline = now + hangTimeout();
     if (!isStillWatched(name, watched) || !pidfd::send(watched.fd, SIGKILL)) continue;
     watched.killed = true;

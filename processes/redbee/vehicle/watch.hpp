@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "processes/redbee/vehicle/process_identity.hpp"
+#include "processes/redbee/vehicle/silence.hpp"
 #include "processes/redbee/vehicle/supervisor_client.hpp"
 #include "redbee/process_health_t.hpp"
 
@@ -69,11 +70,9 @@ class ProcessWatch {
     Clock::time_point deadline;  ///< for its next heartbeat
     bool killed = false;
     process_health_t last{};
-    Clock::time_point silent_since{};
-    std::optional<std::chrono::nanoseconds> ran{};  ///< when it was last looked at in its silence
+    Silence silence{};
   };
   void watch(const SupervisedProcess& process, Clock::time_point now);
-  static Clock::duration waited(Watched& watched, Clock::time_point now, Clock::duration period);
   bool isStillWatched(const std::string& name, const Watched& watched) const;
   void noteDeath(const std::string& name, Watched& watched);
   Clock::duration hangTimeout() const {

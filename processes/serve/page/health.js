@@ -31,7 +31,7 @@ const figure = (value, digits) => (value === undefined ? '' : value.toFixed(digi
 function sayThatNothingFlies() {
   const item = document.createElement('li');
   item.textContent = 'no process of a stack reports here: none flies, or in another network. Flights on disk: choose one above';
-  remarks.replaceChildren(item);
+  remarks.prepend(item);
 }
 
 /** `health`: as node.cpp writes it. `may_write`: with a button each. */
@@ -61,6 +61,6 @@ export function drawHealth(health, may_write) {
     }
   }
   const is_alone = health.processes.every(({name, pid}) => name === 'serve' || pid === undefined);
-  document.getElementById('processes').hidden = is_alone;
+  document.getElementById('processes').hidden = is_alone && !may_write;  // restart buttons stay
   if (is_alone) sayThatNothingFlies();
 }

@@ -7,6 +7,9 @@
 
 #include <cstdlib>
 #include <stdexcept>
+#include <thread>
+
+#include "tests/support/busy_child.hpp"
 
 namespace redbee {
 namespace {
@@ -53,6 +56,25 @@ TEST(MutualWatch, AHangingWorkerIsKilled) {
               while (true) pause();
             }),
             7);
+}
+
+TEST(MutualWatch, AWorkerThatOthersKeepFromTheProcessorIsNotKilled) {
+  const auto start = Partner::Clock::now();
+  const pid_t others = fork();
+  if (others == 0) {
+    {
+      const test::BusyChild first(SCHED_OTHER), second(SCHED_OTHER);
+      std::this_thread::sleep_for(6 * kTimeout);
+    }
+    _exit(0);
+  }
+  EXPECT_EQ(statusOfPair([](Partner& partner) {
+              liveFor(partner, milliseconds(100));
+              test::computeForEver(SCHED_IDLE);
+            }),
+            7);
+  EXPECT_GT(Partner::Clock::now() - start, 6 * kTimeout) << "killed while others had the processor";
+  waitpid(others, nullptr, 0);
 }
 
 TEST(MutualWatch, AHangingGuardIsKilled) {
