@@ -206,7 +206,7 @@ Estimate HomographyFusion::stepTo(const Estimate& next) const {
 
 Estimate HomographyFusion::accept(const Eigen::Matrix3d& H_anchor, const Matrix8d& step_noise,
                                   const Matrix8d& covariance_anchor) {
-  const Estimate step = stepTo({H_anchor, step_noise});
+  Estimate step = stepTo({H_anchor, step_noise});
   anchor_ = {H_anchor, symmetric(covariance_anchor)};
   return step;
 }
