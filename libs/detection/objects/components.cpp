@@ -31,7 +31,7 @@ cv::Mat1b foregroundPart(const cv::Mat1b& probability, const cv::Mat1b& unknown,
   mask = mask(part).clone();
   if (mask.empty()) return mask;
   if (parameters.opening_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(parameters.opening_px));
-  if (parameters.closing_px > 0) mask = closed(mask, parameters.closing_px);
+  if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
   mask.setTo(0, unknown(part));
   return mask;
 }

@@ -52,7 +52,8 @@ cv::Mat1b movingMask(const cv::Mat1f& map, cv::Size image, int closing_px, cv::R
   cv::Mat1f moving;
   cv::resize(map(part), moving, place.size(), 0, 0, cv::INTER_LINEAR);
   cv::Mat1b mask = moving > kRegion;
-  return closing_px > 0 ? closed(mask, closing_px) : mask;
+  if (closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(closing_px));
+  return mask;
 }
 
 bool isCovered(const ForegroundComponents& found, size_t count, const cv::Rect& box) {

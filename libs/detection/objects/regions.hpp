@@ -22,9 +22,6 @@ void forEachRegion(const cv::Mat1b& mask, double min_area_px, const Work& work) 
   }
 }
 
-/// cv::morphologyEx() with MORPH_CLOSE and a disc. Only parts of the mask around what is set are processed.
-cv::Mat1b closed(const cv::Mat1b& mask, int diameter);
-
 /// Mean of a map, of any size, around a box of an image of size `image`: as far as the box's longer side,
 /// beyond what the object's own flow reaches. 1 if nothing is known there.
 double meanAround(const cv::Mat1f& map, cv::Size image, const cv::Rect& box);

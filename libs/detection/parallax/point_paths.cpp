@@ -222,8 +222,7 @@ void PointPaths::begin(const cv::Mat1b& excluded) {
       for (int y = row * cell; y < (row + 1) * cell; ++y) {
         for (int x = column * cell; x < (column + 1) * cell; ++x) {
           const Symmetric2f& S = tensor_(y, x);
-          if (0.5F * (S[0] + S[2]) <= best) continue;  // the mean of both eigenvalues
-          if (smallestEigenvalue(S) <= best) continue;
+          if (0.5F * (S[0] + S[2]) <= best || smallestEigenvalue(S) <= best) continue;  // the mean is cheap
           best = smallestEigenvalue(S);
           at = cv::Point(x, y);
         }
