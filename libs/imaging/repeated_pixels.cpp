@@ -23,8 +23,8 @@ cv::Mat1b repeatedPixels(const cv::Mat1b& mask, cv::Size size) {
     const uint8_t* from = mask[y];
     uint8_t* first = repeated[2 * y];
     int x = 0;
-    for (; x + kTogether <= mask.cols;
-         x += kTogether) {  // copies, so that the compiler need not fear overlap
+    // Copies, so that the compiler need not fear overlap.
+    for (; x + kTogether <= mask.cols; x += kTogether) {
       std::array<uint8_t, kTogether> once{};
       std::array<uint8_t, 2 * kTogether> twice{};
       std::copy_n(from + x, kTogether, once.begin());

@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "redbee/visual/avx2.hpp"
 #include "redbee/visual/patch_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,11 +13,6 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 
-HWY_INLINE __m256i pairOf(int16_t even, int16_t odd) {
-  return _mm256_set1_epi32(static_cast<int32_t>(static_cast<uint32_t>(static_cast<uint16_t>(odd)) << 16U |
-                                                static_cast<uint16_t>(even)));
-}
-
 /// Eight pixels of a row, each with its right neighbour.
 HWY_INLINE __m256i neighbours(const uint8_t* row) {
   const __m128i left = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(row));
@@ -24,21 +20,9 @@ HWY_INLINE __m256i neighbours(const uint8_t* row) {
   return _mm256_cvtepu8_epi16(_mm_unpacklo_epi8(left, right));
 }
 
-HWY_INLINE __m128i eight(const int16_t* from) {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
-}
-
 /// Eight of one row, eight of the next one.
 HWY_INLINE __m256i two(const int16_t* upper, const int16_t* lower) {
   return _mm256_inserti128_si256(_mm256_castsi128_si256(eight(upper)), eight(lower), 1);
-}
-
-HWY_INLINE int64_t total(__m256i sums) {
-  HWY_ALIGN int32_t lane[8];
-  _mm256_store_si256(reinterpret_cast<__m256i*>(lane), sums);
-  int64_t sum = 0;
-  for (const int32_t value : lane) sum += value;
-  return sum;
 }
 
 HWY_INLINE __m256i sampled(__m256i upper, __m256i lower, __m256i above, __m256i below) {

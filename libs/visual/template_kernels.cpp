@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "redbee/visual/avx2.hpp"
 #include "redbee/visual/lanes.hpp"
 #include "redbee/visual/template_kernels.hpp"
 
@@ -19,28 +20,18 @@ HWY_INLINE __m256i pixelsOfTwo(const uint8_t* row, size_t stride) {
   const __m128i lower = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(row + stride));
   return _mm256_cvtepu8_epi16(_mm_unpacklo_epi64(upper, lower));
 }
-HWY_INLINE __m128i eightOf(const int16_t* from) {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
-}
 /// Of rows `step` apart; the second is 0 where there is none.
 HWY_INLINE __m256i valuesOfTwo(const int16_t* row, ptrdiff_t step, bool both) {
-  const __m256i upper = _mm256_inserti128_si256(_mm256_setzero_si256(), eightOf(row), 0);
-  return both ? _mm256_inserti128_si256(upper, eightOf(row + step), 1) : upper;
+  const __m256i upper = _mm256_inserti128_si256(_mm256_setzero_si256(), eight(row), 0);
+  return both ? _mm256_inserti128_si256(upper, eight(row + step), 1) : upper;
 }
 HWY_INLINE void store(__m256i values, int16_t* row, ptrdiff_t step, bool both) {
   _mm_storeu_si128(reinterpret_cast<__m128i*>(row), _mm256_castsi256_si128(values));
   if (both) _mm_storeu_si128(reinterpret_cast<__m128i*>(row + step), _mm256_extracti128_si256(values, 1));
 }
 HWY_INLINE __m256i maskOf(const int16_t* mask, bool both) {
-  const __m256i one = _mm256_inserti128_si256(_mm256_setzero_si256(), eightOf(mask), 0);
-  return both ? _mm256_inserti128_si256(one, eightOf(mask), 1) : one;
-}
-HWY_INLINE int64_t totalOf(__m256i sums) {
-  HWY_ALIGN int32_t lane[8];
-  _mm256_store_si256(reinterpret_cast<__m256i*>(lane), sums);
-  int64_t sum = 0;
-  for (const int32_t value : lane) sum += value;
-  return sum;
+  const __m256i one = _mm256_inserti128_si256(_mm256_setzero_si256(), eight(mask), 0);
+  return both ? _mm256_inserti128_si256(one, eight(mask), 1) : one;
 }
 HWY_INLINE void addProducts(__m256i& sum, __m256i a, __m256i b) {
   sum = _mm256_add_epi32(sum, _mm256_madd_epi16(a, b));
@@ -79,15 +70,11 @@ bool cut(const uint8_t* first, size_t stride, const TemplateRows& rows, Template
       addProducts(yy, gy, gy);
     }
   }
-  sums = {totalOf(grey),   totalOf(grey_grey), totalOf(sum_x), totalOf(sum_y), totalOf(x_grey),
-          totalOf(y_grey), totalOf(xx),        totalOf(xy),    totalOf(yy)};
+  sums = {total(grey),   total(grey_grey), total(sum_x), total(sum_y), total(x_grey),
+          total(y_grey), total(xx),        total(xy),    total(yy)};
   return true;
 }
 
-HWY_INLINE __m256i pairsOf(int16_t even, int16_t odd) {
-  return _mm256_set1_epi32(static_cast<int32_t>(static_cast<uint32_t>(static_cast<uint16_t>(odd)) << 16U |
-                                                static_cast<uint16_t>(even)));
-}
 HWY_INLINE __m256i projected(__m256i gradient, __m256i grey, __m256i factors, __m256i constant) {
   const auto half = [&](__m256i pairs) HWY_ATTR {
     return _mm256_srai_epi32(_mm256_add_epi32(_mm256_madd_epi16(pairs, factors), constant), kProjectBits);
@@ -98,7 +85,7 @@ HWY_INLINE __m256i projected(__m256i gradient, __m256i grey, __m256i factors, __
 
 bool project(const TemplateRows& rows, const GradientProjection& by, int64_t& sum_x, int64_t& sum_y) {
   const ptrdiff_t step = 8 * static_cast<ptrdiff_t>(rows.lanes);
-  const __m256i factors_x = pairsOf(by.factor, by.slope_x), factors_y = pairsOf(by.factor, by.slope_y);
+  const __m256i factors_x = pairOf(by.factor, by.slope_x), factors_y = pairOf(by.factor, by.slope_y);
   const __m256i constant_x = _mm256_set1_epi32(by.constant_x), constant_y = _mm256_set1_epi32(by.constant_y);
   __m256i of_x = _mm256_setzero_si256(), of_y = of_x;
   for (int lane = 0; lane < rows.lanes; ++lane) {
@@ -119,8 +106,8 @@ bool project(const TemplateRows& rows, const GradientProjection& by, int64_t& su
       addProducts(of_y, t, gy);
     }
   }
-  sum_x = totalOf(of_x);
-  sum_y = totalOf(of_y);
+  sum_x = total(of_x);
+  sum_y = total(of_y);
   return true;
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
-#include "processes/redbee/vehicle/import_flight.hpp"
 #include "redbee/files/log.hpp"
+#include "tests/support/imported_flight.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/shared_flight.hpp"
 #include "tests/support/slow_stack.hpp"
@@ -21,15 +21,11 @@ constexpr int kEnd = kFrames - 14;  ///< what comes later may not be answered be
 
 StackFlight imported(const fs::path& folder) {
   const ScratchFolder scratch;
-  ImportOptions options;
-  options.source = folder;
-  options.log = scratch.path() / "flight.lcm";
-  const auto asl = std::find_if(importers().begin(), importers().end(),
-                                [](const Importer& importer) { return importer.name == "asl"; });
+  const fs::path file = scratch.path() / "flight.lcm";
   StackFlight flight;
-  flight.configuration = loadConfiguration(importFlight(*asl, options).configuration);
+  flight.configuration = importedAsl(folder, file);
   flight.configuration.overlay_period_frames = 0;
-  LogReader log(options.log);
+  LogReader log(file);
   while (const std::optional<LogEvent> event = log.next()) {
     if (event->channel == "CAMERA") {
       if (flight.frame_utimes.size() == kFrames) break;

@@ -14,9 +14,9 @@
 #include "processes/in_process_stack.hpp"
 #include "processes/node_factory.hpp"
 #include "processes/redbee/mosaic/ground_observer.hpp"
-#include "processes/redbee/vehicle/import_flight.hpp"
 #include "redbee/files/log.hpp"
 #include "redbee/node/message_check.hpp"
+#include "tests/support/imported_flight.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/shared_flight.hpp"
 
@@ -41,12 +41,8 @@ std::map<int64_t, GroundPlane> truePlanes(const fs::path& file) {
 /// Homographies of the stages that a mosaic needs: all but the detection.
 std::vector<fused_homography_t> fusedOf(const fs::path& folder, Configuration& configuration) {
   const ScratchFolder scratch;
-  ImportOptions options;
-  options.source = folder;
-  options.log = scratch.path() / "flight.lcm";
-  const auto asl = std::find_if(importers().begin(), importers().end(),
-                                [](const Importer& importer) { return importer.name == "asl"; });
-  configuration = loadConfiguration(importFlight(*asl, options).configuration);
+  const fs::path file = scratch.path() / "flight.lcm";
+  configuration = importedAsl(folder, file);
   const auto bus = makeLcmBus("memq://");
   std::vector<fused_homography_t> fused;
   const auto subscription = bus->subscribe<fused_homography_t>(
@@ -55,7 +51,7 @@ std::vector<fused_homography_t> fusedOf(const fs::path& folder, Configuration& c
   for (const auto* process : {&kImuIntegration, &kVisualHomography, &kHomographyFusion})
     nodes.push_back(makeNode(*process, *bus, configuration));
   InProcessStack stack(*bus, configuration.channels.health, std::move(nodes));
-  LogReader log(options.log);
+  LogReader log(file);
   while (const auto event = log.next()) {
     bus->publish(event->channel, event->data);
     stack.settle();
