@@ -57,11 +57,10 @@ cv::Mat1f guidedFilter(const cv::Mat& guide, const cv::Mat1f& map, int radius_px
   }
   slope = resized(boxMean(slope, side), guide.size(), cv::INTER_LINEAR);
   offset = resized(boxMean(offset, side), guide.size(), cv::INTER_LINEAR);
-  cv::Mat1f filtered(guide.size());
   for (int y = 0; y < guide.rows; ++y) {
-    applyModelRow(slope[y], offset[y], full_grey[y], static_cast<size_t>(guide.cols), filtered[y]);
+    applyModelRow(slope[y], offset[y], full_grey[y], static_cast<size_t>(guide.cols), slope[y]);
   }
-  return filtered;
+  return slope;
 }
 
 }  // namespace redbee

@@ -31,7 +31,7 @@ struct LinearModelRow {
 /// `contrast2`: added to the guide's variance.
 void linearModelRow(const LinearModelRow& row, float contrast2);
 
-/// slope * guide + offset.
+/// slope * guide + offset; `to` may be one of them.
 void applyModelRow(const float* slope, const float* offset, const float* guide, size_t width, float* to);
 
 }  // namespace redbee

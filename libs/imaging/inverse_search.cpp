@@ -56,12 +56,12 @@ void InverseSearch::prepare(const cv::Mat1b& from, const cv::Mat1b& to) {
     cv::resize(finer_to, scale.to, size, 0, 0, cv::INTER_AREA);
     constexpr int kMargin = kSearchMargin_px;
     cv::copyMakeBorder(scale.to, scale.to_padded, kMargin, kMargin, kMargin, kMargin, cv::BORDER_REPLICATE);
-    cv::spatialGradient(scale.from, scale.gradient_x, scale.gradient_y);
     scale.flow.create(size);
   }
 }
 
-SearchLevel InverseSearch::levelOf(const Scale& scale) const {
+SearchLevel InverseSearch::levelOf(const Scale& scale) {
+  cv::spatialGradient(scale.from, gradient_x_, gradient_y_);
   SearchLevel level{};
   level.width = scale.from.cols;
   level.height = scale.from.rows;
@@ -70,8 +70,8 @@ SearchLevel InverseSearch::levelOf(const Scale& scale) const {
   level.rows = 1 + (level.height - kSearchPatch_px) / level.stride_px;
   level.iterations = parameters_.iterations / 2;
   level.from = scale.from[0];
-  level.from_x = scale.gradient_x[0];
-  level.from_y = scale.gradient_y[0];
+  level.from_x = gradient_x_[0];
+  level.from_y = gradient_y_[0];
   level.to = scale.to_padded[0];
   return level;
 }
@@ -79,14 +79,16 @@ SearchLevel InverseSearch::levelOf(const Scale& scale) const {
 /// Running sums over rows: what is beyond the precision of a float stays in them, as it does in OpenCV's.
 void InverseSearch::sumOverPatches(const SearchLevel& level) {
   const auto columns = static_cast<size_t>(level.columns);
-  row_sums_.resize(columns * static_cast<size_t>(level.height));
+  constexpr int kKept = kSearchPatch_px + 1;
+  row_sums_.resize(columns * kKept);
   gradients_.resize(columns * static_cast<size_t>(level.rows));
   running_.assign(columns, {0, 0, 0, 0, 0});
   for (int y = 0; y < level.height; ++y) {
-    PatchGradients* sums = &row_sums_[columns * static_cast<size_t>(y)];
+    const auto sumsOf = [&](int row) { return &row_sums_[columns * static_cast<size_t>(row % kKept)]; };
+    PatchGradients* sums = sumsOf(y);
     sumGradients(level, y, sums);
     const int begin = y - kSearchPatch_px + 1;
-    const PatchGradients* left = begin > 0 ? sums - columns * kSearchPatch_px : nullptr;
+    const PatchGradients* left = begin > 0 ? sumsOf(y - kSearchPatch_px) : nullptr;
     for (size_t i = 0; i < columns; ++i) running_[i] = running_[i] + (left ? sums[i] - left[i] : sums[i]);
     if (begin < 0 || begin % level.stride_px != 0) continue;
     std::copy(running_.begin(), running_.end(),

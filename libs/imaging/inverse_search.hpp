@@ -29,18 +29,19 @@ class InverseSearch {
  private:
   struct Scale {
     cv::Mat1b from, to, to_padded;
-    cv::Mat1s gradient_x, gradient_y;
     cv::Mat2f flow;
   };
   int coarsestScale(cv::Size image) const;
   void prepare(const cv::Mat1b& from, const cv::Mat1b& to);
-  SearchLevel levelOf(const Scale& scale) const;
+  SearchLevel levelOf(const Scale& scale);
   void sumOverPatches(const SearchLevel& level);
   void startFrom(const cv::Mat2f& coarser, const SearchLevel& level);
 
   InverseSearchParameters parameters_;
-  std::vector<Scale> scales_;  ///< from the finest
-  std::vector<PatchGradients> row_sums_, running_, gradients_;
+  std::vector<Scale> scales_;             ///< from the finest
+  cv::Mat1s gradient_x_, gradient_y_;     ///< of the scale that is searched
+  std::vector<PatchGradients> row_sums_;  ///< of the rows within a patch, and of the one before them
+  std::vector<PatchGradients> running_, gradients_;
   std::vector<float> u_, v_, weights_;
   cv::Mat2f full_;
 };

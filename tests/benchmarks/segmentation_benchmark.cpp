@@ -77,13 +77,13 @@ BENCHMARK(alignHalfSize)->Unit(benchmark::kMillisecond);
 void appearanceModel(benchmark::State& state) {
   cv::Mat colour, moving = cv::Mat::zeros(inputs()[0].grey.size(), CV_32F);
   cv::cvtColor(inputs()[0].grey, colour, cv::COLOR_GRAY2BGRA);
-  colour.convertTo(colour, CV_32F);
   const SurfaceSpeed speed(colour.size(), cv::Vec2f(0, 0.1F));
+  SpareMaps spare;
   AppearanceModel background{{}, {}, ParallaxParameters{}.evidence_sigmas};
   background.learn(colour, moving, speed, 0.04);
   const SceneMotion scene(*inputs()[1].ground, inputs()[1].motion, inputs()[1].K);
   for (auto _ : state) {
-    background.propagate(scene);
+    background.propagate(scene, spare);
     benchmark::DoNotOptimize(background.appearanceDifference(colour, speed));
     background.learn(colour, moving, speed, 0.04);
   }
@@ -106,11 +106,13 @@ BENCHMARK(denseFlowHalfSize)->Unit(benchmark::kMillisecond);
 
 void travelHalfSize(benchmark::State& state) {
   const cv::Size half(320, 240);
-  const FrameEvidence now{cv::Mat2f(half, cv::Vec2f(1, 0)), cv::Mat2f(half, cv::Vec2f(0.5F, 0))};
+  const cv::Mat2f residual(1, half.width, cv::Vec2f(1, 0));
+  const FrameEvidence now{[&](int) { return residual[0]; }, cv::Mat2f(half, cv::Vec2f(0.5F, 0))};
+  SpareMaps spare;
   PropagatedEvidence evidence{{}};
   const cv::Mat unknown = cv::Mat::zeros(half, CV_8U);
   for (auto _ : state) {
-    evidence.update(now, Eigen::Matrix3d::Identity(), unknown);
+    evidence.update(now, Eigen::Matrix3d::Identity(), unknown, spare);
     benchmark::DoNotOptimize(evidence.motion());
   }
 }

@@ -27,10 +27,13 @@ RatesByAge ratesByAge(double slowest) {
 
 void AppearanceModel::reset() { maps_ = {}; }
 
-void AppearanceModel::propagate(const SceneMotion& scene) {
+void AppearanceModel::propagate(const SceneMotion& scene, SpareMaps& spare) {
   if (maps_.model.empty()) return;
+  cv::Mat4f& model = spare.ofSize(maps_.model.size());
+  std::swap(warped_.model, model);
   warpBackground(maps_, scene, warped_);
   std::swap(maps_, warped_);
+  std::swap(warped_.model, model);
 }
 
 SurfaceReset AppearanceModel::surfaceReset() const {
@@ -38,20 +41,21 @@ SurfaceReset AppearanceModel::surfaceReset() const {
   return {parameters_.use_surface_reset, sigmas * sigmas};
 }
 
-cv::Mat1f AppearanceModel::appearanceDifference(const cv::Mat4f& image, const SurfaceSpeed& speed) const {
+cv::Mat1f AppearanceModel::appearanceDifference(const cv::Mat4b& image, const SurfaceSpeed& speed) const {
   if (maps_.model.empty()) return cv::Mat1f::zeros(image.size());
   cv::Mat1f evidence(image.size());
   const auto noise2 = static_cast<float>(parameters_.noise * parameters_.noise);
   const double edge_px = parameters_.edge_tolerance_px / std::max(parameters_.downscale, 1);
   const auto edge2 = static_cast<float>(edge_px * edge_px);
   std::optional<ShadowTest> shadows;
-  if (shadow_.enabled) shadows.emplace(image, maps_.model, shadow_.noise);
+  FloatRows values(image);
+  if (shadow_.enabled) shadows.emplace(values, maps_.model, shadow_.noise);
   const std::vector<float> none(static_cast<size_t>(image.cols), 0.0F);
   const auto modelRow = [&](int y) { return maps_.model.ptr<float>(std::clamp(y, 0, image.rows - 1)); };
   for (int y = 0; y < image.rows; ++y) {
     const std::vector<float>& shadow = shadows ? shadows->row(y) : none;
     const DifferenceRow row{static_cast<size_t>(image.cols),
-                            image.ptr<float>(y),
+                            values(y),
                             {modelRow(y - 1), modelRow(y), modelRow(y + 1)},
                             shadow.data(),
                             speed.ptr<float>(y),
@@ -63,15 +67,16 @@ cv::Mat1f AppearanceModel::appearanceDifference(const cv::Mat4f& image, const Su
   return evidence;
 }
 
-void AppearanceModel::learn(const cv::Mat4f& image, const cv::Mat1f& moving, const SurfaceSpeed& speed,
+void AppearanceModel::learn(const cv::Mat4b& image, const cv::Mat1f& moving, const SurfaceSpeed& speed,
                             double elapsed_s) {
   if (maps_.model.empty()) {
     maps_ = {cv::Mat4f::zeros(image.size()), cv::Mat1f::zeros(image.size()), cv::Mat1b::zeros(image.size())};
   }
   const RatesByAge mean_rates = ratesByAge(elapsed_s / parameters_.span_s);
   const RatesByAge variance_rates = ratesByAge(elapsed_s / kVarianceSpan_s);
+  FloatRows values(image);
   for (int y = 0; y < image.rows; ++y) {
-    learnRow({static_cast<size_t>(image.cols), image.ptr<float>(y), moving[y], speed.ptr<float>(y),
+    learnRow({static_cast<size_t>(image.cols), values(y), moving[y], speed.ptr<float>(y),
               maps_.model.ptr<float>(y), maps_.speed[y], maps_.age[y]},
              mean_rates, variance_rates, surfaceReset());
   }

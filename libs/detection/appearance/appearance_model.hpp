@@ -6,7 +6,9 @@
 
 #include "redbee/detection/appearance/appearance_kernels.hpp"
 #include "redbee/detection/appearance/background_warp.hpp"
+#include "redbee/detection/appearance/float_rows.hpp"
 #include "redbee/detection/parameters.hpp"
+#include "redbee/detection/spare_maps.hpp"
 #include "redbee/imaging/warping.hpp"
 
 namespace redbee {
@@ -25,14 +27,14 @@ class AppearanceModel {
 
   void reset();
   /// Warps the model by the camera's motion, in pixels of the learned images.
-  void propagate(const SceneMotion& scene);
+  void propagate(const SceneMotion& scene, SpareMaps& spare);
   /// 0..1: d^2 / (d^2 + variance + noise^2 + (edge tolerance * slope)^2) of the pixel's difference d
   /// (libs/README.md, equation 29). Reduced in shadows, and where the surface that the model was learned from
   /// has moved away; 0 where the model has no data. `image`: blue, green, red, unused.
-  cv::Mat1f appearanceDifference(const cv::Mat4f& image, const SurfaceSpeed& speed) const;
+  cv::Mat1f appearanceDifference(const cv::Mat4b& image, const SurfaceSpeed& speed) const;
   /// Updates the model. Moving pixels (`moving`: 0..1) are learned slowly, so that they leave no trail.
   /// `elapsed_s`: since the last image.
-  void learn(const cv::Mat4f& image, const cv::Mat1f& moving, const SurfaceSpeed& speed, double elapsed_s);
+  void learn(const cv::Mat4b& image, const cv::Mat1f& moving, const SurfaceSpeed& speed, double elapsed_s);
 
  private:
   SurfaceReset surfaceReset() const;
@@ -41,7 +43,7 @@ class AppearanceModel {
   ShadowParameters shadow_;
   double evidence_sigmas_;
   BackgroundMaps maps_;
-  BackgroundMaps warped_;  ///< those of the frame before; their memory is used again
+  BackgroundMaps warped_;  ///< speed and age of the frame before, whose memory is used again
 };
 
 }  // namespace redbee

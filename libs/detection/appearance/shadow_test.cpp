@@ -9,23 +9,22 @@ constexpr int kWindow = 3;  // px, both ways
 
 }  // namespace
 
-ShadowTest::ShadowTest(const cv::Mat4f& image, const cv::Mat4f& background, double noise)
+ShadowTest::ShadowTest(FloatRows& image, const cv::Mat4f& background, double noise)
     : image_(image),
       background_(background),
       noise_variance_(static_cast<float>(noise * noise)),
-      products_(3 * static_cast<size_t>(image.cols)),
-      shadow_(static_cast<size_t>(image.cols)) {
+      products_(3 * static_cast<size_t>(background.cols)),
+      shadow_(static_cast<size_t>(background.cols)) {
   for (Sums& sums : rows_) sums.values.resize(products_.size());
 }
 
 void ShadowTest::add(int y) {
   const size_t width = shadow_.size();
-  sumShadowRow(image_.ptr<float>(y), background_.ptr<float>(y), width, products_.data(),
-               rows_[y % kWindow].of(width));
+  sumShadowRow(image_(y), background_.ptr<float>(y), width, products_.data(), rows_[y % kWindow].of(width));
 }
 
 const std::vector<float>& ShadowTest::row(int y) {
-  const int last = image_.rows - 1;
+  const int last = background_.rows - 1;
   const size_t width = shadow_.size();
   for (; next_ <= std::min(y + 1, last); ++next_) add(next_);
   const auto sums = [&](int of) { return rows_[std::clamp(of, 0, last) % kWindow].of(width); };

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "redbee/detection/appearance/appearance_kernels.hpp"
+#include "redbee/detection/appearance/float_rows.hpp"
 
 namespace redbee {
 
 class ShadowTest {
  public:
-  /// Both images: blue, green, red, unused; they are not copied. `noise`: grey levels, residual of a shadow
-  /// after scaling.
-  ShadowTest(const cv::Mat4f& image, const cv::Mat4f& background, double noise);
+  /// Both images: blue, green, red, unused; they are not copied, and `image` must outlive this. `noise`: grey
+  /// levels, residual of a shadow after scaling.
+  ShadowTest(FloatRows& image, const cv::Mat4f& background, double noise);
 
   /// For each pixel of row y: 0 (no shadow) to 1 (shadow). Rows must be requested in order, from 0.
   const std::vector<float>& row(int y);
@@ -26,7 +27,7 @@ class ShadowTest {
   };
   void add(int y);
 
-  cv::Mat4f image_;
+  FloatRows& image_;
   cv::Mat4f background_;
   float noise_variance_;
   int next_ = 0;

@@ -29,6 +29,7 @@ ForegroundEvidence::ForegroundEvidence(const ParallaxParameters& parallax,
 void ForegroundEvidence::reset() {
   motion_.reset();
   background_.reset();
+  spare_.clear();
 }
 
 void ForegroundEvidence::propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
@@ -40,10 +41,11 @@ void ForegroundEvidence::propagate(const Eigen::Matrix3d& ground, const std::opt
   motion_.propagate(ground, front, consistent);
   if (!appearance_.enabled) return;
   background_.propagate(SceneMotion(normaliseHomography(to_background_ * ground * to_background_.inverse()),
-                                    motion, {to_background_ * cameras.K_a, to_background_ * cameras.K_b}));
+                                    motion, {to_background_ * cameras.K_a, to_background_ * cameras.K_b}),
+                        spare_);
 }
 
-cv::Mat4f ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour,
+cv::Mat4b ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour,
                                              cv::Size full) const {
   cv::Mat3b image = colour;
   if (image.empty()) cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
@@ -56,17 +58,21 @@ cv::Mat4f ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Ma
   cv::GaussianBlur(image, small, {3, 3}, kSigmaPx);
   cv::Mat4b with_fourth;
   cv::cvtColor(small, with_fourth, cv::COLOR_BGR2BGRA);
-  cv::Mat4f compared;
-  with_fourth.convertTo(compared, CV_32F);
-  return compared;
+  return with_fourth;
 }
 
 /// Pixels of one region move together: half of each pixel's P_FG is taken from similar pixels around it.
-void ForegroundEvidence::fillRegions(const cv::Mat4f& image, cv::Mat1f& foreground) const {
+void ForegroundEvidence::fillRegions(const cv::Mat4b& image, cv::Mat1f& foreground) const {
   const double scale = downscale_;
   const int radius = std::max(1, static_cast<int>(std::lround(parallax_.region_radius_px / scale)));
-  cv::Mat1f grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGRA2GRAY);
+  constexpr int kTogether = 16;  // rows
+  cv::Mat1f grey(image.size());
+  cv::Mat4f rows;
+  for (int y = 0; y < image.rows; y += kTogether) {
+    const cv::Range range(y, std::min(y + kTogether, image.rows));
+    image.rowRange(range).convertTo(rows, CV_32F);
+    cv::cvtColor(rows, grey.rowRange(range), cv::COLOR_BGRA2GRAY);
+  }
   foreground = 0.5 * (foreground + guidedFilter(grey, foreground, radius, parallax_.fill_contrast));
   foreground = cv::min(cv::max(foreground, 0), 1);
 }
@@ -85,11 +91,11 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
                                          const cv::Mat1b& own_parts) {
   const double elapsed_s = seconds(time - last_time_);
   last_time_ = time;
-  const cv::Mat1f motion = motion_.learn(time, grey, K, full, own_parts);
+  const cv::Mat1f motion = motion_.learn(time, grey, K, full, own_parts, spare_);
   cv::Mat1f foreground, around_points;
   if (!motion.empty()) foreground = motion / (motion + parallax_.motion_half);
   if (appearance_.enabled) {
-    const cv::Mat4f image = imageToCompare(grey, colour, full);
+    const cv::Mat4b image = imageToCompare(grey, colour, full);
     cv::Mat1f moving;
     SurfaceSpeed speed;
     if (motion.empty()) {

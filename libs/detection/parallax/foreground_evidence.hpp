@@ -34,8 +34,8 @@ class ForegroundEvidence {
 
  private:
   void resizeToBackground(cv::Mat1f& foreground, SurfaceSpeed& speed, cv::Size size) const;
-  void fillRegions(const cv::Mat4f& image, cv::Mat1f& foreground) const;
-  cv::Mat4f imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour, cv::Size full) const;
+  void fillRegions(const cv::Mat4b& image, cv::Mat1f& foreground) const;
+  cv::Mat4b imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour, cv::Size full) const;
 
   ParallaxParameters parallax_;
   AppearanceParameters appearance_;
@@ -43,6 +43,7 @@ class ForegroundEvidence {
   Eigen::Matrix3d to_background_;  ///< full-size pixels to the background's
   ParallaxEvidence motion_;
   AppearanceModel background_;
+  SpareMaps spare_;
   CameraTime last_time_{};
 };
 

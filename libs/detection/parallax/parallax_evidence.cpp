@@ -8,6 +8,7 @@
 #include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parallax/border_structure.hpp"
 #include "redbee/detection/parallax/evidence_kernels.hpp"
+#include "redbee/detection/parallax/fast_movers.hpp"
 #include "redbee/detection/parallax/moving_points.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
 #include "redbee/imaging/guided_filter.hpp"
@@ -21,6 +22,11 @@ constexpr double kExpectedErrorPx = 0.5;  // full-size px, of the registration o
 // As min_gradient, but of the flow that the registration and the epipole are fitted to: they average over
 // the image, and look for outliers.
 constexpr double kFitGradient = 1.6;
+
+// At this speed an object moves by a whole flow patch within two frames, and the halos of the flow at
+// occlusions are as wide.
+constexpr double kFastPx = 8;  // full-size px a frame
+constexpr int kKeptRows = 4;   // of the normalized residual: PropagatedEvidence asks for three
 
 int halvings(int from_downscale, int to_downscale) {
   int times = 0;
@@ -98,7 +104,7 @@ void ParallaxEvidence::propagate(const Eigen::Matrix3d& ground, const std::optio
 }
 
 cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
-                                  cv::Size full, const cv::Mat1b& own_parts) {
+                                  cv::Size full, const cv::Mat1b& own_parts, SpareMaps& spare) {
   cv::Mat1b small;
   own_parts_.release();
   if (!own_parts.empty()) cv::resize(own_parts, own_parts_, shrunkSize(full, scale_), 0, 0, cv::INTER_AREA);
@@ -111,7 +117,7 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
   if (frame != nullptr && newest != nullptr) {
     elapsed_s_ = seconds(time - newest->time);
     const double frames = seconds(time - frame->time) / elapsed_s_;
-    found = evidence(*frame, small, work_ * K, frames);
+    found = evidence(*frame, small, work_ * K, frames, spare);
   }
   frames_.store(time, small, work_ * K, parameters_.baseline_s);
   if (parameters_.use_point_paths) paths_.update(time, small, work_ * K, own_parts_);
@@ -135,7 +141,7 @@ void ParallaxEvidence::leaveOutOwnParts(const EarlierFrame& frame, const Eigen::
 }
 
 cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b& grey,
-                                     const Eigen::Matrix3d& K, double frames) {
+                                     const Eigen::Matrix3d& K, double frames, SpareMaps& spare) {
   // Within half a patch of unknown pixels the flow is extrapolated.
   const AlignedImage reference = alignImage(frame, K, search_.patch() / 2);
   unknown_ = reference.unknown;
@@ -154,11 +160,22 @@ cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b&
       direction_known = true;
     }
   }
-  compareWithSegment(segment, error, covariance, flow);
+  for (cv::Mat2f* map : {&nearest_, &speed_}) map->create(flow.size());
+  residual_.create(flow.size());
+  normalized_residual_.create(kKeptRows, flow.cols);
+  FastMovers movers(parameters_.use_short_baseline, kFastPx / scale_ * frames);
+  int compared = 0;
+  const auto residual = [&](int y) {
+    for (; compared <= y; ++compared) {
+      compareWithSegment(compared, {segment, error, covariance, flow});
+      movers.count(compared, flow, unknown_, normalized_residual_[compared % kKeptRows]);
+    }
+    return normalized_residual_[y % kKeptRows];
+  };
+  propagated_.update({residual, flow, static_cast<float>(1 / frames)}, last_step_, unknown_, spare);
+  fast_ = movers.areMany();
   if (direction_known && parameters_.photometric_noise > 0)
     compared_.emplace(ImagePair{grey, reference.grey, flow, nearest_, error});
-  fast_ = parameters_.use_short_baseline && hasFastMovers(flow, frames);
-  propagated_.update({normalized_residual_, flow, static_cast<float>(1 / frames)}, last_step_, unknown_);
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
   cv::Mat1f motion = guidedFilter(grey, propagated_.motion(), radius, parameters_.fill_contrast);
   motion = cv::min(cv::max(motion, 0), 1);
@@ -187,25 +204,6 @@ cv::Mat1f ParallaxEvidence::photometricGain(const cv::Mat1f& foreground) const {
   return redbee::photometricGain(*compared_, at_work > kCompared, parameters_.photometric_noise);
 }
 
-bool ParallaxEvidence::hasFastMovers(const cv::Mat2f& flow, double frames) const {
-  // At this speed an object moves by a whole flow patch within two frames, and the halos of the flow at
-  // occlusions are as wide.
-  constexpr double kFastPx = 8;  // full-size px a frame
-  constexpr float kSureSigmas = 3;
-  constexpr int kStep = 8;
-  constexpr double kFraction = 0.02;  // of the image
-  const auto fast = static_cast<float>(kFastPx / scale_ * frames);
-  int known = 0, fast_movers = 0;
-  for (int y = kStep / 2; y < flow.rows; y += kStep) {
-    for (int x = kStep / 2; x < flow.cols; x += kStep) {
-      if (unknown_(y, x) != 0) continue;
-      ++known;
-      if (cv::norm(normalized_residual_(y, x)) > kSureSigmas && cv::norm(flow(y, x)) > fast) ++fast_movers;
-    }
-  }
-  return fast_movers > kFraction * known;
-}
-
 void ParallaxEvidence::suppressBorderStructure(cv::Mat1f& motion) const {
   // Squared, because evidence at the border has not accumulated yet for objects that enter the image.
   const cv::Mat1f inside =
@@ -219,31 +217,24 @@ HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const FlowC
   return registrationError(flow, noise, unknown_, segment, static_cast<float>(kExpectedErrorPx / scale_));
 }
 
-void ParallaxEvidence::compareWithSegment(const ParallaxSegment& segment, const HomographyFlow& error,
-                                          FlowCovariance& noise, const cv::Mat2f& flow) {
-  for (cv::Mat2f* map : {&normalized_residual_, &nearest_, &speed_}) map->create(flow.size());
-  residual_.create(flow.size());
-  const SmoothFlow smooth_error = smoothFlow(error);
-  const std::optional<cv::Vec3f> epipole = segment.epipole();
-  for (int y = 0; y < flow.rows; ++y) {
-    const FlowCovariance::Rows rows = noise.rows(y);
-    const ResidualRow row{y,
-                          static_cast<size_t>(flow.cols),
-                          flow.ptr<float>(y),
-                          {rows.upper[0], rows.upper[1], rows.upper[2]},
-                          {rows.lower[0], rows.lower[1], rows.lower[2]},
-                          rows.upper_weight,
-                          rows.lower_weight,
-                          unknown_[y],
-                          normalized_residual_.ptr<float>(y),
-                          residual_[y],
-                          nearest_.ptr<float>(y),
-                          speed_.ptr<float>(y)};
-    if (epipole) {
-      residualRow(smooth_error, epipole->val, segment.directionVariance(), row);
-    } else {
-      residualRowAlong(segment, error, row);
-    }
+void ParallaxEvidence::compareWithSegment(int y, const Comparison& with) {
+  const FlowCovariance::Rows rows = with.noise.rows(y);
+  const ResidualRow row{y,
+                        static_cast<size_t>(with.flow.cols),
+                        with.flow.ptr<float>(y),
+                        {rows.upper[0], rows.upper[1], rows.upper[2]},
+                        {rows.lower[0], rows.lower[1], rows.lower[2]},
+                        rows.upper_weight,
+                        rows.lower_weight,
+                        unknown_[y],
+                        normalized_residual_.ptr<float>(y % kKeptRows),
+                        residual_[y],
+                        nearest_.ptr<float>(y),
+                        speed_.ptr<float>(y)};
+  if (const std::optional<cv::Vec3f> epipole = with.segment.epipole()) {
+    residualRow(smoothFlow(with.error), epipole->val, with.segment.directionVariance(), row);
+  } else {
+    residualRowAlong(with.segment, with.error, row);
   }
 }
 

@@ -43,7 +43,7 @@ class ParallaxEvidence {
   /// size `full` or smaller).
   /// `own_parts`: see FrameInput; unknown where they are and where they were.
   cv::Mat1f learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K, cv::Size full,
-                  const cv::Mat1b& own_parts = {});
+                  const cv::Mat1b& own_parts, SpareMaps& spare);
 
   /// 255 where the reference frame of the last learn() does not show the scene; at work_downscale.
   const cv::Mat1b& unknown() const { return unknown_; }
@@ -62,19 +62,21 @@ class ParallaxEvidence {
  private:
   void leaveOutOwnParts(const EarlierFrame& frame, const Eigen::Matrix3d& K);
   cv::Mat1f evidence(const EarlierFrame& frame, const cv::Mat1b& grey, const Eigen::Matrix3d& K,
-                     double frames);
+                     double frames, SpareMaps& spare);
   /// By the epipole, or else by the front plane. `error`: of the registration without parallax.
   std::optional<ParallaxSegment> segmentWithoutMotion(const EarlierFrame& frame, const Eigen::Matrix3d& K,
                                                       const cv::Mat2f& flow, const FlowCovariance& noise,
                                                       const HomographyFlow& error);
   HomographyFlow registration(const cv::Mat2f& flow, const FlowCovariance& noise,
                               const ParallaxSegment& segment) const;
-  /// Sets the residual maps and speed_.
-  void compareWithSegment(const ParallaxSegment& segment, const HomographyFlow& error, FlowCovariance& noise,
-                          const cv::Mat2f& flow);
-  /// True if much of the image moves so fast that the previous frame is a better reference than an earlier
-  /// one.
-  bool hasFastMovers(const cv::Mat2f& flow, double frames) const;
+  struct Comparison {
+    const ParallaxSegment& segment;
+    const HomographyFlow& error;
+    FlowCovariance& noise;
+    const cv::Mat2f& flow;
+  };
+  /// Sets a row of the residual maps and of speed_.
+  void compareWithSegment(int y, const Comparison& with);
   void suppressBorderStructure(cv::Mat1f& motion) const;
 
   ParallaxParameters configured_;
@@ -92,7 +94,8 @@ class ParallaxEvidence {
   cv::Mat1b own_parts_;                                      ///< at work_downscale; empty: none
   cv::Mat1b unknown_;
   cv::Mat2f speed_;
-  cv::Mat2f normalized_residual_, nearest_;  ///< ParallaxSegment::Residual
+  cv::Mat2f normalized_residual_;  ///< ParallaxSegment::Residual, of the rows compared last
+  cv::Mat2f nearest_;              ///< ParallaxSegment::Residual
   cv::Mat1f residual_;
   std::optional<ImagePair> compared_;  ///< if the direction of travel is known
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "redbee/detection/parallax/structure_tensor.hpp"
 #include "redbee/geometry/compose_motion.hpp"
 #include "redbee/geometry/homography.hpp"
 
@@ -60,7 +59,8 @@ PointPaths::PointPaths(const ParallaxParameters& parameters)
       shape_(kWindow_px),
       forward_(shape_),
       backward_(shape_),
-      camera_(parameters.nearest_depth_fraction) {}
+      camera_(parameters.nearest_depth_fraction),
+      texture_(kWindow_px, std::max(2, static_cast<int>(std::lround(kCell_px / scale_))), kTexture) {}
 
 void PointPaths::reset() {
   paths_.clear();
@@ -86,17 +86,17 @@ void PointPaths::update(CameraTime time, const cv::Mat1b& grey, const Eigen::Mat
   camera_.propagate(elapsed_s, ground_, motion_ ? std::optional(CameraStep{*motion_, K_pair}) : std::nullopt);
   if (ground_ && !motion_) return reset();  // no path can be told from a static one's
   Pyramid image(grey, 1, shape_.margin(), kLeastSide_px);
-  tensor_ = structureTensor(grey, kWindow_px);
   since_sample_s_ += elapsed_s;
   const bool is_sampled = !continues || samples_.empty() || since_sample_s_ >= kSampleEvery_s;
   if (continues) {
     follow(image, *ground_, excluded);
     if (is_sampled) registerSamples();
-    for (PointPath& path : paths_) {
-      if (is_sampled) test(path);  // in between it says little more
-    }
   } else {
     reset();
+  }
+  findTexture(grey);
+  if (is_sampled) {  // in between a test says little more
+    for (size_t i = 0; i < paths_.size(); ++i) test(paths_[i], texture_.atPoints()[i]);
   }
   begin(excluded);
   if (is_sampled) sample();
@@ -114,11 +114,17 @@ bool PointPaths::isInside(const Eigen::Vector2d& p) const {
 }
 
 void PointPaths::follow(const Pyramid& image, const Eigen::Matrix3d& ground, const cv::Mat1b& excluded) {
-  kept_.clear();
+  size_t kept = 0;
   for (PointPath& path : paths_) {
-    if (advance(path, image, ground) && !isExcluded(excluded, pixelAt(path.at))) kept_.push_back(path);
+    if (advance(path, image, ground) && !isExcluded(excluded, pixelAt(path.at))) paths_[kept++] = path;
   }
-  paths_.swap(kept_);
+  paths_.resize(kept);
+}
+
+void PointPaths::findTexture(const cv::Mat1b& grey) {
+  pixels_.clear();
+  for (const PointPath& path : paths_) pixels_.push_back(pixelAt(path.at));
+  texture_.find(grey, pixels_);
 }
 
 /// From the whole pixel next to it, where the template needs no interpolation. False if it is lost.
@@ -185,11 +191,11 @@ void PointPaths::registerSamples() {
   }
 }
 
-void PointPaths::test(PointPath& path) {
+void PointPaths::test(PointPath& path, const Symmetric2f& tensor) {
   path.static_residual = path.moving_residual = path.log_likelihood = 0;
   const size_t count = std::min(path.sampled, samples_.size());
   if (count < kFewestSamples) return;
-  const Eigen::Matrix2d whitening = whiteningOf(tensor_(pixelAt(path.at)), kNoise_px / scale_);
+  const Eigen::Matrix2d whitening = whiteningOf(tensor, kNoise_px / scale_);
   UniformPathFit sightings;
   sightings.add({0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()});
   for (size_t j = 0; j < count && camera_.remembers(samples_[j].frame); ++j) {
@@ -207,32 +213,13 @@ void PointPaths::test(PointPath& path) {
 
 /// At the best texture of each cell that holds no point.
 void PointPaths::begin(const cv::Mat1b& excluded) {
-  const int cell = std::max(2, static_cast<int>(std::lround(kCell_px / scale_)));
-  const int columns = size_.width / cell, rows = size_.height / cell;
-  cv::Mat1b occupied = cv::Mat1b::zeros(rows + 1, columns + 1);
-  for (const PointPath& path : paths_) {
-    const cv::Point at = pixelAt(path.at);
-    occupied(at.y / cell, at.x / cell) = 1;
-  }
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      if (occupied(row, column) != 0) continue;
-      auto best = static_cast<float>(kTexture);
-      std::optional<cv::Point> at;
-      for (int y = row * cell; y < (row + 1) * cell; ++y) {
-        for (int x = column * cell; x < (column + 1) * cell; ++x) {
-          const Symmetric2f& S = tensor_(y, x);
-          if (0.5F * (S[0] + S[2]) <= best || smallestEigenvalue(S) <= best) continue;  // the mean is cheap
-          best = smallestEigenvalue(S);
-          at = cv::Point(x, y);
-        }
-      }
-      if (!at || !isInside({at->x, at->y}) || isExcluded(excluded, *at)) continue;
-      PointPath path;
-      path.at = {at->x, at->y};
-      path.samples.fill(Eigen::Vector2d::Zero());
-      paths_.push_back(path);
-    }
+  paths_.reserve(paths_.size() + texture_.best().size());
+  for (const cv::Point& at : texture_.best()) {
+    if (!isInside({at.x, at.y}) || isExcluded(excluded, at)) continue;
+    PointPath path;
+    path.at = {at.x, at.y};
+    path.samples.fill(Eigen::Vector2d::Zero());
+    paths_.push_back(path);
   }
 }
 

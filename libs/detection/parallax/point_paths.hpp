@@ -13,6 +13,7 @@
 
 #include "redbee/detection/objects/static_path.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
+#include "redbee/detection/parallax/textured_pixels.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/imaging/pyramid.hpp"
@@ -60,7 +61,8 @@ class PointPaths {
   void follow(const Pyramid& image, const Eigen::Matrix3d& ground, const cv::Mat1b& excluded);
   bool advance(PointPath& path, const Pyramid& image, const Eigen::Matrix3d& ground);
   void registerSamples();
-  void test(PointPath& path);
+  void findTexture(const cv::Mat1b& grey);
+  void test(PointPath& path, const Symmetric2f& tensor);
   void begin(const cv::Mat1b& excluded);
   void sample();
   /// Of a point's earlier position in the current image, the registration's error removed.
@@ -74,14 +76,15 @@ class PointPaths {
   CameraPath camera_;
   Pyramid previous_;
   cv::Size size_;
-  cv::Mat3f tensor_;            ///< structure tensor of the current image
   std::deque<Sample> samples_;  ///< newest first
   double since_sample_s_ = 0;
   std::optional<CameraTime> last_time_;
   std::optional<Eigen::Matrix3d> ground_;  ///< since the last image
   std::optional<PlaneMotion> motion_;      ///< since then
   Eigen::Matrix3d K_;                      ///< of that image [px]
-  std::vector<PointPath> paths_, kept_;
+  std::vector<PointPath> paths_;
+  std::vector<cv::Point> pixels_;  ///< where they are
+  TexturedPixels texture_;
 };
 
 }  // namespace redbee

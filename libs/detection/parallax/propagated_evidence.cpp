@@ -28,35 +28,37 @@ Propagation propagationBy(const ParallaxParameters& parameters, float step, cons
 void PropagatedEvidence::reset() { moving_.release(); }
 
 void PropagatedEvidence::update(const FrameEvidence& now, const Eigen::Matrix3d& ground,
-                                const cv::Mat1b& unknown) {
-  const cv::Mat2f& residual = now.normalized_residual;
+                                const cv::Mat1b& unknown, SpareMaps& spare) {
+  const cv::Size size = now.flow.size();
   const Propagation by = propagationBy(parameters_, now.step, ground);
-  std::swap(previous_, moving_);
-  const bool has_previous = !previous_.empty();
-  moving_.create(residual.size());
-  motion_.create(residual.size());
-  const size_t values = 2 * static_cast<size_t>(residual.cols);
+  const bool has_previous = !moving_.empty();
+  cv::Mat4f& moving = spare.ofSize(size);
+  motion_.create(size);
+  const size_t values = 2 * static_cast<size_t>(size.width);
   places_.resize(values);
   sums_.resize(values + 4);
   mean_residual_.resize(values);
   // Mirrored beyond the border.
-  const int last = residual.rows - 1, inside = std::min(1, last);
+  const auto residual = [&](int y) { return now.residual(y)->val; };
+  const int last = size.height - 1, inside = std::min(1, last);
   for (int y = 0; y <= last; ++y) {
-    const float* above = residual.ptr<float>(y == 0 ? inside : y - 1);
-    const float* below = residual.ptr<float>(y == last ? last - inside : y + 1);
+    const float* below = residual(y == last ? last - inside : y + 1);
+    const float* above = residual(y == 0 ? inside : y - 1);
     propagateRow(by, {y,
-                      static_cast<size_t>(residual.cols),
+                      static_cast<size_t>(size.width),
                       now.flow.ptr<float>(y),
-                      {above, residual.ptr<float>(y), below},
-                      has_previous ? previous_.ptr<float>() : nullptr,
-                      residual.rows,
+                      {above, residual(y), below},
+                      has_previous ? moving_.ptr<float>() : nullptr,
+                      size.height,
                       unknown[y],
                       places_.data(),
                       sums_.data(),
                       mean_residual_.data(),
-                      moving_.ptr<float>(y),
+                      moving.ptr<float>(y),
                       motion_[y]});
   }
+  if (!has_previous) moving_.create(size);
+  std::swap(moving_, moving);
 }
 
 }  // namespace redbee

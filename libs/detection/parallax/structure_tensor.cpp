@@ -38,6 +38,14 @@ Symmetric2f inverseRoot(const Symmetric2f& S) {
 }
 
 cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px) {
+  cv::Mat3f tensor(grey.size());
+  forEachTensorRow(grey, window_px,
+                   [&](int y, const Symmetric2f* row) { std::copy(row, row + grey.cols, tensor[y]); });
+  return tensor;
+}
+
+void forEachTensorRow(const cv::Mat1b& grey, int window_px,
+                      const std::function<void(int, const Symmetric2f*)>& visit) {
   constexpr int kWidest_px = 45;  // of the steepest gradients the sums still fit
   if (window_px < 1 || window_px > kWidest_px || window_px % 2 == 0)
     throw std::invalid_argument("structureTensor: the window must be odd, 1 to 45 px");
@@ -48,15 +56,15 @@ cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px) {
   };
   std::vector<int16_t> smooth(static_cast<size_t>(width) + 2), difference(smooth.size());
   std::vector<int32_t> sums(3 * stride, 0), products(3 * stride * static_cast<size_t>(side), 0);
-  cv::Mat3f tensor(grey.size());
+  std::vector<Symmetric2f> row(static_cast<size_t>(width));
   for (int step = -radius; step < grey.rows + radius; ++step) {
     const int y = mirrored(step, grey.rows);
     const uint8_t* const rows[3] = {grey[mirrored(y - 1, grey.rows)], grey[y],
                                     grey[mirrored(y + 1, grey.rows)]};
     smoothAndDifference(rows, static_cast<size_t>(width), &smooth[1], &difference[1]);
-    for (std::vector<int16_t>* row : {&smooth, &difference}) {
-      row->front() = (*row)[static_cast<size_t>(mirrored(-1, width) + 1)];
-      row->back() = (*row)[static_cast<size_t>(mirrored(width, width) + 1)];
+    for (std::vector<int16_t>* values : {&smooth, &difference}) {
+      values->front() = (*values)[static_cast<size_t>(mirrored(-1, width) + 1)];
+      values->back() = (*values)[static_cast<size_t>(mirrored(width, width) + 1)];
     }
     const auto kept = static_cast<size_t>((step + radius) % side);
     slideTensorColumns(&smooth[1], &difference[1], static_cast<size_t>(width),
@@ -70,9 +78,9 @@ cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px) {
       }
     }
     sumTensorRow(sums.data(), stride, side, 1 / (kSobelGain * kSobelGain * side * side),
-                 static_cast<size_t>(width), tensor.ptr<float>(step - radius));
+                 static_cast<size_t>(width), row.data()->val);
+    visit(step - radius, row.data());
   }
-  return tensor;
 }
 
 /// The inverse of S + kNoGradient2 I is its adjugate over its determinant.

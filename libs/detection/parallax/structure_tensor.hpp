@@ -2,6 +2,7 @@
 // along an edge a displacement is not observed (aperture problem).
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
 
 namespace redbee {
@@ -22,6 +23,9 @@ inline cv::Vec2f operator*(const Symmetric2f& S, const cv::Vec2f& v) {
 /// S: mean of g g' over a window around each pixel, g the gradient [grey levels per px]; mirrored beyond the
 /// border. `window_px`: odd, at most 45.
 cv::Mat3f structureTensor(const cv::Mat1b& grey, int window_px);
+/// The same a row at a time, from the top: visit(y, row), which holds for the call.
+void forEachTensorRow(const cv::Mat1b& grey, int window_px,
+                      const std::function<void(int, const Symmetric2f*)>& visit);
 
 /// variance (I + min_gradient2 S^-1): `variance` over good texture, twice as much along a gradient of the
 /// root of `min_gradient2`.

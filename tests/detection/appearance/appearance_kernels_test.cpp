@@ -105,18 +105,19 @@ TEST_P(AppearanceKernels, LearningIsTheScalarOne) {
 
 TEST_P(AppearanceKernels, ShadowsAreTheScalarOnes) {
   constexpr double kNoise = 8;
-  image_ = 0.6 * model_ + 0.02 * image_;
+  const cv::Mat4b shaded = 0.6 * model_ + 0.02 * image_;
   cv::Mat3f products = cv::Mat3f::zeros(kSize), sums;
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
       for (int i = 0; i < 3; ++i) {
-        const float p = image_(y, x)[i], b = model_(y, x)[i];
+        const float p = shaded(y, x)[i], b = model_(y, x)[i];
         products(y, x) += cv::Vec3f(p * p, p * b, b * b);
       }
     }
   }
   cv::boxFilter(products, sums, -1, {3, 3}, {-1, -1}, false, cv::BORDER_REPLICATE);
-  ShadowTest shadows(image_, model_, kNoise);
+  FloatRows rows(shaded);
+  ShadowTest shadows(rows, model_, kNoise);
   float most = 0;
   for (int y = 0; y < kSize.height; ++y) {
     const std::vector<float>& row = shadows.row(y);

@@ -18,7 +18,6 @@ const cv::Rect kPatch(60, 50, 20, 20);
 cv::Mat asLearned(const cv::Mat& bgr) {
   cv::Mat image;
   cv::cvtColor(bgr, image, cv::COLOR_BGR2BGRA);
-  image.convertTo(image, CV_32F);
   return image;
 }
 
@@ -57,6 +56,7 @@ class Background : public testing::Test {
  protected:
   AppearanceModel background_{AppearanceParameters{}, ShadowParameters{},
                               ParallaxParameters{}.evidence_sigmas};
+  SpareMaps spare_;
 };
 
 TEST_F(Background, IsUnknownAtFirst) {
@@ -66,10 +66,10 @@ TEST_F(Background, IsUnknownAtFirst) {
 TEST_F(Background, FollowsAPanAndMarksUnknownPixels) {
   constexpr double kPan = 3.4;
   for (int k = 0; k < kImages; ++k) {
-    background_.propagate(pan(kPan));
+    background_.propagate(pan(kPan), spare_);
     background_.learn(scene(k * kPan), nothingMoves(), allAt(0), kFrame_s);
   }
-  background_.propagate(pan(kPan));
+  background_.propagate(pan(kPan), spare_);
   const cv::Mat evidence = background_.appearanceDifference(scene(kImages * kPan), allAt(0));
   EXPECT_LT(mean(evidence, {20, 5, 135, 110}), 0.02);
   EXPECT_EQ(cv::countNonZero(evidence.colRange(0, 3)), 0) << "what enters is unknown, not foreground";
@@ -180,7 +180,7 @@ TEST_F(Background, AboveTheHorizonOnlyTheRotationCounts) {
   const PlaneMotion motion{Eigen::Matrix3d::Identity(), {-0.2, 0, 0}, {0, 1, 0}, 1.0};
   const SceneMotion step(planeHomography(K, motion), motion, K);
   for (int k = 0; k < kImages; ++k) background_.learn(scene(0), nothingMoves(), allAt(0), kFrame_s);
-  background_.propagate(step);
+  background_.propagate(step, spare_);
   const cv::Mat evidence = background_.appearanceDifference(scene(0), allAt(0));
   EXPECT_LT(mean(evidence, {5, 5, 150, 50}), 0.01);
   EXPECT_GT(mean(evidence, {5, 100, 120, 15}), 0.2);

@@ -9,21 +9,21 @@ constexpr double kNoise = 8;
 const cv::Size kSize(24, 18);
 
 /// A checked floor.
-cv::Mat floor() {
-  cv::Mat image(kSize, CV_32FC4);
+cv::Mat4f floor() {
+  cv::Mat4f image(kSize);
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
       const float check = (x / 2 + y / 2) % 2 == 0 ? 1.0F : 0.8F;
-      image.at<cv::Vec4f>(y, x) = cv::Vec4f(90, 120, 150, 0) * check;
+      image(y, x) = cv::Vec4f(90, 120, 150, 0) * check;
     }
   }
   return image;
 }
 
 /// Least and greatest answer over the image.
-std::pair<float, float> extremes(const cv::Mat& image) {
-  const cv::Mat background = floor();
-  ShadowTest test(image, background, kNoise);
+std::pair<float, float> extremes(const cv::Mat4b& image) {
+  FloatRows rows(image);
+  ShadowTest test(rows, floor(), kNoise);
   float least = 1, greatest = 0;
   for (int y = 0; y < image.rows; ++y) {
     for (const float shadow : test.row(y)) {
@@ -46,22 +46,22 @@ TEST(ShadowTest, TheSameLightMoreLightAndNearDarknessAreNoShadow) {
 }
 
 TEST(ShadowTest, AnotherColourIsNoShadow) {
-  EXPECT_LT(extremes(cv::Mat(kSize, CV_32FC4, cv::Scalar(110, 60, 60, 0))).second, 0.1F);
+  EXPECT_LT(extremes(cv::Mat4b(kSize, cv::Vec4b(110, 60, 60, 0))).second, 0.1F);
 }
 
 TEST(ShadowTest, ShadeOfAnotherTextureIsNoShadow) {
   // Two pixels aside the checks are each other's negative.
-  const cv::Mat shade = 0.7 * floor();
-  cv::Mat moved = shade.clone();
+  const cv::Mat4b shade = 0.7 * floor();
+  cv::Mat4b moved = shade.clone();
   const int width = kSize.width - 2;
   shade(cv::Rect(0, 0, width, kSize.height)).copyTo(moved(cv::Rect(2, 0, width, kSize.height)));
   EXPECT_LT(extremes(moved).first, 0.5F);
 }
 
 TEST(ShadowTest, AnImageOfOneColumnIsClassified) {
-  const cv::Mat column = 0.7 * floor().colRange(0, 1);
-  const cv::Mat background = floor().colRange(0, 1).clone();
-  ShadowTest test(column, background, kNoise);
+  const cv::Mat4b column = 0.7 * floor().colRange(0, 1);
+  FloatRows rows(column);
+  ShadowTest test(rows, floor().colRange(0, 1).clone(), kNoise);
   for (int y = 0; y < column.rows; ++y) EXPECT_GT(test.row(y)[0], 0.99F);
 }
 

@@ -90,8 +90,8 @@ TEST_P(EvidenceKernels, ResidualsAreTheScalarOnes) {
 }
 
 /// One frame of equation (28), by OpenCV's functions and pixel by pixel.
-cv::Mat4f propagatedByScalars(const cv::Mat4f& then, const FrameEvidence& now, const Eigen::Matrix3f& back,
-                              const ParallaxParameters& parameters) {
+cv::Mat4f propagatedByScalars(const cv::Mat4f& then, const FrameEvidence& now, const cv::Mat2f& residual,
+                              const Eigen::Matrix3f& back, const ParallaxParameters& parameters) {
   cv::Mat2f places(then.size()), around;
   for (int y = 0; y < then.rows; ++y) {
     for (int x = 0; x < then.cols; ++x) {
@@ -104,13 +104,13 @@ cv::Mat4f propagatedByScalars(const cv::Mat4f& then, const FrameEvidence& now, c
   }
   cv::Mat4f moving;
   cv::remap(then, moving, places, {}, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar::all(0));
-  cv::blur(now.normalized_residual, around, {3, 3});
+  cv::blur(residual, around, {3, 3});
   const auto half2 = static_cast<float>(parameters.evidence_sigmas * parameters.evidence_sigmas);
   const auto rate = static_cast<float>(parameters.evidence_rate);
   for (int y = 0; y < then.rows; ++y) {
     for (int x = 0; x < then.cols; ++x) {
       cv::Vec4f& sum = moving(y, x);
-      const cv::Vec2f& off = now.normalized_residual(y, x);
+      const cv::Vec2f& off = residual(y, x);
       const float then2 = sum[1] * sum[1] + sum[2] * sum[2];
       const float kept = std::min(1.0F, (4 * around(y, x).dot(around(y, x)) + half2) / (then2 + half2));
       const float off2 = off.dot(off);
@@ -125,6 +125,7 @@ TEST_P(EvidenceKernels, PropagationIsTheScalarOne) {
   constexpr int kRows = 21;
   const ParallaxParameters parameters;
   PropagatedEvidence evidence(parameters);
+  SpareMaps spare;
   cv::Mat4f moving = cv::Mat4f::zeros(kRows, kWidth);
   Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();
   ground(0, 2) = 1.7;
@@ -132,12 +133,12 @@ TEST_P(EvidenceKernels, PropagationIsTheScalarOne) {
   ground(2, 0) = 1e-4;
   const Eigen::Matrix3f back = ground.inverse().cast<float>();
   for (uint64_t k = 0; k < 4; ++k) {
-    FrameEvidence now{randomMap<cv::Mat2f>(kRows, 10 + k, -5, 5), randomMap<cv::Mat2f>(kRows, 20 + k, -9, 9),
-                      0.5F};
+    const auto residual = randomMap<cv::Mat2f>(kRows, 10 + k, -5, 5);
+    FrameEvidence now{[&](int y) { return residual[y]; }, randomMap<cv::Mat2f>(kRows, 20 + k, -9, 9), 0.5F};
     const cv::Mat1b unknown = randomMap<cv::Mat1b>(kRows, 30 + k, 0, 5) == 0;
     now.flow(3, 4) = {1e9F, std::numeric_limits<float>::quiet_NaN()};
-    evidence.update(now, ground, unknown);
-    moving = propagatedByScalars(moving, now, back, parameters);
+    evidence.update(now, ground, unknown, spare);
+    moving = propagatedByScalars(moving, now, residual, back, parameters);
     moving.setTo(cv::Scalar::all(0), unknown);
     for (int y = 0; y < kRows; ++y) {
       for (int x = 0; x < kWidth; ++x) {

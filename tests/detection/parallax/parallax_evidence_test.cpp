@@ -73,9 +73,10 @@ cv::Mat1f gainOfTwoFrames(const std::optional<PlaneMotion>& motion) {
   ParallaxParameters parameters;
   parameters.border_stretch = 0;
   ParallaxEvidence evidence(parameters);
-  evidence.learn(CameraTime(Duration(1'000'000)), texture, K, {320, 240});
+  SpareMaps spare;
+  evidence.learn(CameraTime(Duration(1'000'000)), texture, K, {320, 240}, {}, spare);
   evidence.propagate(kStill, std::nullopt, motion);
-  evidence.learn(CameraTime(Duration(1'083'000)), texture, K, {320, 240});
+  evidence.learn(CameraTime(Duration(1'083'000)), texture, K, {320, 240}, {}, spare);
   return evidence.photometricGain(cv::Mat1f(240, 320, 1));
 }
 

@@ -13,15 +13,17 @@ class PropagatedEvidenceTest : public testing::Test {
 
   /// Evidence of a square of 9 px at x that has moved by `off` standard deviations and `step` px.
   void see(int x, float off, float step) {
-    FrameEvidence now{cv::Mat2f::zeros(kSize, kSize), cv::Mat2f::zeros(kSize, kSize)};
+    cv::Mat2f residual = cv::Mat2f::zeros(kSize, kSize);
+    const FrameEvidence now{[&](int y) { return residual[y]; }, cv::Mat2f::zeros(kSize, kSize)};
     const cv::Rect square(x, 20, 9, 9);
-    now.normalized_residual(square).setTo(cv::Scalar(off, 0));
-    now.flow(square).setTo(cv::Scalar(-step, 0));
-    evidence_.update(now, kStill, cv::Mat::zeros(kSize, kSize, CV_8U));
+    residual(square).setTo(cv::Scalar(off, 0));
+    cv::Mat2f(now.flow, square).setTo(cv::Scalar(-step, 0));
+    evidence_.update(now, kStill, cv::Mat::zeros(kSize, kSize, CV_8U), spare_);
   }
   float motionAt(int x) const { return evidence_.motion().at<float>(24, x); }
 
   PropagatedEvidence evidence_{ParallaxParameters{}};
+  SpareMaps spare_;
 };
 
 TEST_F(PropagatedEvidenceTest, SteadyMotionAccumulatesWithoutATrail) {
