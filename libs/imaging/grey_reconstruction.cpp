@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "redbee/imaging/connected_regions.hpp"
 
@@ -41,29 +42,27 @@ void reconstruct(const cv::Mat1f& limit, cv::Mat1f& level) {
   }
 }
 
-cv::Mat1f fillHoles(const cv::Mat1f& map, int gap_px) {
+void fillHoles(cv::Mat1f& map, int gap_px) {
   const int side = (gap_px + 1) | 1;
-  cv::Mat1f closed;
-  cv::morphologyEx(map, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+  cv::Mat1f open;
+  cv::morphologyEx(map, open, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
   // An outline lies within one component: each is a small image of its own.
-  const ConnectedRegions components(closed > kOutline);
-  cv::Mat1f filled = map.clone();
-  const cv::Mat1f open = 1 - closed;
-  cv::Mat1f outside(map.size());
+  const ConnectedRegions components(open > kOutline);
+  cv::subtract(1, open, open);
+  std::vector<float> outside;
   for (size_t i = 0; i < components.size(); ++i) {
     const cv::Rect inside = components.box(i);
     if (std::min(inside.width, inside.height) < 3) continue;
-    cv::Mat1f level = outside(inside);
-    level.setTo(0);
+    outside.assign(static_cast<size_t>(inside.area()), 0);
+    cv::Mat1f level(inside.height, inside.width, outside.data());
     copyBorder(open(inside), level);
     reconstruct(open(inside), level);
     for (int y = 0; y < level.rows; ++y) {
-      float* here = filled[inside.y + y] + inside.x;
+      float* here = map[inside.y + y] + inside.x;
       const float* reached = level[y];
       for (int x = 0; x < level.cols; ++x) here[x] = std::max(here[x], 1 - reached[x]);
     }
   }
-  return filled;
 }
 
 }  // namespace redbee

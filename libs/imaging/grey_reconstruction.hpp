@@ -9,8 +9,8 @@ namespace redbee {
 /// the same size, level <= limit. Approximate: a fixed number of sweeps, which strongly winding paths exceed.
 void reconstruct(const cv::Mat1f& limit, cv::Mat1f& level);
 
-/// `map` (0..1) with its holes filled: a region enclosed by higher values is raised to the lowest value on
-/// its outline. Gaps in the outline up to `gap_px` are closed first; outlines below 0.02 are ignored.
-cv::Mat1f fillHoles(const cv::Mat1f& map, int gap_px);
+/// Fills the holes of `map` (0..1): a region enclosed by higher values is raised to the lowest value on its
+/// outline. Gaps in the outline up to `gap_px` are closed first; outlines below 0.02 are ignored.
+void fillHoles(cv::Mat1f& map, int gap_px);
 
 }  // namespace redbee

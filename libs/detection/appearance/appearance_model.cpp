@@ -7,6 +7,7 @@
 
 #include "redbee/detection/appearance/appearance_kernels.hpp"
 #include "redbee/detection/appearance/shadow_test.hpp"
+#include "redbee/imaging/float_rows.hpp"
 
 namespace redbee {
 namespace {

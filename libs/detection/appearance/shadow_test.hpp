@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "redbee/detection/appearance/appearance_kernels.hpp"
-#include "redbee/detection/appearance/float_rows.hpp"
+#include "redbee/imaging/float_rows.hpp"
 
 namespace redbee {
 

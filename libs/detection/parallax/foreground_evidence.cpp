@@ -91,26 +91,29 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
                                          const cv::Mat1b& own_parts) {
   const double elapsed_s = seconds(time - last_time_);
   last_time_ = time;
-  const cv::Mat1f motion = motion_.learn(time, grey, K, full, own_parts, spare_);
-  cv::Mat1f foreground, around_points;
-  if (!motion.empty()) foreground = motion / (motion + parallax_.motion_half);
+  cv::Mat1f foreground = motion_.learn(time, grey, K, full, own_parts, spare_), around_points;
+  const bool is_first = foreground.empty();
+  const auto half = static_cast<float>(parallax_.motion_half);
+  for (float& motion : foreground) motion = motion / (motion + half);
   if (appearance_.enabled) {
     const cv::Mat4b image = imageToCompare(grey, colour, full);
     cv::Mat1f moving;
     SurfaceSpeed speed;
-    if (motion.empty()) {
+    if (is_first) {
       moving = cv::Mat1f::zeros(image.size());
       speed = SurfaceSpeed(image.size(), cv::Vec2f(0, kUnknownVariance));
     } else {
       resizeToBackground(foreground, speed, image.size());
-      const cv::Mat1f difference = background_.appearanceDifference(image, speed);
-      around_points = motion_.movingRegion(difference);
-      cv::Mat1f foreign = foreground.mul(difference);
+      cv::Mat1f foreign = background_.appearanceDifference(image, speed);
+      around_points = motion_.movingRegion(foreign);
+      cv::multiply(foreign, foreground, foreign);
       if (parallax_.use_hole_filling) {
         const double gap_px = parallax_.outline_gap_px / downscale_;
-        foreign = cv::min(fillHoles(foreign, static_cast<int>(std::lround(gap_px))), foreground);
+        fillHoles(foreign, static_cast<int>(std::lround(gap_px)));
+        foreign = cv::min(foreign, foreground);
       }
       foreground = foreign;
+      foreign.release();
       if (parallax_.region_radius_px > 0) fillRegions(image, foreground);
       // Half is enough: an object learned as background would be missed for the model's whole span.
       moving = cv::min(2 * foreground, 1);
@@ -127,7 +130,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
     background_.learn(image, moving, speed, elapsed_s);
   }
   ForegroundMaps maps;
-  if (motion.empty()) return maps;
+  if (is_first) return maps;
   maps.gain = motion_.photometricGain(foreground);
   maps.residual = motion_.residual();
   maps.moving = around_points;

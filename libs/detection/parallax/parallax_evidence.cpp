@@ -7,7 +7,6 @@
 
 #include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/parallax/border_structure.hpp"
-#include "redbee/detection/parallax/evidence_kernels.hpp"
 #include "redbee/detection/parallax/fast_movers.hpp"
 #include "redbee/detection/parallax/moving_points.hpp"
 #include "redbee/detection/parallax/registration_error.hpp"
@@ -32,36 +31,6 @@ int halvings(int from_downscale, int to_downscale) {
   int times = 0;
   for (int downscale = std::max(from_downscale, 1); downscale < to_downscale; downscale *= 2) ++times;
   return times;
-}
-
-SmoothFlow smoothFlow(const HomographyFlow& flow) {
-  const auto& a = flow.affine;
-  return {{flow.middle[0], flow.middle[1]},
-          flow.unit,
-          {a(0, 0), a(0, 1), a(0, 2), a(1, 0), a(1, 1), a(1, 2)},
-          {flow.perspective[0], flow.perspective[1]}};
-}
-
-/// residualRow() for any segment.
-void residualRowAlong(const ParallaxSegment& segment, const HomographyFlow& error, const ResidualRow& row) {
-  for (size_t i = 0; i < row.width; ++i) {
-    const cv::Vec2f pixel(static_cast<float>(i), static_cast<float>(row.y)),
-        back(row.flow[2 * i], row.flow[2 * i + 1]);
-    const auto entry = [&](size_t k) {
-      return row.upper[k][i] * row.upper_weight + row.lower[k][i] * row.lower_weight;
-    };
-    const Symmetric2f noise(entry(0), entry(1), entry(2));
-    const cv::Vec2f forth = -back - error.at(pixel[0], pixel[1]);
-    const ParallaxSegment::Residual found = segment.residual(pixel + back, forth, noise);
-    const bool is_known = row.unknown[i] == 0;
-    row.squared[i] = is_known ? std::min(found.squaredMahalanobis(), kMostSquaredResidual) : kNotCompared;
-    for (int k = 0; k < 2; ++k) {
-      row.normalized_residual[2 * i + static_cast<size_t>(k)] = is_known ? found.normalized_residual[k] : 0;
-      row.nearest[2 * i + static_cast<size_t>(k)] = found.nearest[k];
-    }
-    row.speed[2 * i] = std::sqrt(forth.dot(forth));
-    row.speed[2 * i + 1] = largestEigenvalue(noise);
-  }
 }
 
 }  // namespace
@@ -140,42 +109,49 @@ void ParallaxEvidence::leaveOutOwnParts(const EarlierFrame& frame, const Eigen::
   unknown_ |= covered;
 }
 
+FlowComparison ParallaxEvidence::comparison(const EarlierFrame& frame, const cv::Mat1b& grey,
+                                            const cv::Mat1b& earlier, const Eigen::Matrix3d& K) {
+  const cv::Mat2f& flow = search_.flow(grey, earlier);
+  const FlowTexture texture(grey, scale_);
+  const FlowCovariance fit_noise = texture.covariance({parameters_.noise_px, kFitGradient});
+  ParallaxSegment segment(frame.motion, K, parameters_);
+  HomographyFlow error = registration(flow, fit_noise, segment);
+  bool is_direction_known = frame.motion && parameters_.use_epipolar;
+  if (!frame.motion) {
+    if (const auto estimated = segmentWithoutMotion(frame, K, flow, fit_noise, error)) {
+      segment = *estimated;
+      error = registration(flow, fit_noise, segment);
+      is_direction_known = true;
+    }
+  }
+  const FlowCovariance noise = texture.covariance({parameters_.noise_px, parameters_.min_gradient});
+  return FlowComparison(grey, earlier, flow, noise, {segment, error, is_direction_known});
+}
+
 cv::Mat1f ParallaxEvidence::evidence(const EarlierFrame& frame, const cv::Mat1b& grey,
                                      const Eigen::Matrix3d& K, double frames, SpareMaps& spare) {
   // Within half a patch of unknown pixels the flow is extrapolated.
   const AlignedImage reference = alignImage(frame, K, search_.patch() / 2);
   unknown_ = reference.unknown;
   leaveOutOwnParts(frame, K);
-  const cv::Mat2f& flow = search_.flow(grey, reference.grey);
-  const FlowTexture texture(grey, scale_);
-  FlowCovariance covariance = texture.covariance({parameters_.noise_px, parameters_.min_gradient});
-  const FlowCovariance fit_noise = texture.covariance({parameters_.noise_px, kFitGradient});
-  ParallaxSegment segment(frame.motion, K, parameters_);
-  HomographyFlow error = registration(flow, fit_noise, segment);
-  bool direction_known = frame.motion && parameters_.use_epipolar;
-  if (!frame.motion) {
-    if (const auto estimated = segmentWithoutMotion(frame, K, flow, fit_noise, error)) {
-      segment = *estimated;
-      error = registration(flow, fit_noise, segment);
-      direction_known = true;
-    }
-  }
-  for (cv::Mat2f* map : {&nearest_, &speed_}) map->create(flow.size());
+  compared_.emplace(comparison(frame, grey, reference.grey, K));
+  const cv::Mat2f& flow = compared_->flow();
+  speed_.create(flow.size());
   residual_.create(flow.size());
-  normalized_residual_.create(kKeptRows, flow.cols);
+  cv::Mat2f normalized(kKeptRows, flow.cols), nearest(1, flow.cols);
   FastMovers movers(parameters_.use_short_baseline, kFastPx / scale_ * frames);
   int compared = 0;
   const auto residual = [&](int y) {
     for (; compared <= y; ++compared) {
-      compareWithSegment(compared, {segment, error, covariance, flow});
-      movers.count(compared, flow, unknown_, normalized_residual_[compared % kKeptRows]);
+      cv::Vec2f* const row = normalized[compared % kKeptRows];
+      compared_->compareRow(compared, unknown_[compared],
+                            {row, nearest[0], residual_[compared], speed_[compared]});
+      movers.count(compared, flow, unknown_, row);
     }
-    return normalized_residual_[y % kKeptRows];
+    return normalized[y % kKeptRows];
   };
   propagated_.update({residual, flow, static_cast<float>(1 / frames)}, last_step_, unknown_, spare);
   fast_ = movers.areMany();
-  if (direction_known && parameters_.photometric_noise > 0)
-    compared_.emplace(ImagePair{grey, reference.grey, flow, nearest_, error});
   const int radius = std::max(1, static_cast<int>(std::lround(parameters_.fill_radius_px / scale_)));
   cv::Mat1f motion = guidedFilter(grey, propagated_.motion(), radius, parameters_.fill_contrast);
   motion = cv::min(cv::max(motion, 0), 1);
@@ -197,11 +173,12 @@ std::optional<ParallaxSegment> ParallaxEvidence::segmentWithoutMotion(const Earl
   return std::nullopt;
 }
 
-cv::Mat1f ParallaxEvidence::photometricGain(const cv::Mat1f& foreground) const {
+cv::Mat1f ParallaxEvidence::photometricGain(const cv::Mat1f& foreground) {
   constexpr double kCompared = 0.1;  // objects begin above
-  if (!compared_) return {};
+  if (!compared_ || !compared_->isDirectionKnown() || parameters_.photometric_noise <= 0) return {};
   const cv::Mat1f at_work = resized(foreground, unknown_.size());
-  return redbee::photometricGain(*compared_, at_work > kCompared, parameters_.photometric_noise);
+  return redbee::photometricGain(compared_->images(unknown_), at_work > kCompared,
+                                 parameters_.photometric_noise);
 }
 
 void ParallaxEvidence::suppressBorderStructure(cv::Mat1f& motion) const {
@@ -215,27 +192,6 @@ HomographyFlow ParallaxEvidence::registration(const cv::Mat2f& flow, const FlowC
                                               const ParallaxSegment& segment) const {
   if (!parameters_.use_registration) return HomographyFlow(flow.size());
   return registrationError(flow, noise, unknown_, segment, static_cast<float>(kExpectedErrorPx / scale_));
-}
-
-void ParallaxEvidence::compareWithSegment(int y, const Comparison& with) {
-  const FlowCovariance::Rows rows = with.noise.rows(y);
-  const ResidualRow row{y,
-                        static_cast<size_t>(with.flow.cols),
-                        with.flow.ptr<float>(y),
-                        {rows.upper[0], rows.upper[1], rows.upper[2]},
-                        {rows.lower[0], rows.lower[1], rows.lower[2]},
-                        rows.upper_weight,
-                        rows.lower_weight,
-                        unknown_[y],
-                        normalized_residual_.ptr<float>(y % kKeptRows),
-                        residual_[y],
-                        nearest_.ptr<float>(y),
-                        speed_.ptr<float>(y)};
-  if (const std::optional<cv::Vec3f> epipole = with.segment.epipole()) {
-    residualRow(smoothFlow(with.error), epipole->val, with.segment.directionVariance(), row);
-  } else {
-    residualRowAlong(with.segment, with.error, row);
-  }
 }
 
 }  // namespace redbee

@@ -14,8 +14,8 @@
 
 #include "redbee/detection/parallax/earlier_frames.hpp"
 #include "redbee/detection/parallax/epipole.hpp"
+#include "redbee/detection/parallax/flow_comparison.hpp"
 #include "redbee/detection/parallax/parallax_segment.hpp"
-#include "redbee/detection/parallax/photometric_gain.hpp"
 #include "redbee/detection/parallax/point_paths.hpp"
 #include "redbee/detection/parallax/propagated_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
@@ -57,7 +57,7 @@ class ParallaxEvidence {
   /// photometricGain() of the last learn() where this P_FG, 0..1, may be an object's; at work_downscale.
   /// Empty without an earlier frame, without a direction of travel (static surfaces may be anywhere then), or
   /// if photometric_noise is 0.
-  cv::Mat1f photometricGain(const cv::Mat1f& foreground) const;
+  cv::Mat1f photometricGain(const cv::Mat1f& foreground);
 
  private:
   void leaveOutOwnParts(const EarlierFrame& frame, const Eigen::Matrix3d& K);
@@ -69,14 +69,8 @@ class ParallaxEvidence {
                                                       const HomographyFlow& error);
   HomographyFlow registration(const cv::Mat2f& flow, const FlowCovariance& noise,
                               const ParallaxSegment& segment) const;
-  struct Comparison {
-    const ParallaxSegment& segment;
-    const HomographyFlow& error;
-    FlowCovariance& noise;
-    const cv::Mat2f& flow;
-  };
-  /// Sets a row of the residual maps and of speed_.
-  void compareWithSegment(int y, const Comparison& with);
+  FlowComparison comparison(const EarlierFrame& frame, const cv::Mat1b& grey, const cv::Mat1b& earlier,
+                            const Eigen::Matrix3d& K);
   void suppressBorderStructure(cv::Mat1f& motion) const;
 
   ParallaxParameters configured_;
@@ -94,10 +88,8 @@ class ParallaxEvidence {
   cv::Mat1b own_parts_;                                      ///< at work_downscale; empty: none
   cv::Mat1b unknown_;
   cv::Mat2f speed_;
-  cv::Mat2f normalized_residual_;  ///< ParallaxSegment::Residual, of the rows compared last
-  cv::Mat2f nearest_;              ///< ParallaxSegment::Residual
   cv::Mat1f residual_;
-  std::optional<ImagePair> compared_;  ///< if the direction of travel is known
+  std::optional<FlowComparison> compared_;
 };
 
 }  // namespace redbee

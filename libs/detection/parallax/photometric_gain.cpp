@@ -61,13 +61,15 @@ cv::Mat1f photometricGain(const ImagePair& images, const cv::Mat1b& where, doubl
   cv::Mat1b needed;
   cv::dilate(where(around), needed, cv::Mat1b::ones(kWindow_px, kWindow_px));
   for (int y = around.y; y < around.br().y; ++y) {
+    if (cv::countNonZero(needed.row(y - around.y)) == 0) continue;
+    const cv::Vec2f* const nearest = images.nearest(y);
     for (int x = around.x; x < around.br().x; ++x) {
       if (needed(y - around.y, x - around.x) == 0) continue;
       const cv::Vec2f pixel(static_cast<float>(x), static_cast<float>(y));
       const cv::Vec2f ground = pixel - images.ground.at(pixel[0], pixel[1]);
       const auto now = static_cast<float>(images.current(y, x));
       const cv::Vec3f difference(now - sample(images.earlier, pixel + images.flow(y, x)),
-                                 now - sample(images.earlier, ground - images.nearest(y, x)),
+                                 now - sample(images.earlier, ground - nearest[x]),
                                  now - sample(images.earlier, ground));
       squared(y, x) = difference.mul(difference);
     }

@@ -2,6 +2,7 @@
 // which may be a trunk's beside the pixel; the pixel itself, compared in the image, tells them apart.
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
 
 #include "redbee/detection/foreground_maps.hpp"
@@ -14,8 +15,10 @@ namespace redbee {
 struct ImagePair {
   cv::Mat1b current;
   cv::Mat1b earlier;
-  cv::Mat2f flow;         ///< px: current to earlier
-  cv::Mat2f nearest;      ///< px: ParallaxSegment::Residual::nearest of the flow, earlier to current
+  cv::Mat2f flow;  ///< px: current to earlier
+  /// px: ParallaxSegment::Residual::nearest of the flow, earlier to current, of a row. Rows are asked for in
+  /// order.
+  std::function<const cv::Vec2f*(int y)> nearest;
   HomographyFlow ground;  ///< px: of the ground, earlier to current (registrationError())
 };
 

@@ -12,9 +12,15 @@ constexpr int kSlope = 3;                                // grey levels per px, 
 constexpr double kNoise = 6, kNoise2 = kNoise * kNoise;  // grey levels
 const cv::Rect kInside(16, 12, 24, 16);
 
+/// Rows of one vector.
+std::function<const cv::Vec2f*(int)> everywhere(const cv::Vec2f& vector) {
+  return
+      [row = std::vector<cv::Vec2f>(static_cast<size_t>(kImage.width), vector)](int) { return row.data(); };
+}
+
 /// The earlier image is a ramp; in the current one all of it lies `moved_px` further to the right.
 ImagePair rampMovedBy(int moved_px, int slope = kSlope) {
-  ImagePair images{cv::Mat1b(kImage), cv::Mat1b(kImage), cv::Mat2f(kImage, {0, 0}), cv::Mat2f(kImage, {0, 0}),
+  ImagePair images{cv::Mat1b(kImage), cv::Mat1b(kImage), cv::Mat2f(kImage, {0, 0}), everywhere({0, 0}),
                    HomographyFlow(kImage)};
   for (int y = 0; y < kImage.height; ++y) {
     for (int x = 0; x < kImage.width; ++x) {
@@ -41,14 +47,14 @@ TEST(PhotometricGain, IsTheSquaredDifferenceThatOnlyTheFlowExplains) {
 TEST(PhotometricGain, IsNoneWhereTheGroundExplainsTheImage) {
   ImagePair images = rampMovedBy(0);
   images.flow.setTo(cv::Scalar(0, 4));  // along the ramp, explains it as well
-  images.nearest.setTo(cv::Scalar(2, 0));
+  images.nearest = everywhere({2, 0});
   EXPECT_EQ(gainInside(images), 0) << "the segment's nearest point alone would have one of 1";
 }
 
 TEST(PhotometricGain, IsNoneWhereASurfaceWithParallaxDoes) {
   ImagePair images = rampMovedBy(4);
   images.flow.setTo(cv::Scalar(-4, 3));
-  images.nearest.setTo(cv::Scalar(4, 0));
+  images.nearest = everywhere({4, 0});
   EXPECT_NEAR(gainInside(images), 0, 1e-3);
 }
 
