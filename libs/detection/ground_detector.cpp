@@ -36,13 +36,11 @@ DetectorOutput GroundDetector::step(const FrameInput& frame) {
   const bool is_repeated = content == ImageContent::kRepeated || content == ImageContent::kFrozen;
   if (is_repeated && continues && held_.covers(frame.time)) return held_.hold(frame);
   image_check_.setReference(frame.grey);
-  DetectorOutput output = process(continues ? held_.sinceImage(frame) : frame, continues, content);
+  const FrameInput input = continues ? held_.sinceImage(frame) : frame;
+  held_.reset();  // before the maps of this image are made
+  DetectorOutput output = process(input, continues, content);
   processed_time_ = frame.time;
-  if (output.status == DetectorStatus::kBadImage) {
-    held_.reset();
-  } else {
-    held_.begin(output);
-  }
+  if (output.status != DetectorStatus::kBadImage) held_.begin(output);
   return output;
 }
 
@@ -110,7 +108,8 @@ DetectorOutput GroundDetector::withObjects(CameraTime time, cv::Mat1b probabilit
   output.status = DetectorStatus::kGood;
   output.unknown = maps.unknown;
   probability.setTo(0, maps.unknown);
-  cv::threshold(probability, output.probability, kNoise, 0, cv::THRESH_TOZERO);
+  cv::threshold(probability, probability, kNoise, 0, cv::THRESH_TOZERO);
+  output.probability = std::move(probability);
   ForegroundComponents found =
       findComponents(output.probability, maps.unknown, objects_, {maps.gain, maps.residual, maps.moving});
   TrackedObjects objects = tracker_.update(found);

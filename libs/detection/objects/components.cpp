@@ -67,7 +67,7 @@ void add(ForegroundComponents& found, const cv::Mat1b& probability, const cv::Re
   component.area_px = area;
   component.score = cv::mean(probability(component.box), pixels)[0] / kFull;
   component.peak = peakOf(probability(component.box), pixels) / kFull;
-  if (component.peak <= weak_threshold) return;
+  if (component.peak <= weak_threshold || found.isFull()) return;
   if (!maps.gain.empty()) component.gain = meanGain(maps.gain, probability.size(), component.box, pixels);
   if (!maps.residual.empty())
     component.residual_around = meanAround(maps.residual, probability.size(), component.box);
@@ -97,7 +97,7 @@ void addForeground(ForegroundComponents& found, const cv::Mat1b& probability, co
   if (foreground.empty()) return;
   found.part = part;
   if (!maps.moving.empty()) found.part |= movingPart(maps.moving, found.image, parameters.closing_px);
-  found.labels = cv::Mat1i::zeros(found.part.size());
+  found.labels = cv::Mat1w::zeros(found.part.size());
   const double min_area_px = parameters.min_area_px;
   forEachRegion(foreground, min_area_px, [&](const cv::Rect& region, int, const cv::Mat1b& own) {
     const cv::Mat1b values = probability(region + part.tl());
@@ -142,6 +142,7 @@ cv::Mat1b ForegroundComponents::pixelsOf(size_t index) const {
 
 void splitComponent(ForegroundComponents& found, size_t index, const std::vector<cv::Rect2d>& boxes) {
   const Component whole = found.components.at(index);
+  if (found.isFull(boxes.size())) return;
   Component empty = whole;
   empty.box = {};
   empty.area_px = 0;
@@ -149,14 +150,14 @@ void splitComponent(ForegroundComponents& found, size_t index, const std::vector
   const int own = static_cast<int>(index) + 1;
   const int appended = static_cast<int>(found.components.size());
   for (int y = whole.box.y; y < whole.box.br().y; ++y) {
-    int* labels = found.labels[y - found.part.y];
+    uint16_t* labels = found.labels[y - found.part.y];
     for (int x = whole.box.x; x < whole.box.br().x; ++x) {
-      int& label = labels[x - found.part.x];
+      uint16_t& label = labels[x - found.part.x];
       if (label != own) continue;
       const size_t nearest = nearestBox(boxes, x, y);
       parts[nearest].box |= cv::Rect(x, y, 1, 1);
       parts[nearest].area_px += 1;
-      if (nearest > 0) label = appended + static_cast<int>(nearest);
+      if (nearest > 0) label = static_cast<uint16_t>(appended + static_cast<int>(nearest));
     }
   }
   found.components[index] = parts[0];

@@ -24,7 +24,11 @@ struct ForegroundComponents {
   cv::Size image;
   std::vector<Component> components;
   cv::Rect part;     ///< px, of the image: where `labels` lie
-  cv::Mat1i labels;  ///< of the pixels of `part`: index in `components` plus one, 0: none
+  cv::Mat1w labels;  ///< of the pixels of `part`: index in `components` plus one, 0: none
+
+  /// No more than these can be labelled.
+  static constexpr size_t kMost = 65535;
+  bool isFull(size_t more = 1) const { return components.size() + more > kMost; }
 
   /// 0 or 255, of the image's size: the pixels of all components, or of those that are kept.
   cv::Mat1b mask() const;

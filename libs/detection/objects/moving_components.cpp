@@ -19,7 +19,7 @@ constexpr double kGain = 1.5;
 void growPart(ForegroundComponents& found, const cv::Rect& by) {
   const cv::Rect grown = found.part | by;
   if (grown == found.part) return;
-  cv::Mat1i labels = cv::Mat1i::zeros(grown.size());
+  cv::Mat1w labels = cv::Mat1w::zeros(grown.size());
   if (!found.labels.empty()) found.labels.copyTo(labels(found.part - grown.tl()));
   found.part = grown;
   found.labels = labels;
@@ -89,7 +89,7 @@ void addMovingComponents(ForegroundComponents& found, const cv::Mat1b& unknown,
   forEachRegion(mask(inside), parameters.min_area_px,
                 [&](const cv::Rect& in_part, int, const cv::Mat1b& pixels) {
                   const cv::Rect region = in_part + part.tl();
-                  if (isCovered(found, count, region)) return;
+                  if (isCovered(found, count, region) || found.isFull()) return;
                   // What a small component has already stays its own.
                   const cv::Mat1b free = pixels & (found.labels(region - found.part.tl()) == 0);
                   const int area = cv::countNonZero(free);
