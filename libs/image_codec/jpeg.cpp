@@ -18,10 +18,18 @@ struct CloseTurbo {
   void operator()(void* handle) const { tjDestroy(handle); }
 };
 using Turbo = std::unique_ptr<void, CloseTurbo>;
+struct FreeTurbo {
+  void operator()(unsigned char* memory) const { tjFree(memory); }
+};
 
 /// One for all images of a thread: making it costs as much as a small image.
 void* decompressor() {
   thread_local const Turbo handle(tjInitDecompress());
+  return handle.get();
+}
+
+void* compressor() {
+  thread_local const Turbo handle(tjInitCompress());
   return handle.get();
 }
 
@@ -141,16 +149,15 @@ std::vector<uint8_t> encodeJpeg(const cv::Mat& image, int quality) {
     throw std::invalid_argument("encodeJpeg: an image that is neither grey nor BGR of 8 bits");
   const bool grey = image.channels() == 1;
   const int subsampling = grey ? TJSAMP_GRAY : TJSAMP_420;
-  const Turbo turbo(tjInitCompress());
-  std::vector<uint8_t> bytes(tjBufSize(image.cols, image.rows, subsampling));
-  unsigned char* data = bytes.data();
-  unsigned long size = bytes.size();
-  if (tjCompress2(turbo.get(), image.data, image.cols, static_cast<int>(image.step), image.rows,
-                  grey ? TJPF_GRAY : TJPF_BGR, &data, &size, subsampling, std::clamp(quality, 1, 100),
-                  TJFLAG_ACCURATEDCT | TJFLAG_NOREALLOC) != 0)
-    throw std::invalid_argument(std::string("encodeJpeg: ") + tjGetErrorStr2(turbo.get()));
-  bytes.resize(size);
-  return bytes;
+  // Its memory grows with what is written: room for the worst case would be as large as the image.
+  unsigned char* data = nullptr;
+  unsigned long size = 0;
+  const bool failed = tjCompress2(compressor(), image.data, image.cols, static_cast<int>(image.step),
+                                  image.rows, grey ? TJPF_GRAY : TJPF_BGR, &data, &size, subsampling,
+                                  std::clamp(quality, 1, 100), TJFLAG_ACCURATEDCT) != 0;
+  const std::unique_ptr<unsigned char, FreeTurbo> owned(data);
+  if (failed) throw std::invalid_argument(std::string("encodeJpeg: ") + tjGetErrorStr2(compressor()));
+  return {data, data + size};
 }
 
 }  // namespace redbee

@@ -66,14 +66,10 @@ std::string statusLine(const OverlayStatus& status) {
 
 }  // namespace
 
-cv::Mat3b drawOverlay(const cv::Mat& image, const cv::Mat1b& mask, const std::vector<Detection>& detections,
+cv::Mat3b drawOverlay(cv::Mat image, const cv::Mat1b& mask, const std::vector<Detection>& detections,
                       const OverlayStatus& status) {
-  cv::Mat3b canvas;
-  if (image.channels() == 1) {
-    cv::cvtColor(image, canvas, cv::COLOR_GRAY2BGR);
-  } else {
-    canvas = image.clone();
-  }
+  if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
+  cv::Mat3b canvas = std::move(image);
   drawMask(canvas, mask);
   for (const Detection& detection : detections) drawDetection(canvas, detection);
   putLabel(canvas, statusLine(status), {8, 18}, cv::Scalar::all(255));

@@ -19,10 +19,10 @@ struct OverlayStatus {
   std::string message;  ///< anything else, such as "learning"
 };
 
-/// `image`: 8-bit grey or BGR. `mask`: 0/255 of the same size, or empty. Returns a new BGR image with the
-/// mask's tint and outline, a box with the identity per detection (grey if the tracker only predicted it in
-/// this frame), and the status in the top line.
-cv::Mat3b drawOverlay(const cv::Mat& image, const cv::Mat1b& mask, const std::vector<Detection>& detections,
+/// `image`: 8-bit grey, or BGR, which is drawn on. `mask`: 0/255 of the same size, or empty. Returns the BGR
+/// image with the mask's tint and outline, a box with the identity per detection (grey if the tracker only
+/// predicted it in this frame), and the status in the top line.
+cv::Mat3b drawOverlay(cv::Mat image, const cv::Mat1b& mask, const std::vector<Detection>& detections,
                       const OverlayStatus& status);
 
 }  // namespace redbee
