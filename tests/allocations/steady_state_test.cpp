@@ -1,6 +1,6 @@
-// How often each stage allocates memory for a frame, once its buffers have their sizes: counted where
-// everything passes, OpenCV's images and the C library's own included. What is left is bounded here, so that
-// it can only become less.
+// How often each stage allocates memory for a frame, once its buffers have their sizes, and how much the four
+// hold at most: counted where everything passes, OpenCV's images and the C library's own included. What is
+// left is bounded here, so that it can only become less.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -20,10 +20,25 @@
 namespace {
 
 std::atomic<int64_t> allocations{0};
+std::atomic<int64_t> held{0}, most_held{0};  ///< bytes
 
 }  // namespace
 
 #ifndef REDBEE_SANITIZER_ALLOCATES
+#include <malloc.h>
+
+namespace {
+
+void* counted(void* memory) {
+  ++allocations;
+  const int64_t now = held += static_cast<int64_t>(malloc_usable_size(memory));
+  if (now > most_held) most_held = now;  // of one thread
+  return memory;
+}
+void leave(void* memory) { held -= static_cast<int64_t>(malloc_usable_size(memory)); }
+
+}  // namespace
+
 // The functions of glibc, counted.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming,readability-inconsistent-declaration-parameter-name)
 extern "C" {
@@ -31,23 +46,19 @@ void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* memory, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
+void __libc_free(void* memory);
 
-void* malloc(size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* calloc(size_t count, size_t size) {
-  ++allocations;
-  return __libc_calloc(count, size);
-}
+void* malloc(size_t size) { return counted(__libc_malloc(size)); }
+void* calloc(size_t count, size_t size) { return counted(__libc_calloc(count, size)); }
 void* realloc(void* memory, size_t size) {
-  ++allocations;
-  return __libc_realloc(memory, size);
+  leave(memory);
+  return counted(__libc_realloc(memory, size));
 }
-void* memalign(size_t alignment, size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
+void free(void* memory) {
+  leave(memory);
+  __libc_free(memory);
 }
+void* memalign(size_t alignment, size_t size) { return counted(__libc_memalign(alignment, size)); }
 void* aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
 int posix_memalign(void** memory, size_t alignment, size_t size) {
   *memory = memalign(alignment, size);
@@ -83,10 +94,16 @@ class Counter {
 /// Frames of the bundled flight: the first ones bring the buffers to their sizes.
 constexpr int kSettled = 30, kCounted = 30;
 
-Counter countFlight() {
+struct Flight {
+  Counter counter;
+  double most_held_mb;  ///< by the four stages together, messages and log included
+};
+
+Flight countFlight() {
   const std::filesystem::path source = REDBEE_SOURCE_DIR;
   Configuration configuration = loadConfiguration(source / "config" / "park1.yaml");
   configuration.overlay_period_frames = 0;  // text and JPEG, which a ground station looks at
+  const int64_t held_before = held;
   const auto bus = makeLcmBus("memq://");
   std::map<std::string, std::unique_ptr<Node>> nodes;
   for (const ProcessDescription* stage : kStages)
@@ -94,6 +111,7 @@ Counter countFlight() {
   LogReader log(source / "logs" / "park1.lcm");
   Counter counter;
   int frames = 0;
+  most_held = 0;
   while (const auto event = log.next()) {
     if (event->channel == configuration.channels.camera && ++frames > kSettled + kCounted) break;
     if (frames == kSettled) counter.clear();
@@ -106,10 +124,10 @@ Counter countFlight() {
       is_busy = counter.count("messages", [&] { return bus->handle(std::chrono::milliseconds(0)); }) > 0;
     }
   }
-  return counter;
+  return {counter, static_cast<double>(most_held - held_before) / 1e6};
 }
 
-TEST(SteadyState, AllocationsOfAFrameAreBounded) {
+TEST(SteadyState, AllocationsOfAFrameAndMemoryAreBounded) {
 #ifdef REDBEE_SANITIZER_ALLOCATES
   GTEST_SKIP() << "the sanitizer has its own allocator";
 #endif
@@ -119,7 +137,11 @@ TEST(SteadyState, AllocationsOfAFrameAreBounded) {
                                              {programName(kHomographyFusion), 105},
                                              {programName(kMotionSegmentation), 990},
                                              {"messages", 175}};
-  const Counter counter = countFlight();
+  const auto [counter, most_held_mb] = countFlight();
+  constexpr double kMostHeld_mb = 14;
+  std::printf("%-20s %.1f MB at most\n", "memory", most_held_mb);
+  EXPECT_GT(most_held_mb, 1);
+  EXPECT_LE(most_held_mb, kMostHeld_mb);
   for (const auto& [what, bound] : bounds) {
     const double count = counter.perFrame(what, kCounted);
     std::printf("%-20s %.0f allocations a frame\n", what.c_str(), count);

@@ -15,6 +15,14 @@ namespace {
 
 constexpr float kUnknownVariance = 1e6F;  // px^2, of the speed where it is unknown
 
+/// x / (x + half) of each value x, in place.
+void overSumWith(float half, cv::Mat1f& map) {
+  for (int y = 0; y < map.rows; ++y) {
+    float* const row = map[y];
+    for (int x = 0; x < map.cols; ++x) row[x] = row[x] / (row[x] + half);
+  }
+}
+
 }  // namespace
 
 ForegroundEvidence::ForegroundEvidence(const ParallaxParameters& parallax,
@@ -93,8 +101,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   last_time_ = time;
   cv::Mat1f foreground = motion_.learn(time, grey, K, full, own_parts, spare_), around_points;
   const bool is_first = foreground.empty();
-  const auto half = static_cast<float>(parallax_.motion_half);
-  for (float& motion : foreground) motion = motion / (motion + half);
+  overSumWith(static_cast<float>(parallax_.motion_half), foreground);
   if (appearance_.enabled) {
     const cv::Mat4b image = imageToCompare(grey, colour, full);
     cv::Mat1f moving;
