@@ -19,12 +19,18 @@ struct Stage {
   int changes = 0;
 
   explicit Stage(std::vector<double> of_rungs) : ladder(of_rungs.size() - 1), costs(std::move(of_rungs)) {}
+  int complete = 0;  ///< frames on rung 0
+  double burst = 0;  ///< periods by which something else holds the stage up every five seconds
+  static constexpr int kBurstEvery = 120;
+
   /// `load`: times the costs.
   void run(int frames, double load = 1) {
     for (int k = 0; k < frames; ++k) {
+      if (k % kBurstEvery == 0) backlog += std::chrono::duration_cast<Duration>(burst * kPeriod);
       const size_t before = ladder.rung();
-      const size_t rung = ladder.update(backlog, kLongest);
+      const size_t rung = ladder.update(backlog / kPeriod * kPeriod, kLongest);
       changes += rung != before ? 1 : 0;
+      complete += rung == 0 ? 1 : 0;
       const double behind = costs[rung] * load - 1;
       backlog += std::chrono::duration_cast<Duration>(behind * kPeriod);
       backlog = std::clamp(backlog, Duration(0), kLongest);  // beyond, frames are skipped
@@ -81,6 +87,59 @@ TEST(QualityLadder, DoesNotFlutterWhereItIsAlmostFastEnough) {
     const int early = stage.changes;
     stage.run(4000);
     EXPECT_LE(stage.changes - early, 8) << cost;
+  }
+}
+
+/// What holds the stage up now and then says nothing about the rung: half of the time is spent on it.
+TEST(QualityLadder, ComesUpAgainAfterEachOfManyDisturbances) {
+  Stage stage({0.8, 0.6});
+  stage.burst = 4;
+  stage.run(24 * 300);
+  stage.complete = 0;
+  stage.run(24 * 300);
+  EXPECT_GE(stage.complete, 24 * 300 / 2);
+}
+
+/// A machine that was too slow for long, and is free now but for a short backlog every five seconds.
+TEST(QualityLadder, ComesUpWithinTwoMinutesAlthoughDisturbed) {
+  for (const double burst : {2.5, 4.}) {
+    Stage stage({1.2, 0.9});
+    stage.run(24 * 600);
+    ASSERT_EQ(stage.ladder.rung(), 1U);
+    stage.burst = burst;
+    stage.complete = 0;
+    stage.run(24 * 120, 0.7);
+    EXPECT_GT(stage.complete, 0) << burst;
+    stage.run(24 * 300, 0.7);  // each trial that only a disturbance ended makes the next one earlier
+    stage.complete = 0;
+    stage.run(24 * 300, 0.7);
+    EXPECT_GE(stage.complete, 24 * 300 / 2) << burst;
+  }
+}
+
+TEST(QualityLadder, DoesNotFlutterWhereItIsTooSlowAndDisturbed) {
+  for (const double burst : {2.5, 4.}) {
+    for (const double cost : {1.2, 1.5}) {
+      Stage stage({cost, 0.6 * cost});
+      stage.burst = burst;
+      stage.run(4000);
+      const int early = stage.changes;
+      stage.run(4000);
+      EXPECT_LE(stage.changes - early, 8) << cost << ", " << burst;
+    }
+  }
+}
+
+/// Between two disturbances there is nearly time enough: at most once down and up for each of them.
+TEST(QualityLadder, ChangesOnlyWithTheDisturbancesWhereItIsAlmostFastEnough) {
+  for (const double cost : {0.98, 1.02, 1.05, 1.1}) {
+    Stage stage({cost, 0.7 * cost});
+    stage.burst = 4;
+    stage.run(4000);
+    const int early = stage.changes;
+    stage.run(4000);
+    EXPECT_LE(stage.changes - early, 2 * (4000 / Stage::kBurstEvery + 1)) << cost;
+    EXPECT_LT(stage.longest_backlog, kLongest) << cost;
   }
 }
 

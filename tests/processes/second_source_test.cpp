@@ -14,6 +14,7 @@ namespace {
 
 constexpr int64_t kHour = 3'600'000'000;
 constexpr int64_t kAhead = 1'900'000;
+constexpr int64_t kStranger = 4711;
 
 struct Flown {
   TrustedFrames frames;
@@ -71,6 +72,30 @@ TEST(SecondSource, AForgedFusedHomographyBesideTheTrueOneChangesNothing) {
   EXPECT_EQ(flown.frames.trusted, flown.frames.expected);
   EXPECT_EQ(flown.frames.wild, 0);
   EXPECT_EQ(flown.foreign, 0);
+}
+
+/// Before the true one can have come: after the first is known, nobody else is listened to.
+TEST(SecondSource, AForgedFusedHomographyThatIsFasterThanTheTrueOneChangesNothing) {
+  fused_homography_t latest{};
+  const Flown flown = fly("forged FUSED_HOMOGRAPHY, 7 px off, first", undisturbedFlight(), [&](Bus& bus) {
+    std::vector<Subscription> all;
+    all.push_back(bus.subscribe<fused_homography_t>("FUSED_HOMOGRAPHY", 64, [&](const fused_homography_t& m) {
+      if (m.publisher != kStranger) latest = m;
+    }));
+    all.push_back(bus.subscribe<image_t>("CAMERA", 64, [&](const image_t& image) {
+      if (latest.utime == 0 || image.utime <= latest.utime) return;
+      fused_homography_t forged = latest;
+      forged.utime_previous = forged.utime_tracks = latest.utime;
+      forged.utime = image.utime;
+      forged.publisher = kStranger;
+      forged.step.H[2] += 7;
+      forged.anchor.H[2] += 7;
+      bus.publish("FUSED_HOMOGRAPHY", forged);
+    }));
+    return all;
+  });
+  EXPECT_EQ(flown.frames.trusted, flown.frames.expected);
+  EXPECT_EQ(flown.frames.wild, 0);
 }
 
 TEST(SecondSource, CompanionsFromAheadCostNothing) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "redbee/fused_homography_t.hpp"
@@ -125,8 +126,8 @@ inline Disturbance makeDisturbance(const std::string& name, Bus& bus, const Endl
 /// Disturbs from a thread and a socket of its own for as long as it lives.
 class Stranger {
  public:
-  Stranger(const std::string& url, const std::string& name, const EndlessFlight& flight)
-      : bus_(makeLcmBus(url)), disturbance_(makeDisturbance(name, *bus_, flight)) {
+  Stranger(std::unique_ptr<Bus> bus, const std::string& name, const EndlessFlight& flight)
+      : bus_(std::move(bus)), disturbance_(makeDisturbance(name, *bus_, flight)) {
     thread_ = std::thread([this] {
       while (!over_) {
         bus_->handle(std::chrono::milliseconds(1));

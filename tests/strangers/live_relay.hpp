@@ -46,6 +46,10 @@ class LiveRelay {
   LiveRelay(const LiveRelay&) = delete;
   LiveRelay& operator=(const LiveRelay&) = delete;
 
+  void setFaults(const RelayFaults& faults) {
+    const std::lock_guard lock(mutex_);
+    faults_ = faults;
+  }
   /// Times [us] of the images that did not reach the process of the last URL.
   std::set<int64_t> imagesLost() const {
     const std::lock_guard lock(mutex_);
@@ -93,16 +97,17 @@ class LiveRelay {
 
   void pass(size_t from, const Message& message) {
     if (isOwn(from, message)) return;
+    const RelayFaults faults = currentFaults();
     for (size_t to = 0; to < buses_.size(); ++to) {
       if (to == 0 && from != 0) deliver(to, message);
       if (to == 0 || to == from) continue;
-      if (happens(faults_.lost)) {
+      if (happens(faults.lost)) {
         if (to + 1 == buses_.size()) noteLost(message);
         continue;
       }
-      if (happens(faults_.duplicated)) held_.emplace(later(), Held{to, message});
-      if (happens(faults_.delayed)) {
-        held_.emplace(later(), Held{to, message});
+      if (happens(faults.duplicated)) held_.emplace(later(faults), Held{to, message});
+      if (happens(faults.delayed)) {
+        held_.emplace(later(faults), Held{to, message});
       } else {
         deliver(to, message);
       }
@@ -119,8 +124,12 @@ class LiveRelay {
   }
 
   bool happens(double probability) { return std::bernoulli_distribution(probability)(random_); }
-  Clock::time_point later() {
-    const double ms = faults_.drawDelay(random_) / speed_;
+  RelayFaults currentFaults() const {
+    const std::lock_guard lock(mutex_);
+    return faults_;
+  }
+  Clock::time_point later(const RelayFaults& faults) {
+    const double ms = faults.drawDelay(random_) / speed_;
     return Clock::now() + std::chrono::microseconds(static_cast<int64_t>(1e3 * ms));
   }
 
