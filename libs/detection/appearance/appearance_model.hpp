@@ -7,7 +7,7 @@
 #include "redbee/detection/appearance/appearance_kernels.hpp"
 #include "redbee/detection/appearance/background_warp.hpp"
 #include "redbee/detection/parameters.hpp"
-#include "redbee/detection/spare_maps.hpp"
+#include "redbee/imaging/spare_maps.hpp"
 #include "redbee/imaging/warping.hpp"
 
 namespace redbee {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "redbee/detection/parameters.hpp"
-#include "redbee/detection/spare_maps.hpp"
+#include "redbee/imaging/spare_maps.hpp"
 
 namespace redbee {
 

@@ -8,7 +8,7 @@ namespace redbee {
 namespace {
 
 constexpr int kWindow_px = 7, kCell_px = 8;
-constexpr float kLeast = 60;
+constexpr float kLeast = 10;
 
 /// Noise that is smooth enough to be texture; plain to the right.
 cv::Mat1b texture() {
