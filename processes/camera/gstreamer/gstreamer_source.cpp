@@ -73,7 +73,7 @@ GstreamerSource::GstreamerSource(std::string pipeline) : description_(std::move(
   setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
   gst_init(nullptr, nullptr);
   const std::string fault = build();
-  close();
+  GstreamerSource::close();
   if (!fault.empty()) throw UserError("capture.pipeline: " + fault);
 }
 
