@@ -49,9 +49,9 @@ void addSubtitles(const std::filesystem::path& video, LensRecord& lens, FlightMe
 
 /// Some of them would be taken for raw streams.
 void refuseOtherRecordings(const std::filesystem::path& file) {
-  const std::string kind = recogniseRecording(file);
+  const std::string kind = recogniseStart(file);
   if (kind.empty()) throw InputError(file, "is a log already: redbee log info, redbee detect --log");
-  if (kind != "video" && kind != "gopro") throw InputError(file, "is no video: redbee import " + kind);
+  if (kind != "video") throw InputError(file, "is no video: redbee import " + kind);
 }
 
 ImportSummary importVideo(const ImportOptions& options, Progress& progress) {
