@@ -141,6 +141,9 @@ struct CalibrationResult {
   const ParameterReport& parameter(const std::string& name) const;
 };
 
+/// Throws CalibrationError unless the IMU covers enough of the frames; looks only at the times of both.
+void requireCoverage(const CalibrationInput& input);
+
 /// Throws CalibrationError if the input is insufficient: no IMU during the frames, too little texture, too
 /// few frames. `progress` is called with the completed fraction, 0 to 1.
 CalibrationResult calibrate(const CalibrationInput& input, const std::function<void(double)>& progress = {});

@@ -95,35 +95,53 @@ void requireEnough(const Recording& recording, const CalibrationInput& input, si
                          " are needed: too little texture, or no flat ground in view");
 }
 
-}  // namespace
+/// The longest run of frames that the IMU covers.
+struct CoveredFrames {
+  std::vector<CameraTime> frames;
+  std::vector<double> t_s;  ///< since the first frame of the input
+  ImuTime imu_origin;       ///< the first frame's time; the time shift is an unknown of the problem
+  std::shared_ptr<const ImuHistory> imu;
+};
 
-Recording prepareRecording(const CalibrationInput& input) {
+CoveredFrames coveredFrames(const CalibrationInput& input) {
   const std::vector<CameraTime> frames = sortedUnique(input.frames);
   if (frames.empty()) throw CalibrationError("there are no frames");
-  const CameraTime origin = frames.front();
-  const ImuTime imu_origin(origin.time_since_epoch());  // the time shift is an unknown of the problem
-  Recording recording;
-  recording.camera = std::make_shared<Camera>(input.camera);
-  recording.imu = std::make_shared<ImuHistory>(input.imu, imu_origin);
-  if (recording.imu->size() < 2) throw CalibrationError("there are no IMU samples");
+  CoveredFrames covered;
+  covered.imu_origin = ImuTime(frames.front().time_since_epoch());
+  covered.imu = std::make_shared<ImuHistory>(input.imu, covered.imu_origin);
+  if (covered.imu->size() < 2) throw CalibrationError("there are no IMU samples");
 
   std::vector<double> t;
   t.reserve(frames.size());
-  for (const CameraTime frame : frames) t.push_back(seconds(frame - origin));
-  const auto [begin, end] = coveredRun(t, *recording.imu, input.nominal.timeshift_s);
+  for (const CameraTime frame : frames) t.push_back(seconds(frame - frames.front()));
+  const auto [begin, end] = coveredRun(t, *covered.imu, input.nominal.timeshift_s);
   if (end - begin < kMinFrames) {
     throw CalibrationError("the IMU covers only " + std::to_string(end - begin) + " of " +
                            std::to_string(t.size()) + " frames without a gap; " + std::to_string(kMinFrames) +
                            " are needed");
   }
-  recording.t_cam_s.assign(t.begin() + static_cast<ptrdiff_t>(begin),
-                           t.begin() + static_cast<ptrdiff_t>(end));
+  covered.frames = {frames.begin() + static_cast<ptrdiff_t>(begin),
+                    frames.begin() + static_cast<ptrdiff_t>(end)};
+  covered.t_s = {t.begin() + static_cast<ptrdiff_t>(begin), t.begin() + static_cast<ptrdiff_t>(end)};
+  return covered;
+}
+
+}  // namespace
+
+void requireCoverage(const CalibrationInput& input) { coveredFrames(input); }
+
+Recording prepareRecording(const CalibrationInput& input) {
+  CoveredFrames covered = coveredFrames(input);
+  Recording recording;
+  recording.camera = std::make_shared<Camera>(input.camera);
+  recording.imu = std::move(covered.imu);
+  recording.t_cam_s = std::move(covered.t_s);
   std::map<CameraTime, size_t> index;
-  for (size_t k = begin; k < end; ++k) index[frames[k]] = k - begin;
+  for (size_t k = 0; k < covered.frames.size(); ++k) index[covered.frames[k]] = k;
 
   if (input.target.empty()) {
     addGround(recording, input, index);
-    recording.heights = heightsOf(input.altimeter, imu_origin);
+    recording.heights = heightsOf(input.altimeter, covered.imu_origin);
     requireEnough(recording, input, recording.ground.size());
   } else {
     addTarget(recording, input, index);

@@ -79,7 +79,17 @@ void CsvReader::skipHeader() {
 
 bool CsvReader::readRow() {
   std::string line;
-  while (std::getline(file_, line)) {
+  while (std::getline(file_, line, line_end_)) {
+    const size_t carriage_return = line.find('\r');
+    const bool ends_within = carriage_return != std::string::npos &&
+                             line.find_first_not_of('\r', carriage_return) != std::string::npos;
+    if (line_ == 0 && ends_within) {
+      line_end_ = '\r';
+      file_.clear();
+      file_.seekg(0);
+      std::getline(file_, line, line_end_);
+    }
+    if (line.find('\0') != std::string::npos) throw InputError(path_, "is no table: it holds binary data");
     const std::string byte_order_mark = "\xEF\xBB\xBF";
     if (++line_ == 1 && line.rfind(byte_order_mark, 0) == 0) line.erase(0, byte_order_mark.size());
     const std::string text = trimmed(line);

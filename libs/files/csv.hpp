@@ -11,7 +11,8 @@ namespace redbee {
 
 /// Reads a CSV file row by row. Empty lines and lines that start with '#' (the ASL layout's headers) are
 /// skipped. The first line with a separator decides which it is: semicolon, tab or comma; with the first two
-/// a decimal comma is read as a point. A byte order mark and quotes around fields are left out.
+/// a decimal comma is read as a point. A byte order mark and quotes around fields are left out; lines may end
+/// as on old Macs.
 class CsvReader {
  public:
   /// Throws InputError if the file cannot be opened.
@@ -42,6 +43,7 @@ class CsvReader {
   std::ifstream file_;
   std::vector<std::string> fields_;
   std::vector<std::string> header_;
+  char line_end_ = '\n';
   char separator_ = 0;  ///< 0: not known yet
   bool is_pending_ = false;
   int line_ = 0;

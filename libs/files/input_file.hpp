@@ -44,13 +44,15 @@ inline std::string faultOfContent(const std::filesystem::path& file) {
     std::string_view start;
     const char* fault;
   };
-  static constexpr std::array<Kind, 8> kKinds{
+  static constexpr std::array<Kind, 10> kKinds{
       {{"version https://git-lfs.github.com/spec/"sv,
         "is a pointer of Git LFS, not the file it stands for: fetch that with git lfs pull"},
        {"SQLite format 3\0"sv,
         "is a ROS 2 bag in SQLite: ros2 bag convert makes an MCAP of it, which import mcap reads"},
        {"PK\x03\x04"sv, "is a ZIP archive: unpack it first"},
        {"7z\xBC\xAF\x27\x1C"sv, "is a 7z archive: unpack it first"},
+       {"\xFF\xFE"sv, "is text in UTF-16, as spreadsheets export \"Unicode text\": save it as UTF-8"},
+       {"\xFE\xFF"sv, "is text in UTF-16, as spreadsheets export \"Unicode text\": save it as UTF-8"},
        {"\x1F\x8B"sv, "is packed by gzip: unpack it first (gzip -d)"},
        {"\x28\xB5\x2F\xFD"sv, "is packed by Zstandard: unpack it first (zstd -d)"},
        {"\xFD\x37zXZ"sv, "is packed by xz: unpack it first (xz -d)"},

@@ -17,7 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// macOS puts a hidden ._NAME.jpg beside each file, which is none.
 bool isImage(const fs::path& file) {
+  if (file.filename().string().front() == '.') return false;
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

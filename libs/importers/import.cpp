@@ -22,7 +22,8 @@ void assumeIntrinsics(ImportSummary& summary) {
   CameraIntrinsics camera;
   camera.width = vehicle.width;
   camera.height = vehicle.height;
-  camera.fx = camera.fy = kFocalFraction * std::max(vehicle.width, vehicle.height);
+  camera.fx = kFocalFraction * std::max(vehicle.width, vehicle.height);
+  camera.fy = camera.fx * vehicle.pixel_aspect;
   camera.cx = (vehicle.width - 1) / 2.0;
   camera.cy = (vehicle.height - 1) / 2.0;
   summary.vehicle.intrinsics = camera;

@@ -54,8 +54,9 @@ struct ImportOptions {
 /// What a recording states about its vehicle. Empty members are taken from the reference configuration.
 struct VehicleDescription {
   std::string name;
-  int width = 0;   ///< px
-  int height = 0;  ///< px
+  int width = 0;            ///< px
+  int height = 0;           ///< px
+  double pixel_aspect = 1;  ///< a pixel's width over its height
   std::optional<CameraIntrinsics> intrinsics;
   std::optional<Eigen::Matrix3d> R_CI;  ///< turns IMU coordinates into camera coordinates
   std::optional<Eigen::Vector3d> p_IC;  ///< m, camera centre in the IMU frame

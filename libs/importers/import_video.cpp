@@ -6,6 +6,7 @@
 #include "redbee/importers/flight_merger.hpp"
 #include "redbee/importers/image_folder.hpp"
 #include "redbee/importers/imu_table.hpp"
+#include "redbee/importers/recognise.hpp"
 #include "redbee/importers/stated_lens.hpp"
 #include "redbee/importers/video_log.hpp"
 #include "redbee/importers/video_reader.hpp"
@@ -28,6 +29,7 @@ VideoPart addVideoFrames(const VideoSource& source, const ImportOptions& options
                             : jpegMessage(utime, frame->image, options.jpeg_quality));
     progress.update(++done, reader.expectedFrames());
   }
+  summary.vehicle.pixel_aspect = reader.pixelAspect();
   for (const std::string& warning : reader.warnings()) summary.warnings.push_back(warning);
   return {reader.rotation_deg(), reader.duration()};
 }
@@ -45,14 +47,23 @@ void addSubtitles(const std::filesystem::path& video, LensRecord& lens, FlightMe
                                                    : ": gives the focal length of each image (LENS)"));
 }
 
+/// Some of them would be taken for raw streams.
+void refuseOtherRecordings(const std::filesystem::path& file) {
+  const std::string kind = recogniseStart(file);
+  if (kind.empty()) throw InputError(file, "is a log already: redbee log info, redbee detect --log");
+  if (kind != "video") throw InputError(file, "is no video: redbee import " + kind);
+}
+
 ImportSummary importVideo(const ImportOptions& options, Progress& progress) {
+  const bool is_folder = std::filesystem::is_directory(options.source);
+  if (!is_folder) refuseOtherRecordings(options.source);
   const ImuTable imu = options.imu ? readImuTable(*options.imu, options.source, options.units) : ImuTable{};
   ImportSummary summary;
   summary.vehicle.name = options.source.stem().string();
   summary.warnings = imu.warnings;
   FlightMerger merger(options.log, options.channels, imu.samples, {});
   if (options.imu) merger.requirePlausibleImu(*options.imu, imu.units);
-  if (std::filesystem::is_directory(options.source)) {
+  if (is_folder) {
     addImages(options, merger, summary, progress);
   } else {
     LensRecord lens;

@@ -52,12 +52,17 @@ std::string recogniseRecording(const fs::path& path) {
     if (is_asl) return "asl";
     return isRosBag(path) ? "mcap" : "video";
   }
+  const std::string kind = recogniseStart(path);
+  return kind == "video" && hasMotionTrack(path) ? "gopro" : kind;
+}
+
+std::string recogniseStart(const fs::path& path) {
   const std::string start = startOf(path);
   // By its first event, or by its name where that is damaged.
   if (startsWith(start, "\xED\xA1\xDA\x01") || path.extension() == ".lcm") return "";
   if (startsWith(start, {reinterpret_cast<const char*>(kMcapMagic.data()), kMcapMagic.size()})) return "mcap";
   if (startsWith(start, "#ROSBAG V") || path.extension() == ".bag") return "rosbag";
-  return hasMotionTrack(path) ? "gopro" : "video";
+  return "video";
 }
 
 }  // namespace redbee

@@ -36,6 +36,10 @@ class VideoReader::Implementation {
     return stream_->duration > 0 ? av_rescale_q(stream_->duration, stream_->time_base, {1, 1000000}) : 0;
   }
   int rotation_deg() const { return rotation_deg_; }
+  double pixelAspect() const {
+    const double stored = pixelAspectOf(*stream_);
+    return rotation_deg_ % 180 == 0 ? stored : 1 / stored;
+  }
 
   std::vector<std::string> warnings() const {
     std::vector<std::string> all;
@@ -43,6 +47,10 @@ class VideoReader::Implementation {
       all.push_back(
           "the images are turned by " + std::to_string(rotation_deg_) +
           " degrees clockwise, as the video states: camera matrix and R_CI are those of the turned images");
+    }
+    if (pixelAspect() != 1) {
+      all.push_back("the pixels are not square: camera.fy is " + std::to_string(pixelAspect()) +
+                    " times camera.fx");
     }
     if (options_.fps > 0 && !times_->usesRate())
       all.push_back("--fps is not used: the video has times of its own");
@@ -198,6 +206,7 @@ VideoReader::~VideoReader() = default;
 std::optional<VideoFrame> VideoReader::next() { return implementation_->next(); }
 int64_t VideoReader::expectedFrames() const { return implementation_->expectedFrames(); }
 int64_t VideoReader::duration() const { return implementation_->duration(); }
+double VideoReader::pixelAspect() const { return implementation_->pixelAspect(); }
 int VideoReader::rotation_deg() const { return implementation_->rotation_deg(); }
 std::vector<std::string> VideoReader::warnings() const { return implementation_->warnings(); }
 

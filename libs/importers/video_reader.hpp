@@ -40,6 +40,8 @@ class VideoReader {
   int64_t duration() const;
   /// Degrees by which the images are turned clockwise: 0, 90, 180 or 270.
   int rotation_deg() const;
+  /// Width over height of the turned images' pixels; 1 where nothing else is stated.
+  double pixelAspect() const;
   /// One line each, complete after the last frame.
   std::vector<std::string> warnings() const;
 

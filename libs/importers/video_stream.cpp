@@ -52,4 +52,14 @@ int rotationOf(const std::filesystem::path& path, const AVStream& stream) {
   return static_cast<int>((static_cast<int64_t>(quarters) % 4 + 4) % 4) * 90;
 }
 
+double pixelAspectOf(const AVStream& stream) {
+  constexpr double kLargest = 4;  // anamorphic lenses have 2
+  const bool is_in_container = stream.sample_aspect_ratio.num > 0;
+  const AVRational ratio =
+      is_in_container ? stream.sample_aspect_ratio : stream.codecpar->sample_aspect_ratio;
+  if (ratio.num <= 0 || ratio.den <= 0) return 1;
+  const double aspect = av_q2d(ratio);
+  return aspect >= 1 / kLargest && aspect <= kLargest ? aspect : 1;
+}
+
 }  // namespace redbee

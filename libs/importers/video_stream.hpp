@@ -15,4 +15,7 @@ AVStream* findVideo(AVFormatContext& input);
 /// Degrees clockwise, quarter turns. Throws InputError for another rotation or a mirror.
 int rotationOf(const std::filesystem::path& path, const AVStream& stream);
 
+/// Width over height of the stored images' pixels; 1 where the video states none, or one that no camera has.
+double pixelAspectOf(const AVStream& stream);
+
 }  // namespace redbee

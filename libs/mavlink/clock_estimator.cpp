@@ -76,7 +76,10 @@ ClockEstimator::Outcome ClockEstimator::add(const TimesyncExchange& exchange) {
   predicted.predictTo(host_ns);
   const double innovation = secondsOf(offset_ns - predicted.offset_ns_) - predicted.x_(0);
   const double sigma = std::sqrt(predicted.P_(0, 0)) + kStampSigma_s;
-  if (std::abs(innovation) > round_trip_s / 2 + shortest() / 2 + kImpossible_sigmas * sigma) {
+  const double earlier_s = shortest();
+  // The estimate comes of exchanges that took up to a gate longer than the shortest.
+  const double estimate_s = (earlier_s + gateOf(earlier_s)) / 2;
+  if (std::abs(innovation) > round_trip_s / 2 + estimate_s + kImpossible_sigmas * sigma) {
     const bool agrees = is_doubted_ && std::abs(secondsOf(offset_ns - doubted_offset_ns_)) <
                                            round_trip_s + kImpossible_sigmas * kStampSigma_s;
     is_doubted_ = true;
@@ -91,6 +94,9 @@ ClockEstimator::Outcome ClockEstimator::add(const TimesyncExchange& exchange) {
   const double excess = round_trip_s - shortest();
   if (excess > gateOf(shortest())) return Outcome::kSlow;
   predictTo(host_ns);
+  // What the ways so far had in common, one direction longer than the other, no number of exchanges showed; a
+  // shorter way does.
+  if (round_trip_s < earlier_s) P_(0, 0) += (earlier_s - round_trip_s) * (earlier_s - round_trip_s) / 4;
   correct(innovation, kStampSigma_s * kStampSigma_s + excess * excess / 4);
   if (std::abs(x_(1)) > kMaxDrift) {
     begin(exchange);

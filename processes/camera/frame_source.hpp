@@ -16,6 +16,7 @@ class FrameSource {
   /// Returns what is wrong, in one line; empty where images may come now.
   virtual std::string open() = 0;
   virtual bool isOpen() const = 0;
+  virtual void close() = 0;
   /// Waits up to `timeout` for an image; its utime is that of its capture on our clock
   /// (libs/node/host_clock.hpp). Where the source has failed or ended, it is closed, and fault() says why.
   virtual std::optional<image_t> next(std::chrono::milliseconds timeout) = 0;

@@ -16,6 +16,8 @@ namespace redbee {
 namespace {
 
 constexpr std::chrono::milliseconds kImageWait{20};
+// Drivers and cameras hang without an error. Longer than rtspsrc takes to try UDP (5 s), then TCP.
+constexpr int64_t kLongestSilence_ns = 15'000'000'000;
 
 }  // namespace
 
@@ -48,6 +50,7 @@ bool CameraNode::openSource() {
     return false;
   }
   watch_ = ImageWatch(configuration_.capture.rate_hz);
+  silent_since_ns_ = clock_();
   return true;
 }
 
@@ -55,10 +58,16 @@ bool CameraNode::processNext() {
   if (!openSource()) return true;
   auto image = source_->next(kImageWait);
   if (image) {
+    silent_since_ns_ = clock_();
     image->utime += toExposureMiddle(configuration_.capture, configuration_.camera, exposureTime()).count();
     publish(*image);
   }
-  if (!source_->isOpen()) postpone(source_->fault());
+  if (!source_->isOpen()) {
+    postpone(source_->fault());
+  } else if (clock_() - silent_since_ns_ > kLongestSilence_ns) {
+    source_->close();
+    postpone("the source gives no images: it is opened again");
+  }
   return true;
 }
 

@@ -16,7 +16,7 @@
 
 namespace redbee {
 
-/// Publishes each image when it arrives. A source that fails or ends is opened again (BackOff).
+/// Publishes each image when it arrives. A source that fails, ends or falls silent is opened again (BackOff).
 class CameraNode : public Node {
  public:
   using Clock = std::function<int64_t()>;  ///< ns, increasing
@@ -42,6 +42,7 @@ class CameraNode : public Node {
   Clock clock_;
   ImageWatch watch_;
   std::string source_fault_;
+  int64_t silent_since_ns_ = 0;  ///< the last image, or when the source was opened
   BackOff back_off_;
   std::optional<int64_t> last_us_;
 };

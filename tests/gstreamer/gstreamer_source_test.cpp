@@ -111,6 +111,33 @@ TEST(GstreamerSource, SaysWhatIsWrongAtRunTime) {
   EXPECT_THAT(source.fault(), HasSubstr("/nowhere.jpg"));
 }
 
+/// What is said does not change while nothing else does: a fault is logged once, not with each attempt.
+TEST(GstreamerSource, SaysTheSameOfTheSameFailure) {
+  for (const auto& [pipeline, said] : std::vector<std::pair<std::string, std::string>>{
+           {"v4l2src device=/dev/nowhere ! image/jpeg ! appsink",
+            "v4l2src: Cannot identify device '/dev/nowhere'. system error: No such file or directory"},
+           {"v4l2src device=/etc/hostname ! image/jpeg ! appsink",
+            "v4l2src: This isn't a device '/etc/hostname'."},
+           {"v4l2src device=/dev/null ! image/jpeg ! appsink",
+            "v4l2src: Error getting capabilities for device '/dev/null': It isn't a v4l2 driver. Check if it "
+            "is a v4l1 driver. system error: Inappropriate ioctl for device"},
+           {"rtspsrc location=rtsp://me:secret@127.0.0.1:9/live ! rtpjpegdepay ! appsink",
+            "rtspsrc rtsp://127.0.0.1:9/live: Could not open resource for reading and writing. Failed to "
+            "connect."},
+           {"videotestsrc is-live=true ! video/x-raw,format=I420 ! appsink",
+            "videotestsrc: Internal data stream error. streaming stopped, reason not-negotiated (-4): no "
+            "format in common; the appsink takes JPEG, GRAY8, RGB, BGR: ... ! videoconvert ! appsink"}}) {
+    GstreamerSource source(pipeline);
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      if (source.open().empty()) {
+        for (int waits = 0; source.isOpen() && waits < 1000; ++waits)
+          source.next(std::chrono::milliseconds(20));
+      }
+      EXPECT_EQ(source.fault(), said);
+    }
+  }
+}
+
 void expectRefused(const std::string& pipeline, const std::string& reason) {
   try {
     const GstreamerSource source(pipeline);
@@ -124,6 +151,7 @@ void expectRefused(const std::string& pipeline, const std::string& reason) {
 
 TEST(GstreamerSource, RefusesWhatIsNoPipelineWithOneAppsink) {
   expectRefused("videotestsrc ! nosuchelement ! appsink", "nosuchelement");
+  expectRefused("filesrc location=f ! avdec_nosuchcodec ! appsink", "apt-get install gstreamer1.0-libav");
   expectRefused("videotestsrc ! fakesink", "must end in one appsink");
   expectRefused("videotestsrc ! appsink videotestsrc ! appsink", "must end in one appsink");
   expectRefused("videotestsrc ! ! appsink", "");

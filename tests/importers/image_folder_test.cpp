@@ -70,6 +70,14 @@ TEST_F(ImageFolderTest, UnpaddedNumbersAreInNaturalOrder) {
   for (int k = 1; k <= 12; ++k) EXPECT_EQ(numberShownIn(images[static_cast<size_t>(k) - 1]), k);
 }
 
+/// As macOS leaves them on cards and shares.
+TEST_F(ImageFolderTest, HiddenFilesAreNoImages) {
+  for (int k = 1; k <= 3; ++k)
+    cv::imwrite((options_.source / ("frame" + std::to_string(k) + ".png")).string(), numbered(k));
+  writeText(options_.source / "._frame1.png", std::string("\0\5\26\7", 4));
+  EXPECT_EQ(import().size(), 3u);
+}
+
 /// The JPEG with an EXIF segment that states this orientation.
 std::string withOrientation(const cv::Mat& image, int orientation) {
   std::vector<uint8_t> jpeg;

@@ -147,6 +147,10 @@ TEST_F(ImportVideoTest, WhatIsNoVideoIsRefused) {
   EXPECT_NE(errorMessage().find("v.mp4: is no video"), std::string::npos);
   writeText(options_.source, "");
   EXPECT_NE(errorMessage().find("v.mp4: "), std::string::npos);
+  writeText(options_.source, "\xED\xA1\xDA\x01 ...");
+  EXPECT_NE(errorMessage().find("v.mp4: is a log already"), std::string::npos);
+  writeText(options_.source, "#ROSBAG V2.0\n");
+  EXPECT_NE(errorMessage().find("v.mp4: is no video: redbee import rosbag"), std::string::npos);
   fs::remove(options_.source);
   EXPECT_NE(errorMessage().find("v.mp4: no such file"), std::string::npos);
 }

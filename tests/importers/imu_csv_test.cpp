@@ -24,6 +24,8 @@ TEST_F(ImuCsvTest, EveryDialectGivesTheSameSamples) {
       {"plain", "t_s,gx,gy,gz,ax,ay,az\n0.01,0.5,-2,3,4,5,9.75\n0.02,1,2,3,4,5,6\n"},
       {"byte order mark", "\xEF\xBB\xBFt_s,gx,gy,gz,ax,ay,az\n0.01,0.5,-2,3,4,5,9.75\n0.02,1,2,3,4,5,6\n"},
       {"CRLF", "t_s,gx,gy,gz,ax,ay,az\r\n0.01,0.5,-2,3,4,5,9.75\r\n0.02,1,2,3,4,5,6\r\n"},
+      {"an old Mac's lines", "t_s,gx,gy,gz,ax,ay,az\r0.01,0.5,-2,3,4,5,9.75\r0.02,1,2,3,4,5,6\r"},
+      {"CRCRLF", "t_s,gx,gy,gz,ax,ay,az\r\r\n0.01,0.5,-2,3,4,5,9.75\r\r\n0.02,1,2,3,4,5,6\r\r\n"},
       {"quotes",
        "\"t_s\",\"gx\",\"gy\",\"gz\",\"ax\",\"ay\",\"az\"\n\"0.01\",\"0.5\",-2,3,4,5,9.75\n0.02,1,2,3,4,5,"
        "6\n"},
@@ -67,6 +69,15 @@ TEST_F(ImuCsvTest, AHeaderThatDoesNotFitIsShownAsFoundAndNeeded) {
       line.find("imu.csv:1: header names no column 't_s' (found: time wx wy wz ax ay az; needed: t_s gx"),
       std::string::npos)
       << line;
+}
+
+TEST_F(ImuCsvTest, WhatIsNoTableIsSaidToBeNone) {
+  using std::string_literals::operator""s;
+  const auto lineOf = [&](const std::string& text) { return errorMessageOf([&] { read(text); }); };
+  EXPECT_NE(lineOf("\xFF\xFEt\0_\0s\0,\0"s).find("imu.csv: is text in UTF-16"), std::string::npos);
+  EXPECT_NE(lineOf("\xFE\xFF\0t\0_\0s"s).find("imu.csv: is text in UTF-16"), std::string::npos);
+  const std::string binary = lineOf("\0\0\0 ftypisom\0\0\2\0isomiso2avc1mp41"s);
+  EXPECT_NE(binary.find("imu.csv: is no table: it holds binary data"), std::string::npos) << binary;
 }
 
 TEST_F(ImuCsvTest, RecordedCasesAreRead) {

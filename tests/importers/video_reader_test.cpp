@@ -102,6 +102,21 @@ TEST(VideoReaderTest, ARotationThatTheContainerStatesIsApplied) {
   }
 }
 
+/// PAL's on a 4:3 screen: what digitisers of analog video make.
+TEST(VideoReaderTest, PixelsThatAreNotSquareAreSaid) {
+  const ScratchFolder folder;
+  TestVideo video = numberedVideo();
+  video.frames = 2;
+  video.pixel_aspect = {16, 15};
+  for (const int rotation : {0, 90}) {
+    video.rotation_deg = rotation;
+    writeTestVideo(folder / "v.mp4", video);
+    VideoReader reader(folder / "v.mp4", {});
+    EXPECT_DOUBLE_EQ(reader.pixelAspect(), rotation == 0 ? 16.0 / 15 : 15.0 / 16);
+    EXPECT_NE(reader.warnings().back().find("not square: camera.fy is "), std::string::npos);
+  }
+}
+
 TEST(VideoReaderTest, TheWidthIsThatOfTheTurnedImageAndNothingIsEnlarged) {
   const ScratchFolder folder;
   TestVideo video = numberedVideo();

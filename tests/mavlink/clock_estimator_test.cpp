@@ -166,5 +166,20 @@ TEST(MavlinkClock, ALongerWayIsTakenAfterAWhile) {
   EXPECT_NEAR(clock.state()->round_trip_s, 20e-3, 1e-6);
 }
 
+/// As where this computer or the link is starved when the clock is first asked for: nobody started again.
+TEST(MavlinkClock, AShorterWayThanEverIsNoRestart) {
+  for (const double back_s : {5e-3, 50e-3, 300e-3}) {
+    ClockEstimator clock;
+    Simulation simulation;
+    simulation.back_s = back_s;
+    simulation.back_jitter_s = back_s / 5;
+    for (int i = 0; i < 30; ++i) EXPECT_NE(clock.add(simulation.exchange()), Outcome::kRestarted) << back_s;
+    simulation.back_s = 1e-3;
+    simulation.back_jitter_s = 0;
+    for (int i = 0; i < 30; ++i) EXPECT_EQ(clock.add(simulation.exchange()), Outcome::kUsed) << back_s;
+    EXPECT_LT(std::abs(errorAfter(clock, simulation, 0)), 1e-4) << back_s;
+  }
+}
+
 }  // namespace
 }  // namespace redbee::mavlink

@@ -29,6 +29,7 @@ struct TestVideo {
   int fps = 25;
   int key_every = 250;
   int b_frames = 0;
+  AVRational pixel_aspect{1, 1};
   int rotation_deg = 0;      ///< that the container states, clockwise
   int broken_packet = -1;    ///< whose content is overwritten
   int late_frames = 0;       ///< at the end, by a day and a half
@@ -84,6 +85,7 @@ class TestVideoWriter {
     encoder_->pix_fmt = AV_PIX_FMT_YUV420P;
     encoder_->time_base = {1, video_.fps};
     encoder_->framerate = {video_.fps, 1};
+    encoder_->sample_aspect_ratio = video_.pixel_aspect;
     encoder_->gop_size = video_.key_every;
     encoder_->max_b_frames = video_.b_frames;
     encoder_->bit_rate = 2'000'000;
@@ -94,6 +96,7 @@ class TestVideoWriter {
     stream_ = avformat_new_stream(output_.get(), nullptr);
     require(avcodec_parameters_from_context(stream_->codecpar, encoder_.get()));
     stream_->time_base = encoder_->time_base;
+    stream_->sample_aspect_ratio = video_.pixel_aspect;
     if (video_.rotation_deg != 0) {
       auto* matrix =
           reinterpret_cast<int32_t*>(av_stream_new_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, 36));

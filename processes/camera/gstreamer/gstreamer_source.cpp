@@ -1,8 +1,9 @@
 #include "processes/camera/gstreamer/gstreamer_source.hpp"
 
-#include <algorithm>
+#include <cstdlib>
 #include <utility>
 
+#include "processes/camera/gstreamer/pipeline_fault.hpp"
 #include "processes/camera/gstreamer/sample_image.hpp"
 #include "processes/camera/v4l2_exposure.hpp"
 #include "redbee/files/user_error.hpp"
@@ -30,24 +31,6 @@ struct UnrefMessage {
 struct UnrefCaps {
   void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
 };
-
-std::string oneLineOf(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-/// Element, error, and the last line of the details, which names the file or the device.
-std::string faultOf(GstMessage* message) {
-  GError* error = nullptr;
-  gchar* details = nullptr;
-  gst_message_parse_error(message, &error, &details);
-  const std::unique_ptr<GError, FreeError> owner(error);
-  std::string text = std::string(GST_OBJECT_NAME(message->src)) + ": " + error->message;
-  const std::string all = details != nullptr ? details : "";
-  g_free(details);
-  if (const size_t line = all.rfind('\n'); line != std::string::npos) text += " " + all.substr(line + 1);
-  return oneLineOf(text);
-}
 
 /// The only appsink; nullptr if there is none, or more than one.
 GstElement* onlyAppSinkOf(GstBin* bin) {
@@ -86,20 +69,22 @@ GstElement* firstOf(GstBin* bin, const char* factory_name) {
 }  // namespace
 
 GstreamerSource::GstreamerSource(std::string pipeline) : description_(std::move(pipeline)) {
+  // It greets on the terminal each time that a pipeline is made.
+  setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
   gst_init(nullptr, nullptr);
   const std::string fault = build();
-  close();
+  GstreamerSource::close();
   if (!fault.empty()) throw UserError("capture.pipeline: " + fault);
 }
 
-GstreamerSource::~GstreamerSource() { close(); }
+GstreamerSource::~GstreamerSource() { GstreamerSource::close(); }
 
 std::string GstreamerSource::build() {
   GError* raw_error = nullptr;
   GstElement* made = gst_parse_launch(description_.c_str(), &raw_error);
   const std::unique_ptr<GError, FreeError> error(raw_error);
   if (made != nullptr) pipeline_.reset(GST_ELEMENT(gst_object_ref_sink(made)));
-  if (error) return oneLineOf(error->message);
+  if (error) return faultOf(*error);
   GstElement* sink = GST_IS_BIN(made) ? onlyAppSinkOf(GST_BIN(made)) : nullptr;
   if (sink == nullptr)
     return "must end in one appsink: ... ! videoconvert ! video/x-raw,format=GRAY8 ! appsink";

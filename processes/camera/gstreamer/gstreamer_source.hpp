@@ -35,6 +35,7 @@ class GstreamerSource : public FrameSource {
 
   std::string open() override;
   bool isOpen() const override { return pipeline_ != nullptr; }
+  void close() override;
   std::optional<image_t> next(std::chrono::milliseconds timeout) override;
   std::string fault() const override { return fault_; }
   std::string timeFault() const override { return sender_clock_ ? sender_clock_->fault() : ""; }
@@ -42,7 +43,6 @@ class GstreamerSource : public FrameSource {
 
  private:
   std::string build();
-  void close();
   /// Whether the pipeline has failed or ended.
   bool hasStopped();
   void readClocks();

@@ -97,17 +97,32 @@ class LogIntake {
       long_baselines_.emplace_back(configuration.visual.tracker, rectifier_.unknown(), delay);
   }
 
-  void take(const LogEvent& event) {
+  /// All but the pixels.
+  void takeSamples(const LogEvent& event) {
     const Channels& channels = configuration_.channels;
     if (event.channel == channels.imu) return onImu(event);
     if (event.channel == channels.altimeter && configuration_.has_altimeter) return takeAltitude(event);
-    if (event.channel == channels.camera) return takeImage(event);
+    if (event.channel == channels.camera) return takeTime(event);
     if (event.channel == channels.lens && configuration_.inertial.lens.enabled) return checkLens(event);
+  }
+  /// Tracking takes minutes, in vain where the samples are not enough.
+  void requireSamples() {
+    if (input_.frames.empty()) throw InputError(log_, "holds no image on " + configuration_.channels.camera);
+    if (input_.imu.empty()) throw InputError(log_, "holds no IMU sample on " + configuration_.channels.imu);
+    try {
+      calibration::requireCoverage(input_);
+    } catch (const calibration::CalibrationError& error) {
+      throw InputError(log_, error.what());
+    }
+    input_.frames.clear();  // those that can be decoded follow
+  }
+  void takeImageOf(const LogEvent& event) {
+    if (event.channel == configuration_.channels.camera) takeImage(event);
   }
 
   void finish() const {
-    if (input_.frames.empty()) throw InputError(log_, "holds no image on " + configuration_.channels.camera);
-    if (input_.imu.empty()) throw InputError(log_, "holds no IMU sample on " + configuration_.channels.imu);
+    if (input_.frames.empty())
+      throw InputError(log_, "no image on " + configuration_.channels.camera + " can be decoded");
     if (damaged_ > 0)
       printWarning(log_.string() + ": " + std::to_string(damaged_) + " damaged messages skipped");
   }
@@ -119,6 +134,11 @@ class LogIntake {
     input_.imu.push_back({ImuTime(fromUtime(message.utime)),
                           {message.gyro[0], message.gyro[1], message.gyro[2]},
                           {message.accel[0], message.accel[1], message.accel[2]}});
+  }
+
+  void takeTime(const LogEvent& event) {
+    image_t message;
+    if (decodePlausible(event.data, message)) input_.frames.emplace_back(fromUtime(message.utime));
   }
 
   void takeAltitude(const LogEvent& event) {
@@ -184,9 +204,12 @@ void readCalibrationLog(const std::filesystem::path& log, const Configuration& c
                         calibration::CalibrationInput& input) {
   LogReader reader(log);
   LogIntake intake(log, configuration, input);
+  while (const auto event = reader.next()) intake.takeSamples(*event);
+  intake.requireSamples();
+  reader.rewind();
   Progress progress("tracking in " + log.filename().string(), "MB", quiet);
   while (const auto event = reader.next()) {
-    intake.take(*event);
+    intake.takeImageOf(*event);
     progress.update(reader.position() >> 20, reader.size() >> 20);
   }
   progress.finish();

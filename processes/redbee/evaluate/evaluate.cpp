@@ -54,7 +54,9 @@ std::vector<ClipTruth::Frame> labelledFrames(const ClipTruth& truth, const std::
 
 std::vector<EvaluateOptions> clipsOf(const EvaluateOptions& options) {
   if (options.truth == "none" || ClipTruth::isIn(options.truth)) return {options};
-  if (!fs::is_directory(options.truth)) throw InputError(options.truth, "no such folder");
+  if (!fs::is_directory(options.truth))
+    throw InputError(options.truth, fs::exists(options.truth) ? "is no folder; give the one that it is in"
+                                                              : "no such folder");
   std::vector<EvaluateOptions> clips;
   for (const auto& entry : fs::directory_iterator(options.truth)) {
     const fs::path results = options.results / entry.path().filename();

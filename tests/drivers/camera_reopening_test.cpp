@@ -1,0 +1,65 @@
+// redbee-camera on a simulated source: when it opens its source again.
+#include <gmock/gmock.h>
+
+#include "tests/drivers/camera_node_fixture.hpp"
+
+namespace redbee::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(CameraNodeTest, OpensASourceThatEndsAgainLessAndLessOften) {
+  start();
+  camera_.open_fault = "no such device";
+  node_->processNext();
+  EXPECT_EQ(health().message, "no such device");
+  const auto pass = [&](int64_t ms) {
+    camera_.now_ns += ms * 1'000'000;
+    node_->processNext();
+  };
+  pass(50);
+  EXPECT_EQ(camera_.opened, 1);
+  pass(50);
+  EXPECT_EQ(camera_.opened, 2);
+  pass(150);
+  EXPECT_EQ(camera_.opened, 2);
+  camera_.open_fault.clear();
+  camera_.fault = "the pipeline has ended";
+  camera_.images = {rawGreyMessage(100, picture(0))};
+  pass(50);
+  EXPECT_EQ(camera_.opened, 3);
+  EXPECT_EQ(health().state, process_health_t::GOOD);
+  node_->processNext();
+  EXPECT_EQ(health().message, "the pipeline has ended");
+  pass(100);  // an image came: from the shortest pause again
+  EXPECT_EQ(camera_.opened, 4);
+}
+
+/// A driver that hangs says nothing.
+TEST_F(CameraNodeTest, OpensASourceThatFellSilentAgain) {
+  start();
+  camera_.images = {rawGreyMessage(100, picture(0))};
+  const auto pass = [&](int64_t s) {
+    camera_.now_ns += s * 1'000'000'000;
+    node_->processNext();
+  };
+  pass(0);
+  pass(14);
+  EXPECT_EQ(camera_.opened, 1);
+  camera_.images = {rawGreyMessage(200, picture(1))};
+  pass(0);
+  pass(14);
+  EXPECT_TRUE(camera_.is_open) << "the silence began with the last image";
+  pass(2);
+  EXPECT_FALSE(camera_.is_open);
+  EXPECT_THAT(health().message, HasSubstr("gives no images"));
+  camera_.images = {rawGreyMessage(300, picture(2))};
+  pass(1);
+  EXPECT_EQ(camera_.opened, 2);
+  EXPECT_EQ(published_.size(), 0U) << "until the bus is asked";
+  bus_->handle(std::chrono::milliseconds(0));
+  EXPECT_EQ(health().state, process_health_t::GOOD);
+}
+
+}  // namespace
+}  // namespace redbee::test
