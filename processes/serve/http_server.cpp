@@ -1,5 +1,6 @@
 #include "processes/serve/http_server.hpp"
 
+#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -8,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -169,7 +172,19 @@ void listenAt(httplib::Server& server, const ListenAddress& address) {
 
 struct HttpServer::Implementation {
   BoundedServer server;
+  std::atomic<bool> is_stopping{false};
+  std::atomic<bool> has_ended{false};
   std::thread thread;
+
+  /// httplib listens no more after any error of accept(), as where the kernel has no memory for the moment: a
+  /// process that then went on would never be reached again.
+  void listen() {
+    server.listen_after_bind();
+    has_ended = true;
+    if (is_stopping) return;
+    spdlog::critical("redbee-serve: takes no connections any more, and ends to be started again");
+    std::raise(SIGTERM);
+  }
 };
 
 HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& live)
@@ -207,12 +222,13 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
   server.Post(".*", handle);
   listenAt(server, address);
   server.widenBacklog();
-  implementation_->thread = std::thread([&server] { server.listen_after_bind(); });
+  implementation_->thread = std::thread([this] { implementation_->listen(); });
 }
 
 HttpServer::~HttpServer() {
+  implementation_->is_stopping = true;
   // stop() does nothing before the thread has come to listen.
-  while (!implementation_->server.is_running() && implementation_->thread.joinable())
+  while (!implementation_->server.is_running() && !implementation_->has_ended)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   implementation_->server.stop();
   implementation_->thread.join();
