@@ -48,14 +48,26 @@ void makeNamesUnique(std::vector<Archive::Entry>& entries, const std::vector<std
 Archive::Archive(const Configuration& configuration, std::vector<fs::path> folders)
     : configuration_(configuration), folders_(std::move(folders)) {}
 
-std::vector<Archive::Entry> Archive::files() const {
+std::optional<std::vector<Archive::Entry>> Archive::filesSince(Clock::time_point oldest) const {
   const std::lock_guard<std::mutex> lock(files_mutex_);
-  const auto now = std::chrono::steady_clock::now();
-  if (files_.empty() || now - files_read_ > kListKept) {
-    files_ = readFolders();
-    files_read_ = now;
-  }
+  if (files_.empty() || files_read_ < oldest) return std::nullopt;
   return files_;
+}
+
+std::vector<Archive::Entry> Archive::files() const {
+  if (auto kept = filesSince(Clock::now() - kListKept)) return *std::move(kept);
+  std::unique_lock<std::mutex> reading(reading_mutex_, std::try_to_lock);
+  if (!reading) {
+    // Somebody else is reading them, on a disk that may be slow: what was there is better than to wait.
+    if (auto kept = filesSince(Clock::time_point())) return *std::move(kept);
+    reading.lock();
+    if (auto kept = filesSince(Clock::now() - kListKept)) return *std::move(kept);
+  }
+  std::vector<Entry> found = readFolders();
+  const std::lock_guard<std::mutex> lock(files_mutex_);
+  files_ = found;
+  files_read_ = Clock::now();
+  return found;
 }
 
 std::vector<Archive::Entry> Archive::readFolders() const {

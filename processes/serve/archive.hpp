@@ -43,6 +43,7 @@ class Archive {
   std::optional<Entry> report(const std::string& name) const;
 
  private:
+  using Clock = std::chrono::steady_clock;
   using Reading = std::shared_ptr<std::shared_future<std::shared_ptr<const Flight>>>;
   struct Opened {
     std::string name;
@@ -57,13 +58,16 @@ class Archive {
   /// Files below the folders, newest first, each once; links are left out. Looked up every two seconds at
   /// most.
   std::vector<Entry> files() const;
+  /// std::nullopt: looked up before that, or never.
+  std::optional<std::vector<Entry>> filesSince(Clock::time_point oldest) const;
   std::vector<Entry> readFolders() const;
 
   Configuration configuration_;
   std::vector<std::filesystem::path> folders_;
+  mutable std::mutex reading_mutex_;  ///< of who looks them up
   mutable std::mutex files_mutex_;
   mutable std::vector<Entry> files_;
-  mutable std::chrono::steady_clock::time_point files_read_;
+  mutable Clock::time_point files_read_;
   std::mutex mutex_;
   std::list<Opened> opened_;  ///< the last one used first
 };

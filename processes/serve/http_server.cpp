@@ -1,6 +1,6 @@
 #include "processes/serve/http_server.hpp"
 
-#include <httplib.h>
+#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -18,20 +20,17 @@
 #include <thread>
 #include <utility>
 
-#include "processes/serve/request_stream.hpp"
+#include "processes/serve/bounded_server.hpp"
 #include "redbee/files/new_file.hpp"
 #include "redbee/files/user_error.hpp"
 
 namespace redbee {
 namespace {
 
-/// A viewer has one connection for the events and one or two that fetch.
-constexpr size_t kThreads = 3 * Live::kMostViewers;
 constexpr size_t kLongestBody = 4096;    ///< bytes; no request of ours has one
 constexpr size_t kFilePart = 64 * 1024;  ///< bytes
 constexpr std::chrono::milliseconds kKeepAlive{1000};
-constexpr std::chrono::milliseconds kIdle{5000};       ///< that a connection may be between requests
-constexpr std::chrono::milliseconds kStopPeriod{200};  ///< in which an idle one learns that the server stops
+constexpr std::chrono::milliseconds kStopPeriod{200};  ///< in which it is seen that the server stops
 
 WebRequest requestOf(const httplib::Request& from) {
   WebRequest request{from.method, from.path, {}, {}};
@@ -115,7 +114,8 @@ void streamFile(const WebResponse& response, httplib::Response& to) {
     return;
   }
   to.set_content_provider(
-      response.file_bytes, response.type, [file](size_t offset, size_t length, httplib::DataSink& sink) {
+      response.file_bytes, response.type,
+      [file, read_by = response.read_by](size_t offset, size_t length, httplib::DataSink& sink) {
         std::array<char, kFilePart> part;
         file->seekg(static_cast<std::streamoff>(offset));
         file->read(part.data(), static_cast<std::streamsize>(std::min(length, part.size())));
@@ -170,39 +170,26 @@ void listenAt(httplib::Server& server, const ListenAddress& address) {
 
 }  // namespace
 
-/// httplib's, but for how it reads and writes.
-class BoundedServer : public httplib::Server {
- private:
-  bool isStopping() const { return svr_sock_ == INVALID_SOCKET; }
-
-  bool waitForRequest(RequestStream& stream) const {
-    for (std::chrono::milliseconds waited{0}; waited < kIdle && !isStopping(); waited += kStopPeriod) {
-      if (stream.waitForRequest(kStopPeriod)) return true;
-    }
-    return false;
-  }
-
-  bool process_and_close_socket(int socket) override {
-    RequestStream stream(socket);
-    bool is_closed = false;
-    while (!is_closed && waitForRequest(stream)) {
-      if (!process_request(stream, false, is_closed, nullptr) || stream.isExhausted()) break;
-    }
-    shutdown(socket, SHUT_RDWR);
-    close(socket);
-    return true;
-  }
-};
-
 struct HttpServer::Implementation {
   BoundedServer server;
+  std::atomic<bool> is_stopping{false};
+  std::atomic<bool> has_ended{false};
   std::thread thread;
+
+  /// httplib listens no more after any error of accept(), as where the kernel has no memory for the moment: a
+  /// process that then went on would never be reached again.
+  void listen() {
+    server.listen_after_bind();
+    has_ended = true;
+    if (is_stopping) return;
+    spdlog::critical("redbee-serve: takes no connections any more, and ends to be started again");
+    std::raise(SIGTERM);
+  }
 };
 
 HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& live)
     : implementation_(std::make_unique<Implementation>()) {
-  httplib::Server& server = implementation_->server;
-  server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  BoundedServer& server = implementation_->server;
   server.set_payload_max_length(kLongestBody);
   // Nothing else ends the wait at a Unix socket when the server is to stop.
   server.set_idle_interval(kStopPeriod);
@@ -234,12 +221,14 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
   server.Get(".*", handle);
   server.Post(".*", handle);
   listenAt(server, address);
-  implementation_->thread = std::thread([&server] { server.listen_after_bind(); });
+  server.widenBacklog();
+  implementation_->thread = std::thread([this] { implementation_->listen(); });
 }
 
 HttpServer::~HttpServer() {
+  implementation_->is_stopping = true;
   // stop() does nothing before the thread has come to listen.
-  while (!implementation_->server.is_running() && implementation_->thread.joinable())
+  while (!implementation_->server.is_running() && !implementation_->has_ended)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   implementation_->server.stop();
   implementation_->thread.join();

@@ -9,27 +9,35 @@
 namespace redbee {
 namespace {
 
-bool waitFor(int socket, short events, std::chrono::milliseconds timeout) {
-  pollfd entry{socket, events, 0};
-  int found = 0;
-  do {
-    found = poll(&entry, 1, static_cast<int>(std::max<int64_t>(0, timeout.count())));
-  } while (found < 0 && errno == EINTR);
-  return found > 0 && (entry.revents & POLLNVAL) == 0;
-}
+constexpr std::chrono::milliseconds kGlance{100};  ///< after which the bounds are looked at again
+
+bool never() { return false; }
 
 }  // namespace
 
-bool RequestStream::waitForRequest(std::chrono::milliseconds timeout) {
-  const bool has_come = begin_ < end_ || waitFor(socket_, POLLIN, timeout);
+bool RequestStream::waitFor(short event, Clock::time_point begin, const Patience& patience,
+                            const std::function<bool()>& is_over) const {
+  pollfd entry{socket_, event, 0};
+  while (!is_over()) {
+    const auto bound = waiting_ > 0 ? patience.in_crowd : patience.alone;
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(begin + bound - Clock::now());
+    const auto wait = std::clamp(left, std::chrono::milliseconds(0), kGlance);
+    const int found = poll(&entry, 1, static_cast<int>(wait.count()));
+    if (found > 0) return (entry.revents & POLLNVAL) == 0;
+    if ((found < 0 && errno != EINTR) || left <= wait) return false;
+  }
+  return false;
+}
+
+bool RequestStream::waitForRequest(const std::function<bool()>& is_over) {
+  const bool has_come = begin_ < end_ || waitFor(POLLIN, Clock::now(), kIdle, is_over);
   bytes_ = end_ - begin_;
-  until_ = Clock::now() + kLongest;
+  request_begin_ = Clock::now();
   return has_come;
 }
 
 bool RequestStream::is_readable() const {
-  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until_ - Clock::now());
-  return begin_ < end_ || waitFor(socket_, POLLIN, left);
+  return begin_ < end_ || waitFor(POLLIN, request_begin_, kReading, never);
 }
 
 /// What the other end sends is of no interest here, but that it is still there.
@@ -39,7 +47,9 @@ bool RequestStream::isAlive() const {
   return read > 0 || (read < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
-bool RequestStream::is_writable() const { return waitFor(socket_, POLLOUT, kWriteTimeout) && isAlive(); }
+bool RequestStream::is_writable() const {
+  return waitFor(POLLOUT, Clock::now(), kWriting, never) && isAlive();
+}
 
 ssize_t RequestStream::read(char* to, size_t size) {
   if (begin_ == end_) {

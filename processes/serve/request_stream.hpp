@@ -1,11 +1,14 @@
 // One connection of a browser, as cpp-httplib reads and writes it: bounded in bytes and in time, which its
-// own is not: it reads header lines of any number and length as slowly as they come.
+// own is not: it reads header lines of any number and length as slowly as they come. Each connection has a
+// thread of few, so the bounds are narrower while others wait for one.
 #pragma once
 
 #include <httplib.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace redbee {
@@ -13,15 +16,21 @@ namespace redbee {
 /// No request of the page has a head of a kilobyte, and none has a body.
 class RequestStream : public httplib::Stream {
  public:
-  static constexpr size_t kMostBytes = 32 * 1024;          ///< of a request, its head and body together
-  static constexpr std::chrono::seconds kLongest{5};       ///< that reading a request takes
-  static constexpr std::chrono::seconds kWriteTimeout{5};  ///< without one byte taken
+  static constexpr size_t kMostBytes = 32 * 1024;  ///< of a request, its head and body together
+  /// For a request to begin, for the rest of it, and for each part of an answer to be taken; and the same
+  /// while others wait.
+  struct Patience {
+    std::chrono::milliseconds alone, in_crowd;
+  };
+  static constexpr Patience kIdle{std::chrono::milliseconds(5000), std::chrono::milliseconds(200)};
+  static constexpr Patience kReading{std::chrono::milliseconds(5000), std::chrono::milliseconds(500)};
+  static constexpr Patience kWriting{std::chrono::milliseconds(5000), std::chrono::milliseconds(1000)};
 
-  /// `socket` is closed by who opened it.
-  explicit RequestStream(int socket) : socket_(socket) {}
+  /// `socket` is closed by who opened it. `waiting`: how many connections have no thread.
+  RequestStream(int socket, const std::atomic<int>& waiting) : socket_(socket), waiting_(waiting) {}
 
-  /// Waits for a request, at most so long; false: none has come, or the other end is gone.
-  bool waitForRequest(std::chrono::milliseconds timeout);
+  /// Waits for the next request; false: none has come in time, the other end is gone, or `is_over`.
+  bool waitForRequest(const std::function<bool()>& is_over);
   /// Whether the request came to a bound; nothing more is then read.
   bool isExhausted() const { return is_exhausted_; }
 
@@ -36,13 +45,17 @@ class RequestStream : public httplib::Stream {
  private:
   using Clock = std::chrono::steady_clock;
   bool isAlive() const;
+  /// For an event of poll().
+  bool waitFor(short event, Clock::time_point begin, const Patience& patience,
+               const std::function<bool()>& is_over) const;
 
   int socket_;
+  const std::atomic<int>& waiting_;
   std::array<char, 4096> buffer_{};
   size_t begin_ = 0;  ///< of what is buffered
   size_t end_ = 0;
   size_t bytes_ = 0;  ///< of this request
-  Clock::time_point until_;
+  Clock::time_point request_begin_;
   bool is_exhausted_ = false;
 };
 

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <memory>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "processes/health_check.hpp"
-#include "processes/redbee/vehicle/supervisor_client.hpp"
 #include "processes/serve/page_files.hpp"
 #include "redbee/configuration/process_table.hpp"
 #include "redbee/files/user_error.hpp"
@@ -84,30 +83,6 @@ std::optional<int64_t> numberOf(const std::string& text) {
   return number;
 }
 
-StackControl supervisedStack() {
-  try {
-    auto client = std::make_shared<SupervisorClient>(SupervisorClient::ofParent());
-    StackControl control;
-    control.is_recording = [client]() -> std::optional<bool> {
-      const auto processes = client->processes();
-      if (!processes) return std::nullopt;
-      return std::any_of(processes->begin(), processes->end(), [](const SupervisedProcess& process) {
-        return process.name == kRecord.name && process.is_up;
-      });
-    };
-    control.act = [client](const std::string& action, const std::string& process) {
-      return client->act(action, process);
-    };
-    return control;
-  } catch (const UserError&) {
-    return {[] { return std::optional<bool>(); },
-            [](const std::string&, const std::string&) {
-              return std::string(
-                  "this page is not served by a stack of fly up: there is nothing to start or stop");
-            }};
-  }
-}
-
 Station::Station(Access access, Archive& archive, Live& live, StackControl control)
     : access_(std::move(access)), archive_(archive), live_(live), control_(std::move(control)) {}
 
@@ -141,14 +116,23 @@ WebResponse Station::route(const WebRequest& request) {
   if (request.path == "/api/frame") return liveFrame(request);
   if (request.path == "/api/mosaic") return liveMosaic(request);
   if (request.path == "/api/state") return state();
-  if (request.path == "/api/flights") return flights();
-  if (request.path == "/api/flight") return flight(request);
-  if (request.path == "/api/flight/frame") return flightFrame(request);
-  if (request.path == "/report") return report(request);
-  if (request.path == "/api/tiles") return tileLevels();
-  if (request.path == "/api/tile") return tile(request);
   if (auto file = pageFile(request.path)) return *file;
-  return plain(404, "no such address");
+  return fromDisk(request);
+}
+
+/// The disk may stall, and each who waits for it has a thread that others then have not.
+WebResponse Station::fromDisk(const WebRequest& request) {
+  static const std::map<std::string, WebResponse (Station::*)(const WebRequest&)> addresses{
+      {"/api/flights", &Station::flights},          {"/api/flight", &Station::flight},
+      {"/api/flight/frame", &Station::flightFrame}, {"/report", &Station::report},
+      {"/api/tiles", &Station::tileLevels},         {"/api/tile", &Station::tile}};
+  const auto address = addresses.find(request.path);
+  if (address == addresses.end()) return plain(404, "no such address");
+  const DiskGate::Ticket ticket = disk_.enter();
+  if (!ticket) return plain(503, "the disk has not yet answered those who asked before: try again later");
+  WebResponse response = (this->*address->second)(request);
+  if (!response.file.empty()) response.read_by = ticket;
+  return response;
 }
 
 WebResponse Station::liveFrame(const WebRequest& request) const {
@@ -175,7 +159,7 @@ WebResponse Station::state() const {
   return jsonResponse(content);
 }
 
-WebResponse Station::flights() const {
+WebResponse Station::flights(const WebRequest&) {
   return jsonResponse(
       {{"flights", entriesJson(archive_.flights())}, {"reports", entriesJson(archive_.reports())}});
 }
@@ -201,7 +185,7 @@ WebResponse Station::flightFrame(const WebRequest& request) {
   return bytesResponse(bundleOf(flight->view(static_cast<size_t>(*k)), *k));
 }
 
-WebResponse Station::report(const WebRequest& request) const {
+WebResponse Station::report(const WebRequest& request) {
   const auto entry = archive_.report(request.parameter("name"));
   if (!entry) return plain(404, "no such report");
   WebResponse response;

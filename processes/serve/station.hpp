@@ -9,6 +9,7 @@
 
 #include "processes/serve/access.hpp"
 #include "processes/serve/archive.hpp"
+#include "processes/serve/disk_gate.hpp"
 #include "processes/serve/live.hpp"
 #include "processes/serve/live_mosaic.hpp"
 #include "processes/serve/web.hpp"
@@ -47,19 +48,21 @@ class Station {
   WebResponse route(const WebRequest& request);
   WebResponse liveFrame(const WebRequest& request) const;
   WebResponse liveMosaic(const WebRequest& request) const;
-  WebResponse flights() const;
+  WebResponse state() const;
+  WebResponse fromDisk(const WebRequest& request);
+  WebResponse flights(const WebRequest&);
   WebResponse flight(const WebRequest& request);
   WebResponse flightFrame(const WebRequest& request);
-  WebResponse report(const WebRequest& request) const;
-  WebResponse state() const;
-  WebResponse tileLevels() const;
-  WebResponse tile(const WebRequest& request) const;
+  WebResponse report(const WebRequest& request);
+  WebResponse tileLevels(const WebRequest&);
+  WebResponse tile(const WebRequest& request);
   WebResponse write(const WebRequest& request);
 
   Access access_;
   Archive& archive_;
   Live& live_;
   StackControl control_;
+  DiskGate disk_;
   LiveMosaic* mosaic_ = nullptr;  ///< null: none
   std::filesystem::path tiles_;   ///< empty: none
 };

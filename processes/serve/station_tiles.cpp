@@ -13,7 +13,7 @@ constexpr int64_t kDeepestZoom = 22;
 }  // namespace
 
 /// [13, 14, ...]: the levels that there are; empty without tiles.
-WebResponse Station::tileLevels() const {
+WebResponse Station::tileLevels(const WebRequest&) {
   std::vector<int64_t> levels;
   std::error_code error;
   auto at = std::filesystem::directory_iterator(tiles_, error);
@@ -29,7 +29,7 @@ WebResponse Station::tileLevels() const {
 }
 
 /// Three numbers become the path, and nothing else of the request does.
-WebResponse Station::tile(const WebRequest& request) const {
+WebResponse Station::tile(const WebRequest& request) {
   const auto z = numberOf(request.parameter("z"));
   const auto x = numberOf(request.parameter("x"));
   const auto y = numberOf(request.parameter("y"));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,8 @@ struct WebResponse {
   std::vector<std::pair<std::string, std::string>> headers;
   std::filesystem::path file;  ///< whose first `file_bytes` are the body instead, unless empty
   size_t file_bytes = 0;
-  bool is_event_stream = false;  ///< the server goes on with the events of Live
+  std::shared_ptr<void> read_by;  ///< to be kept while the file is read
+  bool is_event_stream = false;   ///< the server goes on with the events of Live
 };
 
 }  // namespace redbee

@@ -16,6 +16,7 @@ class Browser {
     browser.next = 1;
     browser.waiting = new Map();
     browser.errors = [];
+    browser.held = [];  // addresses of requests that Page.hold() keeps back
     browser.read();
     return browser;
   }
@@ -31,6 +32,7 @@ class Browser {
   receive(message) {
     if (message.method === 'Runtime.exceptionThrown') this.errors.push(message.params.exceptionDetails.exception?.description);
     if (message.method === 'Log.entryAdded' && message.params.entry.source === 'security') this.errors.push(message.params.entry.text);
+    if (message.method === 'Fetch.requestPaused') this.held.push(message.params.request.url);
     const waiting = this.waiting.get(message.id);
     if (!waiting) return;
     this.waiting.delete(message.id);
@@ -91,6 +93,10 @@ class Page {
       await new Promise((resolve) => setTimeout(resolve, 50));
     }
   }
+
+  /** Requests to these addresses are not answered, until release(). */
+  hold(...addresses) { return this.send('Fetch.enable', {patterns: addresses.map((address) => ({urlPattern: `*${address}`}))}); }
+  release() { return this.send('Fetch.disable'); }
 
   /** A key, by its name in KeyboardEvent.key. */
   async press(key, modifiers = 0) {

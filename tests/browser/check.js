@@ -9,6 +9,7 @@ const {spawnSync} = require('child_process');
 const fs = require('fs');
 const path = require('path');
 const {Browser} = require('./browser.js');
+const {goesOnWithoutDisk} = require('./slow_disk.js');
 const {tenViewers} = require('./viewers.js');
 const [chromium, url, detections_file, targets_file, run, flight, screenshots] = process.argv.slice(2);
 
@@ -220,6 +221,8 @@ async function main() {
     console.log(await tenViewers(url, () => [...heard(detections_file).keys()]));
     await replay(page);
     await record(page);
+    console.log(await goesOnWithoutDisk(browser, page));
+    await goesOn(page, 'when the disk answers again');
     await mosaic(page);
     await page.screenshot(path.join(screenshots, 'desktop.png'), 1400);
     const phone = await browser.open(url, 390, 844, true);

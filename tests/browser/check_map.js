@@ -1,6 +1,7 @@
 // check_map.js CHROMIUM URL TARGETS SCREENSHOTS GEOLOCATION...: the map in a real browser, without images.
 //   TARGETS      what target_trial prints of TARGETS: TARGET,t,status,id,state,latitude,longitude,metres from the truth
 //   GEOLOCATION  the command that publishes them
+// REDBEE_FLIGHT: the process of target_trial.
 'use strict';
 const {spawn} = require('child_process');
 const fs = require('fs');
@@ -115,6 +116,7 @@ async function check(browser) {
     await phone.screenshot(path.join(screenshots, 'map_phone.png'), 390, true);
     await checkPinch(phone);
     await page.send('Page.bringToFront');
+    process.kill(Number(process.env.REDBEE_FLIGHT), 'SIGUSR1');  // the walker stands from now on, however long all this took
     await inState(page, 'stopped');
     const rows = await page.value('[...window.rows]');
     // The listener may be behind the page.

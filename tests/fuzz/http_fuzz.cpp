@@ -13,6 +13,16 @@ namespace {
 
 constexpr time_t kPatience_s = 18;  ///< libFuzzer has 20
 
+/// libFuzzer's own alarm, twice in what it has patience for, interrupts a wait: that is no silence of the
+/// server.
+ssize_t receive(int descriptor, char* to, size_t size) {
+  ssize_t read = 0;
+  do {
+    read = recv(descriptor, to, size, 0);
+  } while (read < 0 && errno == EINTR);
+  return read;
+}
+
 /// All that comes back.
 std::string answerTo(const std::string& socket_file, const uint8_t* data, size_t size) {
   const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -29,7 +39,7 @@ std::string answerTo(const std::string& socket_file, const uint8_t* data, size_t
   std::string answer;
   char part[65536];
   ssize_t read = 0;
-  while ((read = recv(descriptor, part, sizeof part, 0)) > 0) answer.append(part, static_cast<size_t>(read));
+  while ((read = receive(descriptor, part, sizeof part)) > 0) answer.append(part, static_cast<size_t>(read));
   if (read < 0 && errno != ECONNRESET) __builtin_trap();  // it neither answers nor ends the connection
   close(descriptor);
   return answer;

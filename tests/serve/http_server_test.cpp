@@ -17,6 +17,7 @@
 
 #include "processes/serve/run_serve.hpp"
 #include "redbee/files/user_error.hpp"
+#include "redbee/node/node.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace redbee::test {
@@ -78,6 +79,24 @@ TEST_F(HttpServerTest, AFileIsNotReplacedByASocket) {
   writeText(folder_ / "notes", "mine");
   EXPECT_NE(faultAt("unix:" + (folder_ / "notes").string()), "");
   EXPECT_EQ(readText(folder_ / "notes"), "mine");
+}
+
+/// Whatever ends its listening: the process ends with it, and is started again.
+TEST_F(HttpServerTest, AServerThatNobodyCanReachAnyMoreEndsItsProcess) {
+  const std::atomic<bool>& stop = stopOnSignals();
+  ASSERT_FALSE(stop);
+  const auto server = serverAt("unix:" + (folder_ / "serve.sock").string());
+  int found = 0;
+  for (int descriptor = 3; descriptor < 1024; ++descriptor) {
+    int listens = 0;
+    socklen_t size = sizeof listens;
+    if (getsockopt(descriptor, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) != 0 || listens == 0) continue;
+    shutdown(descriptor, SHUT_RDWR);  // accept() fails from now on
+    ++found;
+  }
+  ASSERT_EQ(found, 1);
+  for (int i = 0; i < 6000 && !stop; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(stop);
 }
 
 TEST(Serve, SaysWhichFolderOfFlightsThereIsNot) {

@@ -17,7 +17,9 @@
 namespace redbee::test {
 
 /// The drone flies east at 3 m/s; its camera, which is fixed to it, looks north, 45 degrees down. The walker
-/// goes east at 3.5 m/s for 10 s, then stands: its identity is predicted, then no longer reported.
+/// goes east at 3.5 m/s for 10 s, then stands: its identity is predicted, then no longer reported. Who walks
+/// for longer goes at 3.5 and 2.5 m/s by turns of 40 s, and so stays in the image however long a flight
+/// takes.
 class TargetFlight {
  public:
   double walks_s = 10;     ///< s, then it stands
@@ -25,6 +27,7 @@ class TargetFlight {
 
   static constexpr double kRate_hz = 24;
   static constexpr double kHeight_m = 40;
+  static constexpr double kTurn_s = 40;
   static constexpr int kId = 5;
   static constexpr double kHomeLatitude = 47.3, kHomeLongitude = 8.5, kHomeAltitude = 500;
 
@@ -51,7 +54,11 @@ class TargetFlight {
   }
 
   static Eigen::Vector2d dronePosition(double t) { return {3 * t, 0}; }
-  Eigen::Vector2d walkerPosition(double t) const { return {-10 + 3.5 * std::min(t, walks_s), 42}; }
+  Eigen::Vector2d walkerPosition(double t) const {
+    const double walked_s = std::min(t, walks_s);
+    const double ahead_m = 0.5 * (kTurn_s - std::abs(std::fmod(walked_s, 2 * kTurn_s) - kTurn_s));
+    return {-10 + 3 * walked_s + ahead_m, 42};
+  }
   static Geodetic placeOf(const Eigen::Vector2d& metres) {
     Geodetic place;
     GeographicLib::Geodesic::WGS84().Direct(kHomeLatitude, kHomeLongitude,

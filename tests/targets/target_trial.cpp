@@ -1,9 +1,11 @@
 // target_trial log FILE: the flight of tests/support/target_flight.hpp as a log, 15 s, with TARGETS.
 // target_trial inputs FILE: the same without TARGETS.
 // target_trial live SECONDS [--walks SECONDS] [--lcm-url URL]: the same in real time, and what is published
-// about it: a line for each of TARGETS and PROCESS_HEALTH. For tests/integration.
+// about it: a line for each of TARGETS and PROCESS_HEALTH; at SIGUSR1 the walker stands. For
+// tests/integration.
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -58,10 +60,13 @@ void print(const targets_t& m, int64_t start_us, const TargetFlight& flight) {
   if (m.targets.empty()) std::printf("NONE,%.3f,%d\n", t, m.status);
 }
 
+volatile std::sig_atomic_t stands = 0;
+
 void flyLive(double seconds, double walks_s, const std::string& url) {
   TargetFlight flight;
   flight.walks_s = walks_s;
   flight.reported_s = walks_s + 2;
+  std::signal(SIGUSR1, [](int) { stands = 1; });
   const auto bus = makeLcmBus(url);
   const int64_t start_us = hostNanoseconds() / 1000;
   const Subscription targets =
@@ -73,6 +78,10 @@ void flyLive(double seconds, double walks_s, const std::string& url) {
   for (int k = 0; k < seconds * TargetFlight::kRate_hz; ++k) {
     const double t = k / TargetFlight::kRate_hz;
     const int64_t utime = start_us + std::llround(t * 1e6);
+    if (stands != 0 && t < flight.walks_s) {
+      flight.walks_s = t;
+      flight.reported_s = t + 2;
+    }
     while (hostNanoseconds() / 1000 < utime + kShift_us) bus->handle(std::chrono::milliseconds(5));
     bus->publish("POSE", TargetFlight::pose(utime + kShift_us, t));
     bus->publish("ALTIMETER", TargetFlight::altimeter(utime + kShift_us));

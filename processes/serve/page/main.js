@@ -5,11 +5,12 @@ import {drawMap} from './map.js';
 import {restartMosaic, toggleMosaic, watchMosaic} from './mosaic.js';
 import {clearFrame, colourOf, drawFrame, showLayer} from './picture.js';
 import {Replay} from './replay.js';
-import {fetchJson, listen, write} from './wire.js';
+import {fetchJson, listen, unlessBusy, write} from './wire.js';
 
 const element = (id) => document.getElementById(id);
 const kSilence_s = 2;
 let replay = null;
+let opening = new AbortController();
 let state = {writes: false, supervised: false, recording: false};
 let drawn = [];
 let live_map = {note: 'no POSE and no TARGETS have come', path: [], footprint: [], targets: []};
@@ -65,6 +66,9 @@ function showReplay(frame, k) {
 }
 
 async function choose(name) {
+  opening.abort();  // a flight that is still being read
+  opening = new AbortController();
+  const {signal} = opening;
   replay?.close();
   replay = null;
   clearFrame();
@@ -76,11 +80,12 @@ async function choose(name) {
   if (name !== '') {
     element('note').textContent = `reading ${name}`;
     try {
-      replay = await Replay.open(name, showReplay, fail);
+      replay = await Replay.open(name, showReplay, fail, signal);
       element('position').max = replay.last;
       replay.setRate(Number(element('rate').value));
       replay.seek(0);
     } catch (error) {
+      if (signal.aborted) return;
       fail(error.message);
     }
   }
@@ -150,7 +155,7 @@ element('record').onclick = async () => {
   refreshState();
 };
 
-async function refreshState() {
+const refreshState = unlessBusy(async () => {
   try {
     state = await fetchJson('/api/state');
   } catch (error) {
@@ -162,11 +167,12 @@ async function refreshState() {
   button.title = state.writes ? '' : 'the page may only look: serve.allow_writes is false';
   button.textContent = state.recording ? '\u25cf Recording: stop' : 'Record';
   button.classList.toggle('on', state.recording);
-}
+});
 
 const megabytes = (bytes) => `${(bytes / 1e6).toFixed(1)} MB`;
 
-async function refreshFlights() {
+const sayOfReports = (words) => { element('reports').textContent = words; };
+const refreshFlights = unlessBusy(async () => {
   const {flights, reports} = await fetchJson('/api/flights');
   const source = element('source');
   const chosen = source.value;
@@ -181,8 +187,8 @@ async function refreshFlights() {
     item.append(link);
     return item;
   }));
-  if (reports.length === 0) element('reports').textContent = 'none in the folders of --flights';
-}
+  if (reports.length === 0) sayOfReports('none in the folders of --flights');
+}, () => sayOfReports('the disk of the flights has not answered yet'));
 
 listen({
   frame: (sequence) => live.onFrame(sequence),
@@ -199,7 +205,7 @@ listen({
       live.shown = 0;
       restartMosaic();
       refreshState();
-      refreshFlights().catch(() => {});
+      refreshFlights().catch((error) => sayOfReports(error.message));
     }
   },
 });
@@ -208,6 +214,6 @@ setInterval(() => {
     element('note').textContent = `no image for ${live.silence().toFixed(0)} s: is the camera running? A flight on disk: choose it above`;
 }, 500);
 setInterval(refreshState, 2000);
-setInterval(() => refreshFlights().catch(() => {}), 10000);
+setInterval(() => refreshFlights().catch((error) => sayOfReports(error.message)), 10000);
 watchMosaic(() => !replay);
 showLiveMap();

@@ -17,8 +17,8 @@ export class Replay {
     this.is_closed = false;
   }
 
-  static async open(name, show, fail) {
-    const flight = await fetchJson(`/api/flight?name=${encodeURIComponent(name)}`);
+  static async open(name, show, fail, signal) {
+    const flight = await fetchJson(`/api/flight?name=${encodeURIComponent(name)}`, signal);
     return new Replay(name, flight, show, fail);
   }
 

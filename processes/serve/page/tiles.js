@@ -3,7 +3,9 @@ const kEquator_m = 6378137;  // WGS-84
 const kFlattening = 1 / 298.257223563;
 const kMostKept = 300;
 const kMostDrawn = 64;
+const kMostAsked = 2;  // at a time: the live image needs connections too, also where the disk is slow
 const kept = new Map();
+let waiting = 0;
 let levels = [];
 const asked = fetch('/api/tiles').then((answer) => (answer.ok ? answer.json() : [])).then((found) => { levels = found; }).catch(() => {});
 
@@ -20,9 +22,15 @@ const latitudeOf = (row, count) => Math.atan(Math.sinh(Math.PI * (1 - 2 * row / 
 function tile(z, x, y, arrived) {
   const key = `${z}/${x}/${y}`;
   if (!kept.has(key)) {
+    if (waiting >= kMostAsked) return null;
     if (kept.size >= kMostKept) kept.delete(kept.keys().next().value);
     const image = new Image();
-    image.onload = arrived;
+    ++waiting;
+    // The next is asked for when it is drawn again.
+    image.onload = image.onerror = () => {
+      --waiting;
+      arrived();
+    };
     image.src = `/api/tile?z=${z}&x=${x}&y=${y}`;
     kept.set(key, image);
   }

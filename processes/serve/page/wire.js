@@ -25,10 +25,26 @@ export async function fetchFrame(address) {
   return parseBundle(await response.arrayBuffer());
 }
 
-export async function fetchJson(address) {
-  const response = await fetch(address);
+/** `signal`: of an AbortController, where somebody may want it no longer. */
+export async function fetchJson(address, signal) {
+  const response = await fetch(address, {signal});
   if (!response.ok) throw new Error((await response.text()).trim());
   return response.json();
+}
+
+/** Does `work` again only when it has been done: a disk or a supervisor that does not answer must not take all of the few
+    connections that a browser has for a server, which the live image needs. `busy()` is called instead. */
+export function unlessBusy(work, busy = () => {}) {
+  let is_busy = false;
+  return async () => {
+    if (is_busy) return busy();
+    is_busy = true;
+    try {
+      return await work();
+    } finally {
+      is_busy = false;
+    }
+  };
 }
 
 /** Returns the fault in words; '' where it was done. */
