@@ -1,4 +1,4 @@
-// Memory of maps that are written anew in every frame from those of the frame before: one map of each size,
+// Memory of maps that are written in every frame from those of the frame before: one map of each size,
 // which is exchanged for the one that was read.
 #pragma once
 

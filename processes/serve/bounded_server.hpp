@@ -15,21 +15,28 @@
 
 namespace redbee {
 
-/// Counts the connections that wait for a thread.
+/// Counts the connections that have a thread or wait for one.
 class CountingPool : public httplib::ThreadPool {
  public:
-  CountingPool(size_t threads, std::atomic<int>& waiting) : ThreadPool(threads), waiting_(waiting) {}
+  /// `on_shutdown` is called by the thread that accepts, before it waits for all others to end.
+  CountingPool(size_t threads, std::atomic<size_t>& connections, std::function<void()> on_shutdown)
+      : ThreadPool(threads), connections_(connections), on_shutdown_(std::move(on_shutdown)) {}
 
   void enqueue(std::function<void()> work) override {
-    ++waiting_;
+    ++connections_;
     ThreadPool::enqueue([this, work = std::move(work)] {
-      --waiting_;
       work();
+      --connections_;
     });
+  }
+  void shutdown() override {
+    on_shutdown_();
+    ThreadPool::shutdown();
   }
 
  private:
-  std::atomic<int>& waiting_;
+  std::atomic<size_t>& connections_;
+  std::function<void()> on_shutdown_;
 };
 
 /// httplib's, but for how it reads and writes.
@@ -41,16 +48,30 @@ class BoundedServer : public httplib::Server {
   /// process gets no processor for a moment, and then a browser tries again after 1, 3, 7 s.
   static constexpr int kBacklog = 256;
 
-  BoundedServer() {
-    new_task_queue = [this] { return new CountingPool(kThreads, waiting_); };
+  /// `on_failure` is called where accept() has failed, upon which httplib closes its socket and accepts
+  /// nothing more.
+  explicit BoundedServer(std::function<void()> on_failure) : on_failure_(std::move(on_failure)) {
+    new_task_queue = [this] { return new CountingPool(kThreads, connections_, [this] { onAcceptEnd(); }); };
   }
   void widenBacklog() { ::listen(svr_sock_, kBacklog); }
 
+  /// At any time: stop() does nothing before the server listens, and closes the socket again after a failure.
+  void end() {
+    const int socket = svr_sock_.exchange(INVALID_SOCKET);
+    if (socket == INVALID_SOCKET) return;
+    shutdown(socket, SHUT_RDWR);
+    close(socket);
+  }
+
  private:
+  /// Without end(), the socket still has its number here, and the open connections would go on.
+  void onAcceptEnd() {
+    if (svr_sock_.exchange(INVALID_SOCKET) != INVALID_SOCKET) on_failure_();
+  }
   bool isStopping() const { return svr_sock_ == INVALID_SOCKET; }
 
   bool process_and_close_socket(int socket) override {
-    RequestStream stream(socket, waiting_);
+    RequestStream stream(socket, [this] { return connections_ > kThreads; });
     bool is_closed = false;
     while (!is_closed && stream.waitForRequest([this] { return isStopping(); })) {
       if (!process_request(stream, false, is_closed, nullptr) || stream.isExhausted()) break;
@@ -60,7 +81,8 @@ class BoundedServer : public httplib::Server {
     return true;
   }
 
-  std::atomic<int> waiting_{0};
+  std::function<void()> on_failure_;
+  std::atomic<size_t> connections_{0};
 };
 
 }  // namespace redbee

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <csignal>
@@ -171,17 +170,12 @@ void listenAt(httplib::Server& server, const ListenAddress& address) {
 }  // namespace
 
 struct HttpServer::Implementation {
-  BoundedServer server;
-  std::atomic<bool> is_stopping{false};
-  std::atomic<bool> has_ended{false};
+  BoundedServer server{endProcess};
   std::thread thread;
 
   /// httplib listens no more after any error of accept(), as where the kernel has no memory for the moment: a
   /// process that then went on would never be reached again.
-  void listen() {
-    server.listen_after_bind();
-    has_ended = true;
-    if (is_stopping) return;
+  static void endProcess() {
     spdlog::critical("redbee-serve: takes no connections any more, and ends to be started again");
     std::raise(SIGTERM);
   }
@@ -222,15 +216,11 @@ HttpServer::HttpServer(const ListenAddress& address, Station& station, Live& liv
   server.Post(".*", handle);
   listenAt(server, address);
   server.widenBacklog();
-  implementation_->thread = std::thread([this] { implementation_->listen(); });
+  implementation_->thread = std::thread([&server] { server.listen_after_bind(); });
 }
 
 HttpServer::~HttpServer() {
-  implementation_->is_stopping = true;
-  // stop() does nothing before the thread has come to listen.
-  while (!implementation_->server.is_running() && !implementation_->has_ended)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  implementation_->server.stop();
+  implementation_->server.end();
   implementation_->thread.join();
 }
 

@@ -19,7 +19,7 @@ bool RequestStream::waitFor(short event, Clock::time_point begin, const Patience
                             const std::function<bool()>& is_over) const {
   pollfd entry{socket_, event, 0};
   while (!is_over()) {
-    const auto bound = waiting_ > 0 ? patience.in_crowd : patience.alone;
+    const auto bound = is_crowded_() ? patience.in_crowd : patience.alone;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(begin + bound - Clock::now());
     const auto wait = std::clamp(left, std::chrono::milliseconds(0), kGlance);
     const int found = poll(&entry, 1, static_cast<int>(wait.count()));

@@ -6,10 +6,10 @@
 #include <httplib.h>
 
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace redbee {
 
@@ -26,8 +26,9 @@ class RequestStream : public httplib::Stream {
   static constexpr Patience kReading{std::chrono::milliseconds(5000), std::chrono::milliseconds(500)};
   static constexpr Patience kWriting{std::chrono::milliseconds(5000), std::chrono::milliseconds(1000)};
 
-  /// `socket` is closed by who opened it. `waiting`: how many connections have no thread.
-  RequestStream(int socket, const std::atomic<int>& waiting) : socket_(socket), waiting_(waiting) {}
+  /// `socket` is closed by who opened it. `is_crowded`: whether there are more connections than threads.
+  RequestStream(int socket, std::function<bool()> is_crowded)
+      : socket_(socket), is_crowded_(std::move(is_crowded)) {}
 
   /// Waits for the next request; false: none has come in time, the other end is gone, or `is_over`.
   bool waitForRequest(const std::function<bool()>& is_over);
@@ -50,7 +51,7 @@ class RequestStream : public httplib::Stream {
                const std::function<bool()>& is_over) const;
 
   int socket_;
-  const std::atomic<int>& waiting_;
+  std::function<bool()> is_crowded_;
   std::array<char, 4096> buffer_{};
   size_t begin_ = 0;  ///< of what is buffered
   size_t end_ = 0;

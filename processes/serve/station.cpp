@@ -120,7 +120,8 @@ WebResponse Station::route(const WebRequest& request) {
   return fromDisk(request);
 }
 
-/// The disk may stall, and each who waits for it has a thread that others then have not.
+/// The disk may stall, or a file be read slowly by the client: either keeps a thread that others then have
+/// not.
 WebResponse Station::fromDisk(const WebRequest& request) {
   static const std::map<std::string, WebResponse (Station::*)(const WebRequest&)> addresses{
       {"/api/flights", &Station::flights},          {"/api/flight", &Station::flight},
@@ -129,7 +130,7 @@ WebResponse Station::fromDisk(const WebRequest& request) {
   const auto address = addresses.find(request.path);
   if (address == addresses.end()) return plain(404, "no such address");
   const DiskGate::Ticket ticket = disk_.enter();
-  if (!ticket) return plain(503, "the disk has not yet answered those who asked before: try again later");
+  if (!ticket) return plain(503, "too many requests are still being answered from the disk: try again later");
   WebResponse response = (this->*address->second)(request);
   if (!response.file.empty()) response.read_by = ticket;
   return response;

@@ -76,7 +76,7 @@ class CameraNodeTest : public testing::Test {
     for (int i = 0; i < passes; ++i) node_->processNext();
     bus_->handle(std::chrono::milliseconds(0));
   }
-  static cv::Mat1b picture(int k) {
+  static cv::Mat1b testImage(int k) {
     cv::Mat1b image(48, 64);
     for (int y = 0; y < image.rows; ++y) {
       for (int x = 0; x < image.cols; ++x) image(y, x) = static_cast<uint8_t>(2 * x + y + k);

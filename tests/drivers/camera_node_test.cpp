@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 TEST_F(CameraNodeTest, PublishesWhatComesAsItComes) {
   start();
-  camera_.images = {rawGreyMessage(100, picture(0)), jpegMessage(200, picture(1), 90)};
+  camera_.images = {rawGreyMessage(100, testImage(0)), jpegMessage(200, testImage(1), 90)};
   const auto sent = camera_.images;
   run(3);
   ASSERT_EQ(published_.size(), 2U);
@@ -31,13 +31,13 @@ TEST_F(CameraNodeTest, PublishesWhatComesAsItComes) {
 
 TEST_F(CameraNodeTest, CompressesRawImagesWhereItIsToldTo) {
   start(95);
-  camera_.images = {rawGreyMessage(100, picture(0))};
+  camera_.images = {rawGreyMessage(100, testImage(0))};
   run(1);
   ASSERT_EQ(published_.size(), 1U);
   EXPECT_EQ(published_[0].pixelformat, image_t::MJPEG);
   const auto decoded = decodeGrey(published_[0]);
   ASSERT_TRUE(decoded);
-  EXPECT_LT(cv::norm(*decoded, picture(0), cv::NORM_INF), 8);
+  EXPECT_LT(cv::norm(*decoded, testImage(0), cv::NORM_INF), 8);
 }
 
 TEST_F(CameraNodeTest, AnotherSizeIsNoImage) {
@@ -51,8 +51,8 @@ TEST_F(CameraNodeTest, AnotherSizeIsNoImage) {
 
 TEST_F(CameraNodeTest, TimesIncrease) {
   start();
-  camera_.images = {rawGreyMessage(200, picture(0)), rawGreyMessage(200, picture(1)),
-                    rawGreyMessage(150, picture(2)), rawGreyMessage(300, picture(3))};
+  camera_.images = {rawGreyMessage(200, testImage(0)), rawGreyMessage(200, testImage(1)),
+                    rawGreyMessage(150, testImage(2)), rawGreyMessage(300, testImage(3))};
   run(4);
   ASSERT_EQ(published_.size(), 2U);
   EXPECT_EQ(published_[1].utime, 300);
@@ -70,10 +70,10 @@ TEST_F(CameraNodeTest, StampsTheMiddleOfTheExposureWhereTheDriverTellsIt) {
     capture.stamp = stamp;
     start(capture);
     camera_.exposure_s = 0.004;
-    camera_.images = {rawGreyMessage(100'000, picture(0))};
+    camera_.images = {rawGreyMessage(100'000, testImage(0))};
     run(1);
     camera_.exposure_s = 0.008;
-    camera_.images = {rawGreyMessage(140'000, picture(1))};
+    camera_.images = {rawGreyMessage(140'000, testImage(1))};
     run(1);
     ASSERT_EQ(published_.size(), 2U);
     EXPECT_EQ(published_[0].utime, 100'000 + sign * (2000 + kHalfReadout_us)) << stamp;
@@ -86,13 +86,13 @@ TEST_F(CameraNodeTest, AnExposureThatIsNotToldIsTheConfiguredOneOrMissing) {
   CaptureParameters capture;
   capture.stamp = "readout_end";
   start(capture);
-  camera_.images = {rawGreyMessage(100'000, picture(0))};
+  camera_.images = {rawGreyMessage(100'000, testImage(0))};
   run(1);
   EXPECT_THAT(health().message,
               HasSubstr("does not tell the exposure time, and capture.exposure_s is not set"));
   capture.exposure_s = 0.01;
   start(capture);
-  camera_.images = {rawGreyMessage(200'000, picture(0))};
+  camera_.images = {rawGreyMessage(200'000, testImage(0))};
   run(1);
   EXPECT_EQ(published_.back().utime, 195'000);
   EXPECT_EQ(health().state, process_health_t::GOOD);
@@ -100,7 +100,7 @@ TEST_F(CameraNodeTest, AnExposureThatIsNotToldIsTheConfiguredOneOrMissing) {
 
 TEST_F(CameraNodeTest, ImagesWithDoubtfulTimesArePublishedAndTheDoubtIsSaid) {
   start();
-  camera_.images = {rawGreyMessage(100, picture(0)), rawGreyMessage(200, picture(1))};
+  camera_.images = {rawGreyMessage(100, testImage(0)), rawGreyMessage(200, testImage(1))};
   camera_.time_fault = "the sender does not say when";
   run(1);
   EXPECT_EQ(published_.size(), 1U);

@@ -25,7 +25,7 @@ TEST_F(CameraNodeTest, OpensASourceThatEndsAgainLessAndLessOften) {
   EXPECT_EQ(camera_.opened, 2);
   camera_.open_fault.clear();
   camera_.fault = "the pipeline has ended";
-  camera_.images = {rawGreyMessage(100, picture(0))};
+  camera_.images = {rawGreyMessage(100, testImage(0))};
   pass(50);
   EXPECT_EQ(camera_.opened, 3);
   EXPECT_EQ(health().state, process_health_t::GOOD);
@@ -38,7 +38,7 @@ TEST_F(CameraNodeTest, OpensASourceThatEndsAgainLessAndLessOften) {
 /// A driver that hangs says nothing.
 TEST_F(CameraNodeTest, OpensASourceThatFellSilentAgain) {
   start();
-  camera_.images = {rawGreyMessage(100, picture(0))};
+  camera_.images = {rawGreyMessage(100, testImage(0))};
   const auto pass = [&](int64_t s) {
     camera_.now_ns += s * 1'000'000'000;
     node_->processNext();
@@ -46,14 +46,14 @@ TEST_F(CameraNodeTest, OpensASourceThatFellSilentAgain) {
   pass(0);
   pass(14);
   EXPECT_EQ(camera_.opened, 1);
-  camera_.images = {rawGreyMessage(200, picture(1))};
+  camera_.images = {rawGreyMessage(200, testImage(1))};
   pass(0);
   pass(14);
   EXPECT_TRUE(camera_.is_open) << "the silence began with the last image";
   pass(2);
   EXPECT_FALSE(camera_.is_open);
   EXPECT_THAT(health().message, HasSubstr("gives no images"));
-  camera_.images = {rawGreyMessage(300, picture(2))};
+  camera_.images = {rawGreyMessage(300, testImage(2))};
   pass(1);
   EXPECT_EQ(camera_.opened, 2);
   EXPECT_EQ(published_.size(), 0U) << "until the bus is asked";

@@ -111,6 +111,26 @@ TEST(GstreamerSource, SaysWhatIsWrongAtRunTime) {
   EXPECT_THAT(source.fault(), HasSubstr("/nowhere.jpg"));
 }
 
+std::string faultAfterOpening(const std::string& location) {
+  GstreamerSource source("rtspsrc location=" + location + " ! rtpjpegdepay ! appsink");
+  if (source.open().empty()) {
+    for (int waits = 0; source.isOpen() && waits < 1000; ++waits) source.next(std::chrono::milliseconds(20));
+  }
+  return source.fault();
+}
+
+TEST(GstreamerSource, NoPasswordIsSaid) {
+  for (const auto& [location, said] : std::vector<std::pair<std::string, std::string>>{
+           {"rtsp://127.0.0.1:9/user=admin&password=secret&channel=1", "rtsp://127.0.0.1:9: "},
+           {"rtsp://127.0.0.1:9/live?user=admin&password=secret", "rtsp://127.0.0.1:9/live: "},
+           {"rtsp://pilot:se/cret@127.0.0.1:9/live", "rtsp://127.0.0.1:9/live: "},
+           {"rtsp://pilot:secret?@127.0.0.1:9/live", "rtsp://...: "}}) {
+    const std::string fault = faultAfterOpening(location);
+    EXPECT_THAT(fault, HasSubstr("rtspsrc " + said)) << location;
+    EXPECT_THAT(fault, testing::Not(testing::ContainsRegex("cret|admin"))) << location;
+  }
+}
+
 /// What is said does not change while nothing else does: a fault is logged once, not with each attempt.
 TEST(GstreamerSource, SaysTheSameOfTheSameFailure) {
   for (const auto& [pipeline, said] : std::vector<std::pair<std::string, std::string>>{

@@ -12,6 +12,7 @@
 #include "redbee/results/video_writer.hpp"
 #include "tests/support/log_events.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/test_video.hpp"
 
 namespace redbee::test {
 namespace {
@@ -72,6 +73,18 @@ TEST_F(ImportVideoTest, TheConfigurationBesideTheLogRunsOnVisionAlone) {
   EXPECT_DOUBLE_EQ(configuration.camera.fx, 0.8 * 96);
   ASSERT_EQ(summary.warnings.size(), 1u);
   EXPECT_NE(summary.warnings[0].find("77 px are assumed"), std::string::npos) << summary.warnings[0];
+}
+
+TEST_F(ImportVideoTest, PixelsThatAreNotSquareHaveTwoFocalLengths) {
+  TestVideo video;
+  video.frames = 3;
+  video.pixel_aspect = {16, 15};
+  video.image = [](int k) { return texture(96, 64, k, 1); };
+  writeTestVideo(options_.source, video);
+  const ImportSummary summary = import();
+  const Configuration configuration = loadConfiguration(writeVehicleFile(summary.vehicle, options_.log));
+  EXPECT_DOUBLE_EQ(configuration.camera.fx, 0.8 * 96);
+  EXPECT_NEAR(configuration.camera.fy, 0.8 * 96 * 16 / 15, 1e-6);
 }
 
 TEST_F(ImportVideoTest, AChosenWidthKeepsTheAspect) {

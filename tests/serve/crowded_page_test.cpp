@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <sys/resource.h>
 
+#include <chrono>
 #include <csignal>
 #include <thread>
 #include <vector>
@@ -94,6 +95,18 @@ TEST_F(CrowdedPage, KeepsAConnectionThatNobodyElseWaitsFor) {
   EXPECT_EQ(poll(&end, 1, 0), 0) << "it was ended, or sent something that nobody asked for";
 }
 
+/// There is a thread for each of them, and one for who comes.
+TEST_F(CrowdedPage, KeepsIdleConnectionsWhileThreadsAreFree) {
+  gather(20, "");
+  const auto begin = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - begin < std::chrono::seconds(1))
+    ASSERT_THAT(answerInTime("/icon.svg"), StartsWith("HTTP/1.1 200 "));
+  for (const int descriptor : crowd_) {
+    pollfd end{descriptor, POLLIN, 0};
+    EXPECT_EQ(poll(&end, 1, 0), 0) << "it was ended";
+  }
+}
+
 /// More than there are threads ask for a flight whose file cannot be opened for now.
 TEST_F(CrowdedPage, IsThereWhileTheDiskDoesNotAnswer) {
   const auto file = folder_ / "flights/slow.lcm";
@@ -110,7 +123,7 @@ TEST_F(CrowdedPage, IsThereWhileTheDiskDoesNotAnswer) {
     ASSERT_EQ(poll(&first, 1, 10), 0) << "it is answered without that file";
   gather(60, request("GET /api/flight?name=flights/slow.lcm", withToken()));
   EXPECT_THAT(answerInTime("/api/frame?after=0"), StartsWith("HTTP/1.1 204 "));
-  EXPECT_THAT(answerInTime("/api/flights"), HasSubstr("the disk has not yet answered"));
+  EXPECT_THAT(answerInTime("/api/flights"), HasSubstr("still being answered from the disk"));
   EXPECT_EQ(poll(&first, 1, 0), 0) << "the disk has answered meanwhile: nothing is tested";
   EXPECT_EQ(fcntl(lease.get(), F_SETLEASE, F_UNLCK), 0);
   EXPECT_EQ(poll(&first, 1, 1000 * kPatience_s), 1);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "processes/serve/run_serve.hpp"
+#include "redbee/files/new_file.hpp"
 #include "redbee/files/user_error.hpp"
 #include "redbee/node/node.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -53,6 +55,24 @@ class HttpServerTest : public testing::Test {
     }
   }
 
+  /// Has an event stream that has begun.
+  static FileDescriptor viewerAt(const std::string& file) {
+    FileDescriptor viewer(socket(AF_UNIX, SOCK_STREAM, 0));
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    file.copy(address.sun_path, sizeof address.sun_path - 1);
+    EXPECT_EQ(connect(viewer.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    const std::string request = "GET /api/events HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    EXPECT_EQ(send(viewer.get(), request.data(), request.size(), 0), static_cast<ssize_t>(request.size()));
+    std::string answer;
+    char part[4096];
+    for (ssize_t n = 0;
+         answer.find("retry: ") == std::string::npos && (n = recv(viewer.get(), part, sizeof part, 0)) > 0;)
+      answer.append(part, static_cast<size_t>(n));
+    EXPECT_THAT(answer, HasSubstr("retry: "));
+    return viewer;
+  }
+
   ScratchFolder folder_;
   Live live_;
   Archive archive_{Configuration(), {}};
@@ -81,11 +101,13 @@ TEST_F(HttpServerTest, AFileIsNotReplacedByASocket) {
   EXPECT_EQ(readText(folder_ / "notes"), "mine");
 }
 
-/// Whatever ends its listening: the process ends with it, and is started again.
+/// Whatever ends its listening: the process ends with it, and is started again, also where somebody watches.
 TEST_F(HttpServerTest, AServerThatNobodyCanReachAnyMoreEndsItsProcess) {
   const std::atomic<bool>& stop = stopOnSignals();
   ASSERT_FALSE(stop);
-  const auto server = serverAt("unix:" + (folder_ / "serve.sock").string());
+  const std::string file = (folder_ / "serve.sock").string();
+  const auto server = serverAt("unix:" + file);
+  const FileDescriptor viewer = viewerAt(file);
   int found = 0;
   for (int descriptor = 3; descriptor < 1024; ++descriptor) {
     int listens = 0;

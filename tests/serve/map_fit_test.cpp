@@ -1,4 +1,4 @@
-// When the live mosaic's map is laid anew, on rendered flights whose true plane of the ground is known: a map
+// When the live mosaic's map is restarted, on rendered flights whose true plane of the ground is known: a map
 // that is true to the ground stays.
 #include "processes/serve/map_fit.hpp"
 

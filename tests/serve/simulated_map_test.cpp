@@ -1,4 +1,4 @@
-// When the live mosaic's map is laid anew, on simulated flights of other heights, speeds and grounds than the
+// When the live mosaic's map is restarted, on simulated flights of other heights, speeds and grounds than the
 // rendered ones: a map that is true to the ground stays, one that is not goes.
 #include <gtest/gtest.h>
 

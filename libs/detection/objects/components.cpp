@@ -142,7 +142,7 @@ cv::Mat1b ForegroundComponents::pixelsOf(size_t index) const {
 
 void splitComponent(ForegroundComponents& found, size_t index, const std::vector<cv::Rect2d>& boxes) {
   const Component whole = found.components.at(index);
-  if (found.isFull(boxes.size())) return;
+  if (found.isFull(boxes.size() - 1)) return;
   Component empty = whole;
   empty.box = {};
   empty.area_px = 0;

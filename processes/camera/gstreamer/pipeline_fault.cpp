@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <regex>
 
 namespace redbee {
 namespace {
@@ -17,17 +16,41 @@ struct ElementPackage {
 };
 // Elements of cameras that scripts/packages-camera.txt does not bring, and those of its packages.
 constexpr ElementPackage kPackages[] = {
-    {"avdec_", "gstreamer1.0-libav"},          {"libcamerasrc", "gstreamer1.0-libcamera"},
-    {"h264parse", "gstreamer1.0-plugins-bad"}, {"h265parse", "gstreamer1.0-plugins-bad"},
-    {"srtsrc", "gstreamer1.0-plugins-bad"},    {"openh264dec", "gstreamer1.0-plugins-bad"},
-    {"rtspsrc", "gstreamer1.0-plugins-good"},  {"v4l2", "gstreamer1.0-plugins-good"},
-    {"rtp", "gstreamer1.0-plugins-good"},      {"udpsrc", "gstreamer1.0-plugins-good"},
-    {"jpeg", "gstreamer1.0-plugins-good"},     {"video", "gstreamer1.0-plugins-base"}};
+    {"jpegparse", "gstreamer1.0-plugins-bad"},  {"v4l2sl", "gstreamer1.0-plugins-bad"},
+    {"videoflip", "gstreamer1.0-plugins-good"}, {"videocrop", "gstreamer1.0-plugins-good"},
+    {"videobox", "gstreamer1.0-plugins-good"},  {"videobalance", "gstreamer1.0-plugins-good"},
+    {"avdec_", "gstreamer1.0-libav"},           {"libcamerasrc", "gstreamer1.0-libcamera"},
+    {"h264parse", "gstreamer1.0-plugins-bad"},  {"h265parse", "gstreamer1.0-plugins-bad"},
+    {"srtsrc", "gstreamer1.0-plugins-bad"},     {"openh264dec", "gstreamer1.0-plugins-bad"},
+    {"rtspsrc", "gstreamer1.0-plugins-good"},   {"v4l2", "gstreamer1.0-plugins-good"},
+    {"rtp", "gstreamer1.0-plugins-good"},       {"udpsrc", "gstreamer1.0-plugins-good"},
+    {"jpeg", "gstreamer1.0-plugins-good"},      {"video", "gstreamer1.0-plugins-base"}};
 
-/// One line, without the name and password of an address.
+/// What follows the :// of an address, without what may be a password: all before the @, and what is asked of
+/// the server, which cheap cameras take as user=...&password=... of a path.
+std::string publicAddress(std::string text) {
+  constexpr const char* kQuestion = "?&=#;";
+  const size_t owner = text.rfind('@');
+  if (owner != std::string::npos && text.find_first_of(kQuestion) < owner)
+    return "...";  // either may hold the other
+  if (owner != std::string::npos) text.erase(0, owner + 1);
+  const size_t question = text.find_first_of(kQuestion);
+  if (question == std::string::npos) return text;
+  const size_t segment = text[question] == '?' ? std::string::npos : text.rfind('/', question);
+  return text.substr(0, segment == std::string::npos ? question : segment);
+}
+
+/// One line, without passwords.
 std::string publicLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return std::regex_replace(text, std::regex("://[^/ ]*@"), "://");
+  for (size_t at = text.find("://"); at != std::string::npos; at = text.find("://", at)) {
+    at += 3;
+    const size_t end = std::min(text.find_first_of(" \"'", at), text.size());
+    // Of a location: "rtsp://...: Could not".
+    const size_t length = end - at - (end > at && text[end - 1] == ':' ? 1 : 0);
+    text.replace(at, length, publicAddress(text.substr(at, length)));
+  }
+  return text;
 }
 
 std::string factoryOf(GstObject* object) {

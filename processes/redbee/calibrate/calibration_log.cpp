@@ -105,7 +105,7 @@ class LogIntake {
     if (event.channel == channels.camera) return takeTime(event);
     if (event.channel == channels.lens && configuration_.inertial.lens.enabled) return checkLens(event);
   }
-  /// Tracking takes minutes, in vain where the samples are not enough.
+  /// Tracking takes minutes, which are lost where the samples are not enough.
   void requireSamples() {
     if (input_.frames.empty()) throw InputError(log_, "holds no image on " + configuration_.channels.camera);
     if (input_.imu.empty()) throw InputError(log_, "holds no IMU sample on " + configuration_.channels.imu);

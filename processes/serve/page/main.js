@@ -171,7 +171,7 @@ const refreshState = unlessBusy(async () => {
 
 const megabytes = (bytes) => `${(bytes / 1e6).toFixed(1)} MB`;
 
-const sayOfReports = (words) => { element('reports').textContent = words; };
+const setReportsNote = (words) => { element('reports').textContent = words; };
 const refreshFlights = unlessBusy(async () => {
   const {flights, reports} = await fetchJson('/api/flights');
   const source = element('source');
@@ -187,8 +187,8 @@ const refreshFlights = unlessBusy(async () => {
     item.append(link);
     return item;
   }));
-  if (reports.length === 0) sayOfReports('none in the folders of --flights');
-}, () => sayOfReports('the disk of the flights has not answered yet'));
+  if (reports.length === 0) setReportsNote('none in the folders of --flights');
+}, () => setReportsNote('the disk of the flights has not answered yet'));
 
 listen({
   frame: (sequence) => live.onFrame(sequence),
@@ -205,7 +205,7 @@ listen({
       live.shown = 0;
       restartMosaic();
       refreshState();
-      refreshFlights().catch((error) => sayOfReports(error.message));
+      refreshFlights().catch((error) => setReportsNote(error.message));
     }
   },
 });
@@ -214,6 +214,6 @@ setInterval(() => {
     element('note').textContent = `no image for ${live.silence().toFixed(0)} s: is the camera running? A flight on disk: choose it above`;
 }, 500);
 setInterval(refreshState, 2000);
-setInterval(() => refreshFlights().catch((error) => sayOfReports(error.message)), 10000);
+setInterval(() => refreshFlights().catch((error) => setReportsNote(error.message)), 10000);
 watchMosaic(() => !replay);
 showLiveMap();

@@ -4,10 +4,24 @@ const kFlattening = 1 / 298.257223563;
 const kMostKept = 300;
 const kMostDrawn = 64;
 const kMostAsked = 2;  // at a time: the live image needs connections too, also where the disk is slow
-const kept = new Map();
+const kRetry_ms = 3000;  // where the server refuses, as when its disk is busy, or cannot be reached
+const kept = new Map();  // images by z/x/y; null: it has not come yet, or there is none
 let waiting = 0;
 let levels = [];
-const asked = fetch('/api/tiles').then((answer) => (answer.ok ? answer.json() : [])).then((found) => { levels = found; }).catch(() => {});
+let redrawWithTiles = () => {};
+
+async function fetchLevels() {
+  try {
+    const answer = await fetch('/api/tiles');
+    if (!answer.ok) throw new Error(`status ${answer.status}`);
+    levels = await answer.json();
+  } catch (error) {
+    setTimeout(fetchLevels, kRetry_ms);
+    return;
+  }
+  if (levels.length > 0) redrawWithTiles();
+}
+fetchLevels();
 
 /** Metres a radian of latitude and of longitude at the origin. */
 function radiiAt(latitude) {
@@ -19,23 +33,33 @@ function radiiAt(latitude) {
 const rowOf = (latitude, count) => (1 - Math.asinh(Math.tan(latitude)) / Math.PI) / 2 * count;
 const latitudeOf = (row, count) => Math.atan(Math.sinh(Math.PI * (1 - 2 * row / count)));
 
+/** null: there is none, and asking again would not help. Throws where it would. */
+async function fetchTile(z, x, y) {
+  const answer = await fetch(`/api/tile?z=${z}&x=${x}&y=${y}`);
+  if (answer.status >= 500) throw new Error(`status ${answer.status}`);
+  if (!answer.ok) return null;
+  const content = await answer.blob();
+  return createImageBitmap(content).catch(() => null);
+}
+
 function tile(z, x, y, arrived) {
   const key = `${z}/${x}/${y}`;
   if (!kept.has(key)) {
     if (waiting >= kMostAsked) return null;
     if (kept.size >= kMostKept) kept.delete(kept.keys().next().value);
-    const image = new Image();
     ++waiting;
-    // The next is asked for when it is drawn again.
-    image.onload = image.onerror = () => {
-      --waiting;
+    kept.set(key, null);
+    const retry = () => {
+      kept.delete(key);
       arrived();
     };
-    image.src = `/api/tile?z=${z}&x=${x}&y=${y}`;
-    kept.set(key, image);
+    // The next is asked for when it is drawn again.
+    fetchTile(z, x, y).then((image) => kept.set(key, image)).catch(() => setTimeout(retry, kRetry_ms)).finally(() => {
+      --waiting;
+      arrived();
+    });
   }
-  const image = kept.get(key);
-  return image.complete && image.naturalWidth > 0 ? image : null;
+  return kept.get(key);
 }
 
 /** `origin`: {latitude, longitude} of the map's [0, 0] in degrees; without it, and without tiles, nothing is drawn.
@@ -43,7 +67,7 @@ function tile(z, x, y, arrived) {
 export function drawTiles(context, size, origin, centre, px_per_m, redraw) {
   if (!origin) return;
   if (levels.length === 0) {
-    asked.then(() => levels.length > 0 && redraw());
+    redrawWithTiles = redraw;
     return;
   }
   const [latitude, longitude] = [origin.latitude, origin.longitude].map((degrees) => degrees * Math.PI / 180);

@@ -33,14 +33,20 @@ export async function fetchJson(address, signal) {
 }
 
 /** Does `work` again only when it has been done: a disk or a supervisor that does not answer must not take all of the few
-    connections that a browser has for a server, which the live image needs. `busy()` is called instead. */
+    connections that a browser has for a server, which the live image needs. Whoever asks meanwhile, as after a write, gets `busy()`
+    at once, and `work` is done once more: what is under way may have been answered before. */
 export function unlessBusy(work, busy = () => {}) {
   let is_busy = false;
+  let is_asked_again = false;
   return async () => {
+    is_asked_again = is_busy;
     if (is_busy) return busy();
     is_busy = true;
     try {
-      return await work();
+      do {
+        is_asked_again = false;
+        await work();
+      } while (is_asked_again);
     } finally {
       is_busy = false;
     }

@@ -123,5 +123,19 @@ TEST(SplitComponent, EachPixelGoesToTheNearestBox) {
   EXPECT_EQ(cv::countNonZero(found.mask()), whole);
 }
 
+TEST(SplitComponent, NoMoreThanCanBeLabelled) {
+  cv::Mat1b probability = cv::Mat1b::zeros(kImage);
+  probability(cv::Rect(100, 100, 60, 30)).setTo(204);
+  ForegroundComponents found = componentsOf(probability);
+  const cv::Mat1w labels = found.labels.clone();
+  found.components.resize(ForegroundComponents::kMost - 1, found.components[0]);
+  splitComponent(found, 0, {{100, 100, 20, 30}, {120, 100, 20, 30}, {140, 100, 20, 30}});
+  EXPECT_EQ(found.components.size(), ForegroundComponents::kMost - 1);
+  EXPECT_EQ(cv::norm(found.labels, labels, cv::NORM_INF), 0);
+  splitComponent(found, 0, {{100, 100, 30, 30}, {130, 100, 30, 30}});
+  EXPECT_EQ(found.components.size(), ForegroundComponents::kMost);
+  EXPECT_EQ(cv::countNonZero(found.labels == 65535), found.components.back().area_px) << "the last label";
+}
+
 }  // namespace
 }  // namespace redbee
