@@ -64,7 +64,8 @@ class BoundedServer : public httplib::Server {
   }
 
  private:
-  /// Without end(), the socket still has its number here, and the open connections would go on.
+  /// Where nobody called end(), accept() has failed. Open connections see by the invalid socket that they are
+  /// to end: event streams would otherwise be waited for as long as somebody watches.
   void onAcceptEnd() {
     if (svr_sock_.exchange(INVALID_SOCKET) != INVALID_SOCKET) on_failure_();
   }

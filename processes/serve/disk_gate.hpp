@@ -1,5 +1,5 @@
-// How many requests may wait for the disk at a time: the other threads of the server are for who looks at the
-// live view.
+// How many requests may be answered from the disk at a time, those of slow readers included: the other
+// threads of the server are for who looks at the live view.
 #pragma once
 
 #include <atomic>

@@ -120,8 +120,7 @@ WebResponse Station::route(const WebRequest& request) {
   return fromDisk(request);
 }
 
-/// The disk may stall, or a file be read slowly by the client: either keeps a thread that others then have
-/// not.
+/// The disk may stall, and a client may read its file slowly: both keep a thread from others.
 WebResponse Station::fromDisk(const WebRequest& request) {
   static const std::map<std::string, WebResponse (Station::*)(const WebRequest&)> addresses{
       {"/api/flights", &Station::flights},          {"/api/flight", &Station::flight},
