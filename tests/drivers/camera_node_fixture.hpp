@@ -76,6 +76,10 @@ class CameraNodeTest : public testing::Test {
     for (int i = 0; i < passes; ++i) node_->processNext();
     bus_->handle(std::chrono::milliseconds(0));
   }
+  void passAfter(std::chrono::nanoseconds time) {
+    camera_.now_ns += time.count();
+    node_->processNext();
+  }
   static cv::Mat1b testImage(int k) {
     cv::Mat1b image(48, 64);
     for (int y = 0; y < image.rows; ++y) {

@@ -6,6 +6,7 @@
 namespace redbee::test {
 namespace {
 
+using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 TEST_F(CameraNodeTest, OpensASourceThatEndsAgainLessAndLessOften) {
@@ -13,25 +14,21 @@ TEST_F(CameraNodeTest, OpensASourceThatEndsAgainLessAndLessOften) {
   camera_.open_fault = "no such device";
   node_->processNext();
   EXPECT_EQ(health().message, "no such device");
-  const auto pass = [&](int64_t ms) {
-    camera_.now_ns += ms * 1'000'000;
-    node_->processNext();
-  };
-  pass(50);
+  passAfter(50ms);
   EXPECT_EQ(camera_.opened, 1);
-  pass(50);
+  passAfter(50ms);
   EXPECT_EQ(camera_.opened, 2);
-  pass(150);
+  passAfter(150ms);
   EXPECT_EQ(camera_.opened, 2);
   camera_.open_fault.clear();
   camera_.fault = "the pipeline has ended";
   camera_.images = {rawGreyMessage(100, testImage(0))};
-  pass(50);
+  passAfter(50ms);
   EXPECT_EQ(camera_.opened, 3);
   EXPECT_EQ(health().state, process_health_t::GOOD);
   node_->processNext();
   EXPECT_EQ(health().message, "the pipeline has ended");
-  pass(100);  // an image came: from the shortest pause again
+  passAfter(100ms);  // an image came: from the shortest pause again
   EXPECT_EQ(camera_.opened, 4);
 }
 
@@ -39,22 +36,18 @@ TEST_F(CameraNodeTest, OpensASourceThatEndsAgainLessAndLessOften) {
 TEST_F(CameraNodeTest, OpensASourceThatFellSilentAgain) {
   start();
   camera_.images = {rawGreyMessage(100, testImage(0))};
-  const auto pass = [&](int64_t s) {
-    camera_.now_ns += s * 1'000'000'000;
-    node_->processNext();
-  };
-  pass(0);
-  pass(14);
+  passAfter(0s);
+  passAfter(14s);
   EXPECT_EQ(camera_.opened, 1);
   camera_.images = {rawGreyMessage(200, testImage(1))};
-  pass(0);
-  pass(14);
+  passAfter(0s);
+  passAfter(14s);
   EXPECT_TRUE(camera_.is_open) << "the silence began with the last image";
-  pass(2);
+  passAfter(2s);
   EXPECT_FALSE(camera_.is_open);
   EXPECT_THAT(health().message, HasSubstr("gives no images"));
   camera_.images = {rawGreyMessage(300, testImage(2))};
-  pass(1);
+  passAfter(1s);
   EXPECT_EQ(camera_.opened, 2);
   EXPECT_EQ(published_.size(), 0U) << "until the bus is asked";
   bus_->handle(std::chrono::milliseconds(0));

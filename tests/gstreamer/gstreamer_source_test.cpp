@@ -102,20 +102,22 @@ TEST(GstreamerSource, BeginsAgainAfterItsEnd) {
   EXPECT_FALSE(imagesOf(source).empty());
 }
 
+/// At once, or while it plays.
+void openUntilItFails(GstreamerSource& source) {
+  if (!source.open().empty()) return;
+  for (int waits = 0; source.isOpen() && waits < 1000; ++waits) source.next(std::chrono::milliseconds(20));
+}
+
 TEST(GstreamerSource, SaysWhatIsWrongAtRunTime) {
   GstreamerSource source("filesrc location=/nowhere.jpg ! jpegdec ! videoconvert ! appsink");
-  if (source.open().empty()) {
-    for (int waits = 0; source.isOpen() && waits < 1000; ++waits) source.next(std::chrono::milliseconds(20));
-  }
+  openUntilItFails(source);
   EXPECT_FALSE(source.isOpen());
   EXPECT_THAT(source.fault(), HasSubstr("/nowhere.jpg"));
 }
 
 std::string faultAfterOpening(const std::string& location) {
   GstreamerSource source("rtspsrc location=" + location + " ! rtpjpegdepay ! appsink");
-  if (source.open().empty()) {
-    for (int waits = 0; source.isOpen() && waits < 1000; ++waits) source.next(std::chrono::milliseconds(20));
-  }
+  openUntilItFails(source);
   return source.fault();
 }
 
@@ -149,10 +151,7 @@ TEST(GstreamerSource, SaysTheSameOfTheSameFailure) {
             "format in common; the appsink takes JPEG, GRAY8, RGB, BGR: ... ! videoconvert ! appsink"}}) {
     GstreamerSource source(pipeline);
     for (int attempt = 0; attempt < 2; ++attempt) {
-      if (source.open().empty()) {
-        for (int waits = 0; source.isOpen() && waits < 1000; ++waits)
-          source.next(std::chrono::milliseconds(20));
-      }
+      openUntilItFails(source);
       EXPECT_EQ(source.fault(), said);
     }
   }

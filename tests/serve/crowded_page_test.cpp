@@ -52,12 +52,7 @@ class CrowdedPage : public ServedPage {
     setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     const std::string asked = request("GET " + path, withToken() + "Connection: close\r\n");
     send(descriptor, asked.data(), asked.size(), MSG_NOSIGNAL);
-    std::string answer;
-    char part[65536];
-    for (ssize_t n = 0; (n = recv(descriptor, part, sizeof part, 0)) > 0;)
-      answer.append(part, static_cast<size_t>(n));
-    close(descriptor);
-    return answer;
+    return restOf(descriptor);
   }
 
   std::vector<int> crowd_;

@@ -40,6 +40,10 @@ class ServedPage : public testing::Test {
   std::string answerTo(const std::string& request) const {
     const int descriptor = connected();
     EXPECT_EQ(send(descriptor, request.data(), request.size(), 0), static_cast<ssize_t>(request.size()));
+    return restOf(descriptor);
+  }
+  /// Everything until the server ends the connection, or the descriptor's time limit; it is closed then.
+  static std::string restOf(int descriptor) {
     std::string answer;
     char part[65536];
     for (ssize_t n = 0; (n = recv(descriptor, part, sizeof part, 0)) > 0;)

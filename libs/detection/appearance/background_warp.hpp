@@ -14,8 +14,8 @@ struct BackgroundMaps {
                     ///< previous view
 };
 
-/// For a scene of ground up to the horizon and infinite depth above it. `to`: maps of the same size, which
-/// are written over, and must not share memory with `maps`.
+/// For a scene of ground up to the horizon and infinite depth above it. `to` is written over, and must not
+/// share memory with `maps`.
 void warpBackground(const BackgroundMaps& maps, const SceneMotion& scene, BackgroundMaps& to);
 
 }  // namespace redbee
