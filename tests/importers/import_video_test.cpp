@@ -104,8 +104,11 @@ TEST_F(ImportVideoTest, ImuColumnsComeInAnyOrder) {
   std::string rows = "az,t_s,gx,gy,gz,ax,ay,temperature\n";
   for (int k = 0; k < 120; ++k) {
     const std::string digit = std::to_string(k % 2);  // a sensor that is alive changes
-    rows += "9." + digit + "," + std::to_string(0.01 * k + 0.001) + ",0.1" + digit + ",0.2" + digit + ",0.3" +
-            digit + ",1." + digit + ",2." + digit + ",20\n";
+    for (const std::string& part : {"9." + digit, std::to_string(0.01 * k + 0.001), "0.1" + digit,
+                                    "0.2" + digit, "0.3" + digit, "1." + digit, "2." + digit}) {
+      rows.append(part).append(",");
+    }
+    rows += "20\n";
   }
   writeText(*options_.imu, rows);
   const ImportSummary summary = import();

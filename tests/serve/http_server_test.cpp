@@ -129,8 +129,9 @@ TEST(Serve, SaysWhichFolderOfFlightsThereIsNot) {
     std::vector<std::string> words{
         "redbee-serve", "--config", (folder / "vehicle.yaml").string(), "--flights", (folder / name).string(),
         "--listen",     "nowhere"};  // or it would serve, where this is not refused
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
+    std::vector<char*> arguments(words.size());
+    std::transform(words.begin(), words.end(), arguments.begin(),
+                   [](std::string& word) { return word.data(); });
     testing::internal::CaptureStderr();
     const int code = runServe(static_cast<int>(arguments.size()), arguments.data());
     const std::string said = testing::internal::GetCapturedStderr();
@@ -148,6 +149,7 @@ TEST(Live, HasNoMoreViewersThanTheServerHasThreadsFor) {
   for (int i = 0; i + 1 < Live::kMostViewers; ++i) seated.push_back(std::move(*live.join()));
   std::atomic<int> overbooked{0};
   std::vector<std::thread> threads;
+  threads.reserve(kThreads);
   for (int i = 0; i < kThreads; ++i) {
     threads.emplace_back([&] {
       for (int k = 0; k < kRounds; ++k) {
