@@ -51,6 +51,7 @@ std::vector<Setting> detectionSettings() {
       setting("detection.appearance.noise", MEMBER(appearance.noise), positive),
       setting("detection.appearance.edge_tolerance_px", MEMBER(appearance.edge_tolerance_px), notNegative),
       setting("detection.appearance.use_surface_reset", MEMBER(appearance.use_surface_reset), anything),
+      setting("detection.appearance.use_candidates", MEMBER(appearance.use_candidates), anything),
       setting("detection.shadow.enabled", MEMBER(shadow.enabled), anything),
       setting("detection.shadow.noise", MEMBER(shadow.noise), positive),
       setting("detection.refinement.enabled", MEMBER(refinement.enabled), anything),

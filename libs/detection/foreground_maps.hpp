@@ -19,6 +19,11 @@ struct ForegroundMaps {
   /// movingRegion(): around points whose path no static surface explains, 0..1. Of any size; empty if there
   /// are none.
   cv::Mat1f moving{};
+  /// What candidates are judged by (objects/candidates.hpp), of one size, or all empty. 0 to 255: the
+  /// difference of appearance to the background (29), the evidence of motion M / (M + half) (30), and
+  /// groundDifference().
+  cv::Mat1b appearance{}, motion{}, ground{};
+  cv::Mat4b colours{};  ///< the image that they are of: blue, green, red, unused
 };
 
 }  // namespace redbee

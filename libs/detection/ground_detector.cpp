@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "redbee/detection/objects/candidates.hpp"
 #include "redbee/detection/refinement/flow_entropy.hpp"
 #include "redbee/imaging/warping.hpp"
 
@@ -12,6 +13,13 @@ namespace {
 
 // P_FG * 255 below this is noise, and would be most of the encoded map's bytes.
 constexpr double kNoise = 6;
+
+std::optional<GroundPlane> groundOf(const FrameInput& input) {
+  if (!input.motion) return std::nullopt;
+  const PlaneMotion& motion = *input.motion;
+  const Eigen::Vector3d normal = motion.R_ba * motion.m_a;
+  return GroundPlane{normal, motion.h_a + normal.dot(motion.t_ba), input.K};
+}
 
 }  // namespace
 
@@ -71,7 +79,7 @@ DetectorOutput GroundDetector::process(const FrameInput& input, bool continues, 
   ++learned_;
   if (!continues && !is_first) return nothing(DetectorStatus::kNoHomography);
   if (learned_ <= learning_frames_) return nothing(DetectorStatus::kLearning);
-  return withObjects(input.time, std::move(probability), maps);
+  return withObjects(input, std::move(probability), maps);
 }
 
 bool GroundDetector::isConsecutive(const FrameInput& input) const {
@@ -101,17 +109,26 @@ cv::Mat1b GroundDetector::refined(const cv::Mat1b& foreground, const FrameInput&
   return probability;
 }
 
-DetectorOutput GroundDetector::withObjects(CameraTime time, cv::Mat1b probability,
+ForegroundComponents GroundDetector::components(const FrameInput& input, const cv::Mat1b& probability,
+                                                const ForegroundMaps& maps) const {
+  if (maps.appearance.empty())
+    return findComponents(probability, maps.unknown, objects_, {maps.gain, maps.residual, maps.moving});
+  const std::vector<Candidate> candidates =
+      findCandidates(maps, maps.unknown, groundOf(input), objectTrees());
+  if (observer_) observer_(input.time, maps.appearance.size(), candidates);
+  return componentsOf(candidates, probability, maps.unknown, objects_, maps);
+}
+
+DetectorOutput GroundDetector::withObjects(const FrameInput& input, cv::Mat1b probability,
                                            const ForegroundMaps& maps) {
   DetectorOutput output;
-  output.time = time;
+  output.time = input.time;
   output.status = DetectorStatus::kGood;
   output.unknown = maps.unknown;
   probability.setTo(0, maps.unknown);
   cv::threshold(probability, probability, kNoise, 0, cv::THRESH_TOZERO);
   output.probability = std::move(probability);
-  ForegroundComponents found =
-      findComponents(output.probability, maps.unknown, objects_, {maps.gain, maps.residual, maps.moving});
+  ForegroundComponents found = components(input, output.probability, maps);
   TrackedObjects objects = tracker_.update(found);
   output.mask = found.mask(objects.components);
   output.detections = std::move(objects.detections);

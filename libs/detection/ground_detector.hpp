@@ -3,12 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "redbee/detection/detector.hpp"
 #include "redbee/detection/foreground_maps.hpp"
 #include "redbee/detection/held_frames.hpp"
 #include "redbee/detection/image_check.hpp"
+#include "redbee/detection/objects/candidates.hpp"
 #include "redbee/detection/refinement/foreground_probability.hpp"
 #include "redbee/geometry/time.hpp"
 
@@ -17,6 +21,10 @@ namespace redbee {
 class GroundDetector : public Detector {
  public:
   DetectorOutput step(const FrameInput& input) final;
+
+  /// Called with the candidates of each frame and the size of the maps that their boxes are of: for training.
+  using CandidateObserver = std::function<void(CameraTime, cv::Size, const std::vector<Candidate>&)>;
+  void observeCandidates(CandidateObserver observer) { observer_ = std::move(observer); }
 
  protected:
   explicit GroundDetector(const DetectionParameters& parameters);
@@ -34,7 +42,9 @@ class GroundDetector : public Detector {
   void reset();
   void propagate(const FrameInput& input);
   cv::Mat1b refined(const cv::Mat1b& foreground, const FrameInput& input);
-  DetectorOutput withObjects(CameraTime time, cv::Mat1b probability, const ForegroundMaps& maps);
+  DetectorOutput withObjects(const FrameInput& input, cv::Mat1b probability, const ForegroundMaps& maps);
+  ForegroundComponents components(const FrameInput& input, const cv::Mat1b& probability,
+                                  const ForegroundMaps& maps) const;
 
   int learning_frames_;
   RefinementParameters refinement_;
@@ -46,6 +56,7 @@ class GroundDetector : public Detector {
   std::optional<CameraTime> last_time_;
   std::optional<CameraTime> processed_time_;  ///< of the last frame that did not repeat an image
   HeldFrames held_;
+  CandidateObserver observer_;
   int learned_ = 0;
 };
 

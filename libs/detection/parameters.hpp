@@ -51,6 +51,9 @@ struct AppearanceParameters {
   double span_s = 0.5;            ///< s: averaging time of the model
   double noise = 20.0;            ///< grey levels: noise sigma of the difference
   double edge_tolerance_px = 3;   ///< px: tolerance for misaligned edges of the background
+  /// Components are regions of the difference of appearance that boosted trees judge; false: of P_FG. Only
+  /// where `downscale` is the flow's work_downscale.
+  bool use_candidates = true;
   bool use_surface_reset = true;  ///< reset the model where the surface it was learned from has moved away
 };
 

@@ -25,12 +25,13 @@ namespace redbee {
 class MotionSegmentationNode : public ImageStage<fused_homography_t> {
  public:
   MotionSegmentationNode(Bus& bus, const Configuration& configuration);
+  /// With a detector that was made of the same configuration.
+  MotionSegmentationNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Detector> detector);
   void keepStateIn(const std::filesystem::path& folder) override {
     identities_ = TrackIdStore(folder / "identities");
   }
 
  private:
-  MotionSegmentationNode(Bus& bus, const Configuration& configuration, std::unique_ptr<Detector> detector);
   void work(const image_t& message) override;
   /// Whether vision has skipped the frame: one that both skip costs less than two.
   bool isLeftOut(CameraTime frame) const override;

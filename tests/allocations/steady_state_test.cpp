@@ -135,7 +135,7 @@ TEST(SteadyState, AllocationsOfAFrameAndMemoryAreBounded) {
   const std::map<std::string, double> bounds{{programName(kImuIntegration), 51},
                                              {programName(kVisualHomography), 153},
                                              {programName(kHomographyFusion), 105},
-                                             {programName(kMotionSegmentation), 990},
+                                             {programName(kMotionSegmentation), 1270},
                                              {"messages", 175}};
   const auto [counter, most_held_mb] = countFlight();
   constexpr double kMostHeld_mb = 14;

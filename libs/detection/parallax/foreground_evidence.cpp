@@ -32,11 +32,15 @@ ForegroundEvidence::ForegroundEvidence(const ParallaxParameters& parallax,
       downscale_(std::max(appearance.downscale, 1)),
       to_background_(downscaling(downscale_)),
       motion_(parallax),
-      background_(appearance, shadow, parallax.evidence_sigmas) {}
+      background_(appearance, shadow, parallax.evidence_sigmas) {
+  const bool is_one_size = downscale_ == std::max(parallax.work_downscale, 1);
+  if (appearance.enabled && appearance.use_candidates && is_one_size) ground_.emplace();
+}
 
 void ForegroundEvidence::reset() {
   motion_.reset();
   background_.reset();
+  if (ground_) ground_->reset();
   spare_.clear();
 }
 
@@ -48,9 +52,10 @@ void ForegroundEvidence::propagate(const Eigen::Matrix3d& ground, const std::opt
   if (consistent) consistent->t_ba = translationFromHomography(cameras, ground, *motion);
   motion_.propagate(ground, front, consistent);
   if (!appearance_.enabled) return;
-  background_.propagate(SceneMotion(normaliseHomography(to_background_ * ground * to_background_.inverse()),
-                                    motion, {to_background_ * cameras.K_a, to_background_ * cameras.K_b}),
-                        spare_);
+  const Eigen::Matrix3d small = normaliseHomography(to_background_ * ground * to_background_.inverse());
+  background_.propagate(
+      SceneMotion(small, motion, {to_background_ * cameras.K_a, to_background_ * cameras.K_b}), spare_);
+  if (ground_) ground_->propagate(small, consistent);
 }
 
 cv::Mat4b ForegroundEvidence::imageToCompare(const cv::Mat1b& grey, const cv::Mat3b& colour,
@@ -100,7 +105,9 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   const double elapsed_s = seconds(time - last_time_);
   last_time_ = time;
   cv::Mat1f foreground = motion_.learn(time, grey, K, full, own_parts, spare_), around_points;
+  ForegroundMaps maps;
   const bool is_first = foreground.empty();
+  if (ground_) maps.ground = ground_->learn(time, motion_.image(), to_background_ * K);
   overSumWith(static_cast<float>(parallax_.motion_half), foreground);
   if (appearance_.enabled) {
     const cv::Mat4b image = imageToCompare(grey, colour, full);
@@ -113,6 +120,11 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
       resizeToBackground(foreground, speed, image.size());
       cv::Mat1f foreign = background_.appearanceDifference(image, speed);
       around_points = motion_.movingRegion(foreign);
+      if (ground_) {
+        maps.colours = image;
+        foreign.convertTo(maps.appearance, CV_8U, 255);
+        foreground.convertTo(maps.motion, CV_8U, 255);
+      }
       cv::multiply(foreign, foreground, foreign);
       if (parallax_.use_hole_filling) {
         const double gap_px = parallax_.outline_gap_px / downscale_;
@@ -136,7 +148,6 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
     }
     background_.learn(image, moving, speed, elapsed_s);
   }
-  ForegroundMaps maps;
   if (is_first) return maps;
   maps.gain = motion_.photometricGain(foreground);
   maps.residual = motion_.residual();

@@ -9,6 +9,7 @@
 
 #include "redbee/detection/appearance/appearance_model.hpp"
 #include "redbee/detection/foreground_maps.hpp"
+#include "redbee/detection/parallax/ground_difference.hpp"
 #include "redbee/detection/parallax/parallax_evidence.hpp"
 #include "redbee/detection/parameters.hpp"
 #include "redbee/geometry/time.hpp"
@@ -43,6 +44,7 @@ class ForegroundEvidence {
   Eigen::Matrix3d to_background_;  ///< full-size pixels to the background's
   ParallaxEvidence motion_;
   AppearanceModel background_;
+  std::optional<GroundDifference> ground_;  ///< if candidates are wanted
   SpareMaps spare_;
   CameraTime last_time_{};
 };

@@ -50,6 +50,8 @@ class ParallaxEvidence {
   /// movingRegion() of the last learn(), at work_downscale; empty where no point moves. `difference`: of
   /// appearance, 0..1, of any size.
   cv::Mat1f movingRegion(const cv::Mat1f& difference) const;
+  /// The image of the last learn(), at work_downscale. Precondition: one.
+  const cv::Mat1b& image() const { return frames_.newest()->grey; }
   /// SurfaceSpeed of the last learn(), at work_downscale; empty if there was no earlier frame.
   const cv::Mat2f& speed() const { return speed_; }
   /// ForegroundMaps::residual of the last learn(), at work_downscale; empty if there was no earlier frame.
