@@ -44,8 +44,11 @@ void requireNotInParts(const std::filesystem::path& log) {
     const std::string end = entry.path().extension().string();
     if (entry.path().stem() != log.filename() || end.size() < 2) continue;
     if (end.find_first_not_of("0123456789", 1) != std::string::npos) continue;
-    const std::string name = log.string();
-    throw InputError(log, "no such file, but its parts: redbee log repair " + name + ".* --out " + name);
+    std::string fault = "no such file, but its parts: redbee log repair ";
+    fault += log.string();
+    fault += ".* --out ";
+    fault += log.string();
+    throw InputError(log, fault);
   }
 }
 
