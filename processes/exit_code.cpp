@@ -37,6 +37,12 @@ int fail(int code, const std::string& line) {
   return code;
 }
 
+/// Of what a shell makes of `F.lcm.*`, the first will do.
+std::string shortened(const std::string& line) {
+  constexpr size_t kMost = 160;  // characters
+  return line.size() <= kMost ? line : line.substr(0, line.rfind(' ', kMost)) + " ...";
+}
+
 /// Writes one line and ends the process, without memory: destructors and handlers of its exit would need
 /// some, and wait for threads that had none.
 [[noreturn]] void endWithoutMemory() {
@@ -70,7 +76,7 @@ int exitCodeOf(const CLI::App& app, const std::function<void()>& work) {
     return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return exitCodeOf(app, [&] { app.exit(error); });  // --help, --version
-    return fail(kBadInput, program + ": " + error.what() + " (see " + program + " --help)");
+    return fail(kBadInput, program + ": " + shortened(error.what()) + " (see " + program + " --help)");
   } catch (const UserError& error) {
     return fail(kBadInput, error.what());
   } catch (const std::filesystem::filesystem_error& error) {

@@ -14,6 +14,7 @@ extern "C" {
 
 #include "redbee/files/input_error.hpp"
 #include "redbee/files/input_file.hpp"
+#include "redbee/files/mp4_tables.hpp"
 
 namespace redbee::ffmpeg {
 
@@ -59,6 +60,7 @@ inline Input openInput(const std::filesystem::path& path,
                        Probe probe = Probe::kStreams) {
   silence();
   requireFile(path);
+  requirePossibleTables(path);
   AVDictionary* dictionary = nullptr;
   for (const auto& [key, value] : options) av_dict_set(&dictionary, key.c_str(), value.c_str(), 0);
   AVFormatContext* raw = nullptr;

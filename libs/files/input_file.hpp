@@ -14,6 +14,15 @@
 
 namespace redbee {
 
+/// rtsp://10.87.0.1/live and the like, which a path keeps as they are.
+inline bool isAddress(const std::filesystem::path& file) {
+  return file.native().find("://") != std::string::npos;
+}
+inline constexpr const char* kAddressFault =
+    "is an address, not a file: record it first (ffmpeg -i ADDRESS -c copy F.mp4), or give it to "
+    "redbee-camera "
+    "(capture.pipeline)";
+
 /// Empty for a regular file and for a link to one, otherwise what else it is: a pipe would be waited for
 /// for ever, and a device may never end.
 inline std::string faultOfFile(const std::filesystem::path& file) {
@@ -22,7 +31,7 @@ inline std::string faultOfFile(const std::filesystem::path& file) {
     case std::filesystem::file_type::regular:
       return "";
     case std::filesystem::file_type::not_found:
-      return "no such file";
+      return isAddress(file) ? kAddressFault : "no such file";
     case std::filesystem::file_type::directory:
       return "is a folder, not a file";
     case std::filesystem::file_type::fifo:
@@ -48,7 +57,9 @@ inline std::string faultOfContent(const std::filesystem::path& file) {
       {{"version https://git-lfs.github.com/spec/"sv,
         "is a pointer of Git LFS, not the file it stands for: fetch that with git lfs pull"},
        {"SQLite format 3\0"sv,
-        "is a ROS 2 bag in SQLite: ros2 bag convert makes an MCAP of it, which import mcap reads"},
+        "is a ROS 2 bag in SQLite, import mcap reads MCAP: ros2 bag convert -i BAG -o o.yaml, where o.yaml "
+        "says "
+        "output_bags: [{uri: OUT, storage_id: mcap, all: true}]"},
        {"PK\x03\x04"sv, "is a ZIP archive: unpack it first"},
        {"7z\xBC\xAF\x27\x1C"sv, "is a 7z archive: unpack it first"},
        {"\xFF\xFE"sv, "is text in UTF-16, as spreadsheets export \"Unicode text\": save it as UTF-8"},
@@ -94,6 +105,17 @@ inline void requireSecret(const std::filesystem::path& file, const std::string& 
   const perms open = std::filesystem::status(file, error).permissions() & perms::others_all;
   if (!error && open != perms::none)
     throw InputError(file, "every user may read this " + what + "; chmod o-rwx it, and change the " + what);
+}
+
+/// Throws InputError if two of them are one file, under whatever name.
+inline void requireNoneTwice(const std::vector<std::filesystem::path>& files) {
+  for (size_t i = 1; i < files.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      std::error_code error;
+      if (std::filesystem::equivalent(files[i], files[j], error))
+        throw InputError(files[i], "is given twice");
+    }
+  }
 }
 
 /// Throws InputError if `output` is one of `inputs`, under whatever name: writing would destroy it.

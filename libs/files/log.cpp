@@ -35,6 +35,23 @@ Integer getBigEndian(const uint8_t* from) {
   return static_cast<Integer>(value);
 }
 
+/// Throws InputError where only F.lcm.0000 and so on are there of F.lcm.
+void requireNotInParts(const std::filesystem::path& log) {
+  std::error_code error;
+  if (std::filesystem::exists(log, error)) return;
+  const std::filesystem::path folder = log.has_parent_path() ? log.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string end = entry.path().extension().string();
+    if (entry.path().stem() != log.filename() || end.size() < 2) continue;
+    if (end.find_first_not_of("0123456789", 1) != std::string::npos) continue;
+    std::string fault = "no such file, but its parts: redbee log repair ";
+    fault += log.string();
+    fault += ".* --out ";
+    fault += log.string();
+    throw InputError(log, fault);
+  }
+}
+
 }  // namespace
 
 std::string eventHeader(int64_t number, int64_t utime, const std::string& channel, size_t data_size) {
@@ -58,6 +75,7 @@ void LogWriter::write(int64_t utime, const std::string& channel, const std::vect
 }
 
 LogReader::LogReader(std::filesystem::path path) : path_(std::move(path)) {
+  requireNotInParts(path_);
   requireFile(path_);
   file_.open(path_, std::ios::binary);
   if (!file_) throw InputError(path_, std::string("cannot be opened: ") + std::strerror(errno));

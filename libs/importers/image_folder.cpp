@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// macOS puts a hidden ._NAME.jpg beside each file, which is none.
-bool isImage(const fs::path& file) {
-  if (file.filename().string().front() == '.') return false;
+std::string extensionOf(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// macOS puts a hidden ._NAME.jpg beside each file, which is none.
+bool isImage(const fs::path& file) {
+  if (file.filename().string().front() == '.') return false;
+  const std::string extension = extensionOf(file);
   return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
+}
+
+/// What there is most of among the images of other formats; empty where there are none.
+std::string otherImages(const fs::path& folder) {
+  std::map<std::string, int> counts;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string extension = extensionOf(entry.path());
+    for (const char* known : {".tif", ".tiff", ".bmp", ".webp", ".ppm", ".pgm", ".jp2", ".heic", ".avif",
+                              ".dng", ".raw", ".exr", ".npy"})
+      if (entry.path().stem().string().front() != '.' && extension == known) ++counts[extension];
+  }
+  const auto most = std::max_element(counts.begin(), counts.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == counts.end()) return "";
+  return ", but " + std::to_string(most->second) + " " + most->first + ": convert them to PNG";
 }
 
 std::vector<fs::path> listImages(const fs::path& folder) {
@@ -32,7 +53,12 @@ std::vector<fs::path> listImages(const fs::path& folder) {
     if (entry.is_regular_file() && isImage(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end(), isFileNaturallyBefore);
-  if (files.empty()) throw InputError(folder, "holds no JPEG or PNG images");
+  if (files.empty()) throw InputError(folder, "holds no JPEG or PNG images" + otherImages(folder));
+  for (size_t i = 1; i < files.size(); ++i) {
+    if (files[i].stem() == files[i - 1].stem())
+      throw InputError(files[i], "stands beside " + files[i - 1].filename().string() +
+                                     ": is each frame there in two formats? Keep one of them in the folder");
+  }
   return files;
 }
 

@@ -28,27 +28,53 @@ struct UnusableImu : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// GX020001.MP4 is chapter 2 of recording 0001; empty where the name is another.
-std::string recordingOf(const fs::path& file) {
-  static const std::regex pattern("G[A-Z][0-9]{2}([0-9]{4})", std::regex::icase);
+struct Chapter {
+  std::string recording;
+  int number = 0;
+  fs::path file;
+};
+
+/// GX020001.MP4 is chapter 2 of recording 0001; older cameras begin with GOPR0001.MP4 and go on with
+/// GP010001.MP4. std::nullopt where the name is another.
+std::optional<Chapter> chapterOf(const fs::path& file) {
+  static const std::regex pattern("G(?:OPR|[A-Z]([0-9]{2}))([0-9]{4})", std::regex::icase);
   std::smatch match;
   const std::string stem = file.stem().string();
-  return std::regex_match(stem, match, pattern) ? match[1].str() : "";
+  if (!std::regex_match(stem, match, pattern)) return std::nullopt;
+  return Chapter{match[2].str(), match[1].matched ? std::stoi(match[1].str()) : 0, file};
 }
 
 /// In the order of the chapters where they have the camera's names, otherwise as given.
 std::vector<fs::path> chaptersOf(const ImportOptions& options) {
   std::vector<fs::path> files{options.source};
   files.insert(files.end(), options.further_sources.begin(), options.further_sources.end());
-  const std::string recording = recordingOf(files.front());
+  std::vector<Chapter> chapters;
   for (const fs::path& file : files) {
-    if (recording.empty() || recordingOf(file).empty()) return files;
-    if (recordingOf(file) != recording)
+    const auto chapter = chapterOf(file);
+    if (!chapter) return files;
+    const std::string& recording = chapters.empty() ? chapter->recording : chapters.front().recording;
+    if (chapter->recording != recording)
       throw InputError(file,
                        "is no chapter of recording " + recording + ", as " + files.front().string() + " is");
+    chapters.push_back(*chapter);
   }
-  std::sort(files.begin(), files.end(),
-            [](const fs::path& a, const fs::path& b) { return a.stem() < b.stem(); });
+  std::sort(chapters.begin(), chapters.end(),
+            [](const Chapter& a, const Chapter& b) { return a.number < b.number; });
+  // The times of what follows a gap would be those of what is missing.
+  for (size_t k = 1; k < chapters.size(); ++k) {
+    const Chapter& before = chapters[k - 1];
+    const Chapter& chapter = chapters[k];
+    if (chapter.number == before.number)
+      throw InputError(chapter.file, fmt::format("is chapter {} of recording {}, as {} is", chapter.number,
+                                                 chapter.recording, before.file.string()));
+    if (chapter.number != before.number + 1)
+      throw InputError(
+          chapter.file,
+          fmt::format("chapter {} of recording {} is missing before it: give that too, or import "
+                      "what is on each side of the gap by itself",
+                      before.number + 1, chapter.recording));
+  }
+  for (size_t k = 0; k < chapters.size(); ++k) files[k] = chapters[k].file;
   return files;
 }
 

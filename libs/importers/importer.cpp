@@ -42,6 +42,7 @@ void setCamera(const CamchainCamera& calibrated, const std::filesystem::path& fi
 void refuseToOverwrite(const ImportOptions& options) {
   std::vector<std::filesystem::path> inputs{options.source};
   inputs.insert(inputs.end(), options.further_sources.begin(), options.further_sources.end());
+  requireNoneTwice(inputs);
   if (options.imu) inputs.push_back(*options.imu);
   if (options.camchain) inputs.push_back(*options.camchain);
   requireNoInput(options.log, inputs);
@@ -72,6 +73,11 @@ ImportSummary importRecording(const Importer& importer, const ImportOptions& opt
     }
   }
   if (!summary.vehicle.intrinsics) assumeIntrinsics(summary);
+  if (summary.vehicle.has_imu && !summary.vehicle.R_CI)
+    summary.warnings.emplace_back(
+        "how the camera is mounted on the IMU (camera.R_CI) is not known: it looks along the IMU's x, as in "
+        "the "
+        "reference, or the IMU will not be used: --camchain states it, redbee calibrate finds it");
   return summary;
 }
 

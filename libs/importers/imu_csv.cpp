@@ -21,6 +21,8 @@ ColumnNumbers findColumns(const CsvReader& csv, const std::vector<std::string>& 
   for (size_t i = 0; i < kColumnNames.size(); ++i) {
     const auto found = std::find(header.begin(), header.end(), kColumnNames[i]);
     if (found == header.end()) {
+      if (header.size() == 1)
+        csv.fail("has one column: commas, semicolons or tabs separate columns, not blanks");
       csv.fail(std::string("header names no column '") + kColumnNames[i] +
                "' (found: " + firstTenOf(header, " ") + "; needed: t_s gx gy gz ax ay az)");
     }

@@ -46,7 +46,7 @@ bool hasMotionTrack(const fs::path& file) {
 }  // namespace
 
 std::string recogniseRecording(const fs::path& path) {
-  if (!fs::exists(path)) throw InputError(path, "no such file or folder");
+  if (!fs::exists(path)) throw InputError(path, isAddress(path) ? kAddressFault : "no such file or folder");
   if (fs::is_directory(path)) {
     const bool is_asl = fs::is_directory(path / "mav0") || fs::is_directory(path / "cam0");
     if (is_asl) return "asl";

@@ -52,6 +52,16 @@ class VideoReader::Implementation {
       all.push_back("the pixels are not square: camera.fy is " + std::to_string(pixelAspect()) +
                     " times camera.fx");
     }
+    if (2 * interlaced_ > frames_) {
+      all.emplace_back(
+          "the video is interlaced, each image shows two moments, and what moves has combs: deinterlace it "
+          "first "
+          "(ffmpeg -i F -vf bwdif G)");
+    }
+    if (const VideoChoice choice = choiceOf(*input_, *stream_); choice.of > 1) {
+      all.push_back("the file holds " + std::to_string(choice.of) + " videos: number " +
+                    std::to_string(choice.number) + " is taken");
+    }
     if (options_.fps > 0 && !times_->usesRate())
       all.push_back("--fps is not used: the video has times of its own");
     if (!leaps_.line().empty()) all.push_back(leaps_.line());
@@ -163,6 +173,7 @@ class VideoReader::Implementation {
     out.image = convert();
     last_utime_ = out.utime;
     ++frames_;
+    interlaced_ += frame_->interlaced_frame != 0 ? 1 : 0;
     av_frame_unref(frame_.get());
     return out;
   }
@@ -196,6 +207,7 @@ class VideoReader::Implementation {
   int64_t damaged_ = 0;
   int64_t skipped_ = 0;
   int64_t frames_ = 0;
+  int64_t interlaced_ = 0;  ///< of those
   int64_t packets_ = 0;
   int64_t last_utime_ = 0;
 };

@@ -35,6 +35,16 @@ AVStream* findVideo(AVFormatContext& input) {
   return found;
 }
 
+VideoChoice choiceOf(const AVFormatContext& input, const AVStream& taken) {
+  VideoChoice choice;
+  for (unsigned i = 0; i < input.nb_streams; ++i) {
+    if (!isRecording(*input.streams[i])) continue;
+    ++choice.of;
+    if (input.streams[i] == &taken) choice.number = choice.of;
+  }
+  return choice;
+}
+
 int rotationOf(const std::filesystem::path& path, const AVStream& stream) {
   const auto* matrix =
       reinterpret_cast<const int32_t*>(av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));

@@ -12,6 +12,13 @@ namespace redbee {
 /// others are discarded.
 AVStream* findVideo(AVFormatContext& input);
 
+struct VideoChoice {
+  int number = 0;  ///< of the one that is taken, from 1
+  int of = 0;
+};
+/// Among the videos in a file that are no cover image or thumbnail: a camera with two lenses writes two.
+VideoChoice choiceOf(const AVFormatContext& input, const AVStream& taken);
+
 /// Degrees clockwise, quarter turns. Throws InputError for another rotation or a mirror.
 int rotationOf(const std::filesystem::path& path, const AVStream& stream);
 

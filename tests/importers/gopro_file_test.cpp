@@ -182,6 +182,44 @@ TEST_F(GoproFileTest, ChaptersAreOneFlight) {
             std::string::npos);
 }
 
+TEST_F(GoproFileTest, AChapterThatIsMissingOrThereTwiceIsNotPassedOver) {
+  video_.frames = 25;
+  video_.track = packets(1);
+  const fs::path copies = folder_ / "copies";
+  fs::create_directory(copies);
+  for (const fs::path& file : {options_.source, folder_ / "GX030007.MP4", copies / "GX010007.MP4"})
+    writeTestVideo(file, video_);
+  const auto errorWith = [&](const fs::path& further) {
+    options_.further_sources = {further};
+    return errorMessageOf([&] { import(); });
+  };
+  EXPECT_NE(errorWith(folder_ / "GX030007.MP4")
+                .find("GX030007.MP4: chapter 2 of recording 0007 is missing before it"),
+            std::string::npos);
+  EXPECT_NE(errorWith(copies / "GX010007.MP4").find("is chapter 1 of recording 0007, as "),
+            std::string::npos);
+  EXPECT_NE(errorWith(options_.source).find("GX010007.MP4: is given twice"), std::string::npos);
+  EXPECT_FALSE(fs::exists(options_.log));
+}
+
+/// A HERO5 or older names the first chapter otherwise than the rest.
+TEST_F(GoproFileTest, ChaptersOfOlderCamerasAreInOrder) {
+  video_.track = packets(1);
+  const std::pair<const char*, int> lengths[] = {
+      {"GOPR0007.MP4", 10}, {"GP010007.MP4", 25}, {"GP020007.MP4", 20}};
+  for (const auto& [name, frames] : lengths) {
+    video_.frames = frames;
+    writeTestVideo(folder_ / name, video_);
+  }
+  options_.source = folder_ / "GP020007.MP4";
+  options_.further_sources = {folder_ / "GP010007.MP4", folder_ / "GOPR0007.MP4"};
+  import();
+  ASSERT_EQ(frames_.size(), 55u);
+  EXPECT_EQ(numberShownIn(*decodeGrey(frames_[9])), 9);
+  EXPECT_EQ(numberShownIn(*decodeGrey(frames_[10])), 0);
+  EXPECT_EQ(numberShownIn(*decodeGrey(frames_[34])), 24);
+}
+
 TEST_F(GoproFileTest, AVideoThatIsTurnedTurnsTheMounting) {
   video_.rotation_deg = 180;
   video_.track = packets(2);

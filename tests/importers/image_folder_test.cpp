@@ -165,5 +165,21 @@ TEST_F(ImageFolderTest, RecordedCases) {
   EXPECT_EQ(import().at(0).size(), cv::Size(120, 160));
 }
 
+/// A program has converted them, and left what it read.
+TEST_F(ImageFolderTest, EachImageInTwoFormatsIsRefused) {
+  for (const char* name : {"f1.png", "f1.jpg", "f2.png", "f2.jpg"})
+    cv::imwrite((options_.source / name).string(), texture(96, 64, 1, 1));
+  EXPECT_NE(errorMessageOf([&] { import(); }).find("f1.png: stands beside f1.jpg"), std::string::npos);
+}
+
+TEST_F(ImageFolderTest, WhatAFolderHoldsInsteadOfImagesIsSaid) {
+  EXPECT_NE(errorMessageOf([&] { import(); }).find("holds no JPEG or PNG images"), std::string::npos);
+  for (const char* name : {"a.tiff", "b.tiff", "c.txt", ".hidden.bmp"})
+    writeText(options_.source / name, "x");
+  EXPECT_NE(errorMessageOf([&] { import(); }).find("holds no JPEG or PNG images, but 2 .tiff: convert them"),
+            std::string::npos)
+      << errorMessageOf([&] { import(); });
+}
+
 }  // namespace
 }  // namespace redbee::test

@@ -86,7 +86,9 @@ TEST_F(RosBagFolder, MessagesThatArePackedAreUnpacked) {
 TEST_F(RosBagFolder, WhatIsNoMcapSaysHowToMakeOne) {
   writeText(part("_0.db3"), std::string("SQLite format 3\0", 16));
   EXPECT_EQ(recogniseRecording(folder_ / "bag"), "mcap");
-  EXPECT_NE(errorMessageOf([&] { import(); }).find("bag_0.db3: is a ROS 2 bag in SQLite: ros2 bag convert"),
+  EXPECT_NE(errorMessageOf([&] {
+              import();
+            }).find("bag_0.db3: is a ROS 2 bag in SQLite, import mcap reads MCAP: ros2 bag convert"),
             std::string::npos);
   fs::remove(part("_0.db3"));
   writeText(part("_0.mcap.zstd"), "\x28\xB5\x2F\xFD");

@@ -113,8 +113,9 @@ TEST_F(ImportVideoTest, ImuColumnsComeInAnyOrder) {
   writeText(*options_.imu, rows);
   const ImportSummary summary = import();
   EXPECT_EQ(summary.imu_samples, 120);
-  ASSERT_EQ(summary.warnings.size(), 1u);
+  ASSERT_EQ(summary.warnings.size(), 2u);
   EXPECT_NE(summary.warnings[0].find("focal length"), std::string::npos);
+  EXPECT_NE(summary.warnings[1].find("mounted on the IMU (camera.R_CI) is not known"), std::string::npos);
   const auto imu = messagesOn<ins_t>(readEvents(options_.log), "IMU");
   ASSERT_EQ(imu.size(), 120u);
   EXPECT_EQ(imu[119].utime, 1'191'000);

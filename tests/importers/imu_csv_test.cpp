@@ -71,6 +71,11 @@ TEST_F(ImuCsvTest, AHeaderThatDoesNotFitIsShownAsFoundAndNeeded) {
       << line;
 }
 
+TEST_F(ImuCsvTest, ATableOfOneColumnIsToldItsSeparators) {
+  const std::string line = errorMessageOf([&] { read("t_s gx gy gz ax ay az\n0 1 2 3 4 5 6\n"); });
+  EXPECT_NE(line.find("commas, semicolons or tabs separate columns"), std::string::npos) << line;
+}
+
 TEST_F(ImuCsvTest, WhatIsNoTableIsSaidToBeNone) {
   using std::string_literals::operator""s;
   const auto lineOf = [&](const std::string& text) { return errorMessageOf([&] { read(text); }); };

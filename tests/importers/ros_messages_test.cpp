@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "redbee/importers/ros/ros_images.hpp"
+
 namespace redbee::test {
 namespace {
 
@@ -66,6 +68,30 @@ TEST(RosMessages, ARos1ImageIsPacked) {
     const Bytes cut(bytes.begin(), bytes.begin() + static_cast<long>(size));
     EXPECT_THROW(readRosImage("sensor_msgs/Image", view(cut), RosEncoding::kRos1), RosMessageError) << size;
   }
+}
+
+/// A ROS 1 message of an image: header, then what `fields` holds.
+std::string refusalOf(const char* type, const std::string& fields) {
+  const std::string text = std::string(12, '\0') + std::string(4, '\0') + fields;
+  const Bytes bytes(text.begin(), text.end());
+  const RosTopic topic{"/cam", type, RosEncoding::kRos1, 1};
+  try {
+    convertRosImage({&topic, 0, view(bytes)}, "f.bag", {});
+  } catch (const RosMessageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RosMessages, WhatIsNotReadIsShownBesideWhatIs) {
+  const std::string one("\1\0\0\0", 4), four("\4\0\0\0", 4);
+  const std::string image = one + one + four + "nv12" + std::string(1, '\0') + one + one + "x";
+  EXPECT_EQ(
+      refusalOf("sensor_msgs/Image", image).find("has the encoding 'nv12', which is not read: mono8, 8UC1, "),
+      0u)
+      << refusalOf("sensor_msgs/Image", image);
+  EXPECT_EQ(refusalOf("sensor_msgs/CompressedImage", four + "h264" + one + "x"),
+            "is neither JPEG nor PNG, but 'h264'");
 }
 
 TEST(RosMessages, TypesOfBothGenerationsAreKnown) {

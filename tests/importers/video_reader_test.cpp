@@ -117,6 +117,36 @@ TEST(VideoReaderTest, PixelsThatAreNotSquareAreSaid) {
   }
 }
 
+/// Each image shows two moments: what moves, or is near, has combs.
+TEST(VideoReaderTest, AnInterlacedVideoIsSaidToBeOne) {
+  const ScratchFolder folder;
+  TestVideo video = numberedVideo();
+  video.encoder = "mpeg2video";
+  for (const bool interlaced : {false, true}) {
+    video.interlaced = interlaced;
+    writeTestVideo(folder / "v.mp4", video);
+    VideoReader reader(folder / "v.mp4", {});
+    readAll(reader);
+    const auto warnings = reader.warnings();
+    ASSERT_EQ(warnings.size(), interlaced ? 1u : 0u);
+    if (interlaced) {
+      EXPECT_NE(warnings[0].find("is interlaced"), std::string::npos) << warnings[0];
+    }
+  }
+}
+
+/// As a camera with two lenses writes it.
+TEST(VideoReaderTest, OfTwoVideosInAFileOneIsTakenAndSaid) {
+  const ScratchFolder folder;
+  TestVideo video = numberedVideo();
+  video.twice = true;
+  writeTestVideo(folder / "v.mp4", video);
+  VideoReader reader(folder / "v.mp4", {});
+  EXPECT_EQ(readAll(reader).size(), 30u);
+  ASSERT_EQ(reader.warnings().size(), 1u);
+  EXPECT_NE(reader.warnings()[0].find("holds 2 videos: number 1"), std::string::npos) << reader.warnings()[0];
+}
+
 TEST(VideoReaderTest, TheWidthIsThatOfTheTurnedImageAndNothingIsEnlarged) {
   const ScratchFolder folder;
   TestVideo video = numberedVideo();

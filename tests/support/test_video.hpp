@@ -29,6 +29,8 @@ struct TestVideo {
   int fps = 25;
   int key_every = 250;
   int b_frames = 0;
+  bool interlaced = false;
+  bool twice = false;  ///< as two video streams
   AVRational pixel_aspect{1, 1};
   int rotation_deg = 0;      ///< that the container states, clockwise
   int broken_packet = -1;    ///< whose content is overwritten
@@ -49,6 +51,11 @@ class TestVideoWriter {
     output_.reset(raw);
     output_->avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
     openEncoder(video.image(0).size());
+    if (video.twice) {
+      second_ = avformat_new_stream(output_.get(), nullptr);
+      require(avcodec_parameters_copy(second_->codecpar, stream_->codecpar));
+      second_->time_base = stream_->time_base;
+    }
     if (!video.track.empty()) addTrack();
     if (!video.cover.empty()) addCover();
     if ((output_->oformat->flags & AVFMT_NOFILE) == 0)
@@ -67,6 +74,7 @@ class TestVideoWriter {
       for (int plane : {1, 2})
         std::memset(frame_->data[plane], 128, static_cast<size_t>(frame_->linesize[plane] * grey.rows / 2));
       frame_->pts = k + (k >= video_.frames - video_.late_frames ? int64_t{129'600} * video_.fps : 0);
+      frame_->interlaced_frame = video_.interlaced ? 1 : 0;
       encode(frame_.get());
     }
     encode(nullptr);
@@ -90,6 +98,7 @@ class TestVideoWriter {
     encoder_->max_b_frames = video_.b_frames;
     encoder_->bit_rate = 2'000'000;
     if ((output_->oformat->flags & AVFMT_GLOBALHEADER) != 0) encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    if (video_.interlaced) encoder_->flags |= AV_CODEC_FLAG_INTERLACED_DCT | AV_CODEC_FLAG_INTERLACED_ME;
     av_opt_set(encoder_->priv_data, "crf", "12", 0);
     av_opt_set(encoder_->priv_data, "sc_threshold", "0", 0);  // key frames only where `key_every` wants them
     require(avcodec_open2(encoder_.get(), codec, nullptr));
@@ -156,6 +165,11 @@ class TestVideoWriter {
       packet_->pts += start;
       packet_->dts += start;
       packet_->stream_index = stream_->index;
+      if (second_ != nullptr) {
+        const ffmpeg::Packet copy(av_packet_clone(packet_.get()));
+        copy->stream_index = second_->index;
+        require(av_interleaved_write_frame(output_.get(), copy.get()));
+      }
       require(av_interleaved_write_frame(output_.get(), packet_.get()));
     }
   }
@@ -166,6 +180,7 @@ class TestVideoWriter {
   ffmpeg::Packet packet_{av_packet_alloc()};
   ffmpeg::Frame frame_{av_frame_alloc()};
   AVStream* stream_ = nullptr;
+  AVStream* second_ = nullptr;
   AVStream* track_ = nullptr;
   AVStream* cover_ = nullptr;
   int packets_ = 0;

@@ -39,6 +39,12 @@ int32_t pixelFormatOf(const std::string& ros_encoding) {
   return found == kEncodings.end() ? 0 : formatNamed(found->format);
 }
 
+std::string rosEncodings() {
+  std::string names;
+  for (const Encoding& row : kEncodings) names += (names.empty() ? "" : ", ") + std::string(row.ros);
+  return names;
+}
+
 std::string rosEncodingOf(int32_t pixelformat) {
   const std::string name = formatName(pixelformat);
   if (name == "LE_GRAY16") return "mono16";  // read by its 16 bits, not as a format

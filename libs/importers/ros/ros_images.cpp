@@ -7,6 +7,7 @@
 #include "redbee/bus/image.hpp"
 #include "redbee/bus/raw_format.hpp"
 #include "redbee/geometry/time.hpp"
+#include "redbee/image_codec/image_codec.hpp"
 #include "redbee/importers/ros/ros_encodings.hpp"
 #include "redbee/importers/ros/ros_messages.hpp"
 
@@ -63,7 +64,9 @@ LoadedImage convertRaw(const RosImage& image, int64_t utime, const ImageOptions&
     return {rawGreyMessage(utime, grey), false};
   }
   const int32_t format = pixelFormatOf(image.encoding);
-  if (format == 0) throw RosMessageError("has the encoding '" + image.encoding + "', which is not read");
+  if (format == 0)
+    throw RosMessageError("has the encoding '" + image.encoding + "', which is not read: " + rosEncodings() +
+                          ", mono16 and 16UC1 are");
   requireSize(image);
   const image_t raw = rawMessage(image, format, utime);
   const auto pixels = decodeRaw(raw, format != image_t::GRAY);
@@ -93,7 +96,10 @@ LoadedImage convertRosImage(const RosMessage& message, const std::filesystem::pa
   const RosCompressedImage image = readCompressed(message);
   if (image.format.find("compressedDepth") != std::string::npos)
     throw RosMessageError("is a depth image, '" + image.format + "'");
-  return imageOf(source, copied(image.data), utimeOf(image.stamp_ns, message), options);
+  std::vector<uint8_t> bytes = copied(image.data);
+  if (!isJpeg(bytes) && !isPng(bytes))
+    throw RosMessageError("is neither JPEG nor PNG, but '" + image.format + "'");
+  return imageOf(source, std::move(bytes), utimeOf(image.stamp_ns, message), options);
 }
 
 std::optional<cv::Mat> valuesOf16BitRosImage(const RosMessage& message, const std::filesystem::path& source) {

@@ -32,6 +32,7 @@ void addRepair(CLI::App& log) {
   command->callback([options] {
     const LogRepair repair = repairLog(options->parts, options->out);
     printWarnings(repair.damage);
+    printWarning(repair.missing);
     std::printf("%s: %lld messages\n", options->out.c_str(), static_cast<long long>(repair.messages));
   });
 }

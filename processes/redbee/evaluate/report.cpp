@@ -17,6 +17,7 @@
 #include "redbee/files/input_file.hpp"
 #include "redbee/geometry/time.hpp"
 #include "redbee/image_codec/jpeg.hpp"
+#include "redbee/process_health_t.hpp"
 #include "redbee/results/run_folder.hpp"
 
 namespace redbee {
@@ -51,6 +52,11 @@ std::vector<std::string> headlines(const nlohmann::json& summary,
                   count(summary, "timed_out")),
       fmt::format("{:.1f} frames per second in the slowest stage, {} MB resident",
                   summary.at("fps").get<double>(), megabytes(summary, "peak_rss_bytes"))};
+  for (const auto& [process, stage] : summary.at("stages").items()) {
+    const std::string message = stage.value("message", "");
+    if (stage.value("state", 0) == process_health_t::DEGRADED && !message.empty())
+      lines.push_back(fmt::format("at the end, {}: {}", process, message));
+  }
   if (measures) {
     lines.push_back(fmt::format("against ground truth: Error@50% {:.3f}, best F1 {:.3f} over {} frames",
                                 measures->pixels.errorAtHalfRecall(), measures->pixels.bestF1(),

@@ -87,6 +87,17 @@ TEST(CommandLine, BadUseExitsWith2AndOneLine) {
   }
 }
 
+/// `redbee log info flight.lcm.*`, of a flight in many parts.
+TEST(CommandLine, ManyArgumentsTooManyAreNotAllRepeated) {
+  std::vector<std::string> arguments{"log", "info"};
+  for (int part = 0; part < 120; ++part) arguments.push_back("flight.lcm." + std::to_string(part));
+  const ToolOutput output = run(arguments);
+  EXPECT_EQ(output.exit_code, 2);
+  EXPECT_NE(output.error.find("were not expected: flight.lcm."), std::string::npos) << output.error;
+  EXPECT_NE(output.error.find("... (see redbee --help)"), std::string::npos) << output.error;
+  EXPECT_LT(output.error.size(), 300u);
+}
+
 TEST(CommandLine, BadInputExitsWith2AndOneLine) {
   const ToolOutput no_file = run({"configuration", "--config", "/nowhere.yaml"});
   EXPECT_EQ(no_file.exit_code, 2);

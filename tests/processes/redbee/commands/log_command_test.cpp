@@ -105,6 +105,37 @@ TEST(LogCommand, PartsAreJoinedInTheOrderOfTheirNumbers) {
   }
 }
 
+TEST(LogCommand, PartsThatAreMissingOrThereTwiceAreReported) {
+  const ScratchFolder folder;
+  std::vector<fs::path> parts;
+  for (const char* number : {"0002", "0003", "0007", "0009", "0010"}) {
+    parts.push_back(folder / (std::string("f.lcm.") + number));
+    LogWriter part(parts.back());
+    part.write(1, "X", {1});
+    part.close();
+  }
+  const LogRepair repair = repairLog(parts, folder / "f.lcm");
+  EXPECT_EQ(repair.messages, 5);
+  EXPECT_EQ(repair.missing, "parts 4 to 6 and 8 are not among the files: their messages are left out");
+  parts.resize(2);
+  EXPECT_EQ(repairLog(parts, folder / "g.lcm").missing, "");
+  parts.push_back(folder / "." / "f.lcm.0003");
+  EXPECT_NE(errorMessageOf([&] { repairLog(parts, folder / "h.lcm"); }).find("f.lcm.0003: is given twice"),
+            std::string::npos);
+}
+
+/// As redbee record and lcm-logger leave it.
+TEST(LogCommand, ALogThatIsThereInPartsIsNotJustMissing) {
+  const ScratchFolder folder;
+  EXPECT_EQ(errorMessageOf([&] { surveyLog(folder / "f.lcm"); }),
+            (folder / "f.lcm").string() + ": no such file");
+  writeFlight(folder / "f.lcm.0000");
+  EXPECT_NE(errorMessageOf([&] {
+              surveyLog(folder / "f.lcm");
+            }).find("f.lcm: no such file, but its parts: redbee log repair "),
+            std::string::npos);
+}
+
 TEST(LogCommand, RecordedCase) {
   const auto log = sharedCase("yuyv_1frame.lcm");
   if (!log) GTEST_SKIP() << "the cases are not here (REDBEE_SHARED)";

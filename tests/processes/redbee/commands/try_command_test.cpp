@@ -99,6 +99,15 @@ TEST(TryCommand, WhatIsRefusedLeavesNoFolder) {
   EXPECT_TRUE(fs::exists(folder / "kept")) << "it was there before";
 }
 
+TEST(TryCommand, AnAddressIsNoFile) {
+  for (const char* address : {"rtsp://10.0.0.1/live", "http://h/v.mp4", "udp://@:5600"}) {
+    EXPECT_NE(complaintOf({"try", address}).find("is an address, not a file: record it first"),
+              std::string::npos);
+    EXPECT_NE(complaintOf({"import", "video", address, "--out", "/nowhere.lcm"}).find("is an address"),
+              std::string::npos);
+  }
+}
+
 TEST(TryCommand, WhatMessagesOfImportersNameIsTaken) {
   const ScratchFolder folder;
   TestVideo video;

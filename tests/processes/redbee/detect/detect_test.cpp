@@ -180,6 +180,21 @@ TEST_F(Commands, OverlayAndReportAreWritten) {
   EXPECT_NE(page.find("Error@50%"), std::string::npos);
 }
 
+/// Such as an IMU that is not used, as its mounting is another.
+TEST_F(Commands, TheReportSaysWhatAProcessReportsInTheEnd) {
+  const fs::path results = folder_ / "doubted";
+  fs::copy(options_.out, results, fs::copy_options::recursive);
+  auto summary = nlohmann::json::parse(text(results / "summary.json"));
+  auto& stage = summary.at("stages").at("redbee-imu-integration");
+  stage["state"] = 2;
+  stage["message"] = "IMU and camera disagree";
+  std::ofstream(results / "summary.json") << summary;
+  const fs::path page = folder_ / "doubted.html";
+  writeReport({options_.log, options_.configuration, results, {}, page});
+  EXPECT_NE(text(page).find("at the end, redbee-imu-integration: IMU and camera disagree"),
+            std::string::npos);
+}
+
 TEST_F(Commands, ALogWithoutImagesIsRefused) {
   DetectOptions options = options_;
   options.log = folder_ / "empty.lcm";
