@@ -19,7 +19,8 @@ constexpr double kCoasting_s = 2;       // after which who is slow has stopped
 constexpr double kStoppedSpeed_m_s = 0.3;  // slower than a walk
 constexpr double kStoppedSigma_m_s = 0.1;  // of who has stopped
 constexpr double kGateProbability = 0.9999;
-constexpr int kMostGated = 5;  // then the target is where it is measured
+constexpr size_t kMostTargets = 1024;  // what one message of them may list
+constexpr int kMostGated = 5;          // then the target is where it is measured
 constexpr double kSamePlaceProbability = 0.99;
 constexpr double kLongestGap_s = 10;  // after which nothing is known of who moved
 constexpr double kBorder_px = 1;
@@ -124,10 +125,10 @@ void Geolocator::begin(int id, const Placed& placed) {
 
 /// The tracker gives who stopped and starts again a new identity: its old one goes.
 void Geolocator::giveWay(const Placed& newcomer) {
+  static const double gate = chiSquareQuantile(kSamePlaceProbability, 2);
   for (auto it = targets_.begin(); it != targets_.end();) {
-    const bool is_same =
-        it->second.has_stopped && !it->second.is_reported &&
-        it->second.filter.distance(newcomer.measurement) < chiSquareQuantile(kSamePlaceProbability, 2);
+    const bool is_same = it->second.has_stopped && !it->second.is_reported &&
+                         it->second.filter.distance(newcomer.measurement) < gate;
     it = is_same ? targets_.erase(it) : std::next(it);
   }
 }
@@ -138,8 +139,9 @@ void Geolocator::observe(int id, const Placed& placed) {
     giveWay(placed);
     return begin(id, placed);
   }
+  static const double gate = chiSquareQuantile(kGateProbability, 2);
   Tracked& tracked = found->second;
-  if (tracked.filter.distance(placed.measurement) > chiSquareQuantile(kGateProbability, 2)) {
+  if (tracked.filter.distance(placed.measurement) > gate) {
     if (++tracked.gated >= kMostGated) begin(id, placed);
     return;
   }
@@ -198,6 +200,15 @@ void Geolocator::stopUnseen(const std::optional<GroundView>& view) {
   }
 }
 
+/// Those go first that were not seen for the longest time.
+void Geolocator::limitTargets() {
+  while (targets_.size() > kMostTargets) {
+    targets_.erase(std::max_element(targets_.begin(), targets_.end(), [](const auto& a, const auto& b) {
+      return a.second.unseen_s < b.second.unseen_s;
+    }));
+  }
+}
+
 std::vector<StoppedTarget> Geolocator::stopped() const {
   std::vector<StoppedTarget> stopped;
   for (const auto& [id, tracked] : targets_) {
@@ -236,6 +247,7 @@ std::vector<Target> Geolocator::step(CameraTime time, const std::optional<Ground
     if (const auto placed = place(each.box, *view, predicted)) observe(each.id, *placed);
   }
   stopUnseen(view);
+  limitTargets();
   std::vector<Target> targets;
   targets.reserve(targets_.size());
   for (const auto& [id, tracked] : targets_) {

@@ -121,8 +121,7 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   message.has_global = views_.frame().isGlobal() ? 1 : 0;
   fillView(message, estimate);
   if (estimate.view) {
-    const CameraIntrinsics camera = zoomed(configuration_.camera, zoom.value);
-    const auto footprint = footprintOf(camera, *makeCameraModel(camera), *estimate.view,
+    const auto footprint = footprintOf(geolocator_.intrinsics(), geolocator_.camera(), *estimate.view,
                                        configuration_.geolocation.min_depression_deg * kDegree);
     if (footprint) fillFootprint(message, *footprint);
   }
