@@ -86,10 +86,9 @@ async function checkOtherCamera(page, [program, option]) {
   await spawnFor([program, option, process.env.REDBEE_OTHER_CAMERA], async () => {
     await note(page, 'DETECTIONS are of another camera than the vehicle file\'s');
     await page.until('its words among the processes', 'document.getElementById("remarks").textContent.includes("DETECTIONS are of another camera: a box ends at")');
+    await page.until('no places', 'document.querySelectorAll("#targets tbody tr").length === 0');
     await page.screenshot(path.join(screenshots, 'map_other_camera.png'), 1400);
   });
-  // Where it had placed the walker while his boxes still fitted into its image.
-  await page.until('its places are gone', 'document.querySelectorAll("#targets tbody tr").length === 0');
   console.log('map: another camera is said');
 }
 
