@@ -2,7 +2,7 @@
 // what DETECTIONS says of it, however large the page shows it.
 
 // Found by search: with any of the three kinds of colour-blindness they differ (tests/browser/check_colours.js), and carry black letters.
-const kColours = ['#ffc503', '#fc71fb', '#348b5e', '#d2670b', '#95f58c', '#ae26fe', '#757193'];
+const kColours = ['#ffd500', '#a466eb', '#2d9e61', '#f66f0e', '#b9ff7d', '#cb6aaf', '#50ed97'];
 const kUnseen = '#c8c8c8';
 const kMask = [86, 180, 233, 110];
 const layers = {};
