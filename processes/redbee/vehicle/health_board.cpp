@@ -92,7 +92,7 @@ void appendWrapped(std::vector<BoardLine>& lines, const BoardLine& line, size_t 
     const size_t space = rest.rfind(' ', columns);
     const bool is_between_words = space != std::string::npos && space > indent.size();
     lines.push_back({rest.substr(0, is_between_words ? space : columns), line.tone});
-    rest = indent + rest.substr(is_between_words ? space + 1 : columns);
+    rest.replace(0, is_between_words ? space + 1 : columns, indent);
   }
   lines.push_back({rest, line.tone});
 }
