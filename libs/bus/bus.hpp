@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "redbee/bus/codec.hpp"
+#include "redbee/bus/message_length.hpp"
 #include "redbee/bus/subscription.hpp"
 
 namespace redbee {
@@ -26,6 +27,10 @@ class Bus {
   /// `channel` is a name, not a pattern. `capacity`: queue length; when the queue is full, new messages are
   /// dropped. The handler is called until the subscription ends.
   virtual Subscription subscribe(const std::string& channel, int capacity, Handler handler) = 0;
+  /// The same for messages of at most kShortMessage bytes: longer ones may be lost.
+  virtual Subscription subscribeShort(const std::string& channel, int capacity, Handler handler) {
+    return subscribe(channel, capacity, std::move(handler));
+  }
   /// Waits up to `timeout` for a message, then dispatches all queued ones. Returns the number of messages
   /// dispatched; 0 after the timeout or a signal. Exceptions thrown by handlers are caught.
   virtual int handle(std::chrono::milliseconds timeout) = 0;
@@ -41,16 +46,17 @@ class Bus {
   template <typename Message>
   Subscription subscribe(const std::string& channel, int capacity,
                          std::function<void(const Message&)> handler, std::function<void()> damaged = {}) {
-    return subscribe(
-        channel, capacity,
-        [handler = std::move(handler), damaged = std::move(damaged)](const uint8_t* data, int size) {
-          Message message;
-          if (decodeMessage(data, size, message)) {
-            handler(message);
-          } else if (damaged) {
-            damaged();
-          }
-        });
+    Handler decoding = [handler = std::move(handler), damaged = std::move(damaged)](const uint8_t* data,
+                                                                                    int size) {
+      Message message;
+      if (decodeMessage(data, size, message)) {
+        handler(message);
+      } else if (damaged) {
+        damaged();
+      }
+    };
+    if constexpr (kIsShort<Message>) return subscribeShort(channel, capacity, std::move(decoding));
+    return subscribe(channel, capacity, std::move(decoding));
   }
 };
 

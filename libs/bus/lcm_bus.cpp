@@ -1,6 +1,7 @@
 #include <lcm/lcm.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
@@ -8,10 +9,12 @@
 #include <iterator>
 #include <list>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
 #include "redbee/bus/bus.hpp"
+#include "redbee/bus/datagram_filter.hpp"
 #include "redbee/bus/receive_buffer.hpp"
 
 namespace redbee {
@@ -31,10 +34,12 @@ struct Entry {
   std::string channel;
   Bus::Handler handler;
   int64_t* failures;
+  bool is_short;
   lcm_subscription_t* subscription = nullptr;
   bool ended = false;
 };
 
+bool isUdp(const std::string& url) { return url.rfind("udpm://", 0) == 0; }
 bool isInProcess(const std::string& url) { return url.rfind("memq://", 0) == 0; }
 
 /// LCM interprets subscription names as regular expressions.
@@ -72,7 +77,8 @@ void dispatch(const lcm_recv_buf_t* received, const char*, void* user) noexcept 
 
 class LcmBus : public Bus {
  public:
-  explicit LcmBus(const std::string& url) : lcm_(lcm_create(url.c_str())), in_process_(isInProcess(url)) {
+  explicit LcmBus(const std::string& url)
+      : lcm_(lcm_create(url.c_str())), in_process_(isInProcess(url)), is_udp_(isUdp(url)) {
     if (!lcm_) throw std::runtime_error("LCM cannot open " + url + " (is there a multicast route?)");
   }
 
@@ -87,18 +93,10 @@ class LcmBus : public Bus {
   }
 
   Subscription subscribe(const std::string& channel, int capacity, Handler handler) override {
-    checkChannel(channel);
-    entries_.push_back({channel, std::move(handler), &handler_failures_});
-    const auto entry = std::prev(entries_.end());
-    entry->subscription = lcm_subscribe(lcm_.get(), escapePattern(channel).c_str(), &dispatch, &*entry);
-    if (entry->subscription == nullptr) {
-      entries_.erase(entry);
-      throw std::runtime_error(channel + ": LCM cannot subscribe");
-    }
-    lcm_subscription_set_queue_capacity(entry->subscription, capacity);
-    return Subscription([this, entry, alive = std::weak_ptr<bool>(alive_)] {
-      if (!alive.expired()) end(entry);
-    });
+    return subscribe(channel, capacity, std::move(handler), false);
+  }
+  Subscription subscribeShort(const std::string& channel, int capacity, Handler handler) override {
+    return subscribe(channel, capacity, std::move(handler), true);
   }
 
   int handle(std::chrono::milliseconds timeout) override {
@@ -114,6 +112,50 @@ class LcmBus : public Bus {
   int64_t handlerFailures() const override { return handler_failures_; }
 
  private:
+  Subscription subscribe(const std::string& channel, int capacity, Handler handler, bool is_short) {
+    checkChannel(channel);
+    entries_.push_back({channel, std::move(handler), &handler_failures_, is_short});
+    const auto entry = std::prev(entries_.end());
+    entry->subscription = isFirst() ? subscribeFirst(*entry) : subscribeTo(*entry);
+    if (entry->subscription == nullptr) {
+      entries_.erase(entry);
+      throw std::runtime_error(channel + ": LCM cannot subscribe");
+    }
+    narrow();
+    lcm_subscription_set_queue_capacity(entry->subscription, capacity);
+    return Subscription([this, entry, alive = std::weak_ptr<bool>(alive_)] {
+      if (!alive.expired()) end(entry);
+    });
+  }
+
+  bool isFirst() const { return is_udp_ && entries_.size() == 1 && socket_ < 0; }
+
+  lcm_subscription_t* subscribeTo(Entry& entry) {
+    return lcm_subscribe(lcm_.get(), escapePattern(entry.channel).c_str(), &dispatch, &entry);
+  }
+
+  /// With the first subscription LCM opens the socket that it receives with, and does not say which. Where
+  /// another was opened meanwhile, it is not known either.
+  lcm_subscription_t* subscribeFirst(Entry& entry) {
+    static std::mutex one_at_a_time;
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    const std::set<int> before = udpSockets();
+    lcm_subscription_t* subscription = subscribeTo(entry);
+    std::set<int> opened;
+    for (const int socket : udpSockets())
+      if (before.count(socket) == 0) opened.insert(socket);
+    if (opened.size() == 1) socket_ = *opened.begin();
+    return subscription;
+  }
+
+  /// What nobody subscribed to is left to the kernel. LCM leaves it, too, but it takes and copies it first.
+  void narrow() {
+    if (socket_ < 0) return;
+    std::vector<WantedChannel> wanted;
+    for (const Entry& entry : entries_) wanted.push_back({entry.channel, entry.is_short});
+    receiveOnly(socket_, wanted);
+  }
+
   bool handleOne(std::chrono::milliseconds timeout) {
     handling_ = true;
     const int result = lcm_handle_timeout(lcm_.get(), static_cast<int>(timeout.count()));
@@ -137,6 +179,7 @@ class LcmBus : public Bus {
       if (entry->ended) lcm_unsubscribe(lcm_.get(), entry->subscription);
       entry = entry->ended ? entries_.erase(entry) : std::next(entry);
     }
+    narrow();
   }
 
   std::list<Entry> entries_;  ///< outlives lcm_, which points into it
@@ -147,6 +190,8 @@ class LcmBus : public Bus {
   int64_t publish_failures_ = 0;
   std::unique_ptr<lcm_t, LcmDeleter> lcm_;
   bool in_process_;
+  bool is_udp_;
+  int socket_ = -1;  ///< that LCM receives with; -1: not known
 };
 
 }  // namespace

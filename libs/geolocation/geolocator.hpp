@@ -70,6 +70,9 @@ class Geolocator {
   std::vector<Target> step(CameraTime time, const std::optional<GroundView>& view,
                            const std::vector<ObservedBox>& boxes);
   RefusedBoxes refused() const { return refused_; }
+  /// As the lens stands, by setZoom().
+  const CameraIntrinsics& intrinsics() const { return intrinsics_; }
+  const CameraModel& camera() const { return *camera_; }
   /// Those that are no longer seen to move; not who is merely slow, whom the next frame shows again.
   std::vector<StoppedTarget> stopped() const;
   /// Between two steps. Nothing happens to an identity that is known, nor to one that was unseen for too
@@ -111,6 +114,7 @@ class Geolocator {
   void noteVisibility(const std::optional<GroundView>& view, const std::vector<ObservedBox>& boxes);
   bool isInView(const Eigen::Vector2d& position, const GroundView& view) const;
   void stopUnseen(const std::optional<GroundView>& view);
+  void limitTargets();
   static TargetState stateOf(const Tracked& tracked);
 
   CameraIntrinsics configured_;

@@ -33,30 +33,31 @@ LocalFrame::Place LocalFrame::globalPlace(const VehiclePose& pose) {
 }
 
 std::optional<LocalFrame::Place> LocalFrame::placeOf(const VehiclePose& pose) {
-  const auto local = pose.local ? std::optional<Eigen::Vector2d>(pose.local->head<2>()) : std::nullopt;
+  const bool has_local = pose.local.has_value();
+  const Eigen::Vector2d local = has_local ? Eigen::Vector2d(pose.local->head<2>()) : Eigen::Vector2d::Zero();
   if (pose.global) {
     if (!origin_) {
       // Targets keep their places where the frame so far is known in the new one.
-      has_restarted_ = has_begun_ && !local;
-      anchor(*pose.global, local.value_or(Eigen::Vector2d::Zero()));
+      has_restarted_ = has_begun_ && !has_local;
+      anchor(*pose.global, local);
     }
     Place place = globalPlace(pose);
     if (place.position.norm() > kMostDistance_m) {
       has_restarted_ = true;
-      anchor(*pose.global, local.value_or(Eigen::Vector2d::Zero()));
+      anchor(*pose.global, local);
       place = globalPlace(pose);
     }
-    if (local) from_local_ = place.position - *local;
+    if (has_local) from_local_ = place.position - local;
     covariance_ = place.covariance;
     fix_time_ = pose.time;
     has_begun_ = true;
     return place;
   }
-  if (!local || (origin_ && !from_local_)) return std::nullopt;
+  if (!has_local || (origin_ && !from_local_)) return std::nullopt;
   has_begun_ = true;
-  if (!origin_) return Place{*local, isotropic(kLocalSigma_m), 0};
+  if (!origin_) return Place{local, isotropic(kLocalSigma_m), 0};
   const double without_fix_s = std::abs(seconds(pose.time - fix_time_));
-  return Place{*local + *from_local_, covariance_ + isotropic(kDrift_m_s * without_fix_s), 0};
+  return Place{local + *from_local_, covariance_ + isotropic(kDrift_m_s * without_fix_s), 0};
 }
 
 Geodetic LocalFrame::geodeticOf(const Eigen::Vector2d& position) const {

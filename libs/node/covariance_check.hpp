@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "redbee/geometry/homography.hpp"
@@ -13,7 +15,7 @@ namespace redbee::message_limits {
 /// Symmetric and positive semidefinite, but for rounding.
 template <size_t kEntries>
 bool isCovariance(const double (&entries)[kEntries]) {
-  constexpr int kSize = kEntries == 64 ? 8 : kEntries == 9 ? 3 : 2;
+  constexpr int kSize = kEntries == 64 ? 8 : 3;
   if (!areFrom(-kMaxSigma * kMaxSigma, entries, kMaxSigma * kMaxSigma)) return false;
   Matrix8d P = Matrix8d::Zero();
   P.topLeftCorner<kSize, kSize>() =
@@ -23,6 +25,16 @@ bool isCovariance(const double (&entries)[kEntries]) {
     return false;
   const LdltFactors factors(P);
   return factors.succeeded() && factors.smallestPivot() >= -rounding;
+}
+
+/// The same of two rows, of which every target has two: without a decomposition.
+inline bool isCovariance(const double (&entries)[4]) {
+  if (!areFrom(-kMaxSigma * kMaxSigma, entries, kMaxSigma * kMaxSigma)) return false;
+  const auto [low, high] = std::minmax(entries[0], entries[3]);
+  const double rounding = 1e-9 * std::max(std::abs(low), std::abs(high));
+  if (std::abs(entries[1] - entries[2]) > rounding || low < -rounding) return false;
+  if (high <= 0) return entries[1] == 0;
+  return low - entries[1] * entries[2] / high >= -rounding;
 }
 
 }  // namespace redbee::message_limits

@@ -86,8 +86,7 @@ const char* faultOf(const targets_t& m) {
        {m.has_ground_altitude == 0 || isAltitude(m.ground_altitude), "altitude of the ground"},
        {isFrom(0, m.refused_horizon, kMaxDetections) && isFrom(0, m.refused_border, kMaxDetections),
         "refused boxes"},
-       {isFrom(0, m.n, kMaxDetections) && m.targets.size() == static_cast<size_t>(m.n),
-        "number of targets"}});
+       {isFrom(0, m.n, kMaxTargets) && m.targets.size() == static_cast<size_t>(m.n), "number of targets"}});
   for (size_t i = 0; fault == nullptr && i < m.targets.size(); ++i) fault = faultOf(m.targets[i]);
   return fault;
 }

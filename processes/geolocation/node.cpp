@@ -17,8 +17,9 @@ namespace {
 
 constexpr size_t kMaxPendingDetections = 64;
 constexpr Duration kPoseWait = std::chrono::milliseconds(100);
-constexpr Duration kLensMemory = std::chrono::seconds(1);  // detections come in order of time
-constexpr double kFocalTolerance = 0.05;                   // of a lens that is the configured one
+constexpr Duration kLensMemory = std::chrono::seconds(1);       // detections come in order of time
+constexpr Duration kBoxFaultMemory = std::chrono::seconds(10);  // some boxes fit into any image
+constexpr double kFocalTolerance = 0.05;                        // of a lens that is the configured one
 
 const Configuration& enabled(const Configuration& configuration) {
   if (configuration.geolocation.enabled) return configuration;
@@ -74,6 +75,7 @@ void GeolocationNode::onLens(const lens_t& message) {
 void GeolocationNode::restart(CameraTime) {
   geolocator_.restart();
   clock_.restart();
+  box_fault_.clear();
 }
 
 bool GeolocationNode::isReadyFor(CameraTime time) const {
@@ -89,8 +91,7 @@ bool GeolocationNode::processNext() {
   return true;
 }
 
-std::string GeolocationNode::cameraFault(const detections_t& detections) const {
-  if (!lens_fault_.empty()) return lens_fault_;
+std::string GeolocationNode::boxFault(const detections_t& detections) const {
   const CameraIntrinsics& camera = configuration_.camera;
   for (const detection_t& d : detections.detections) {
     if (d.x >= 0 && d.y >= 0 && d.x + d.width <= camera.width && d.y + d.height <= camera.height) continue;
@@ -101,8 +102,19 @@ std::string GeolocationNode::cameraFault(const detections_t& detections) const {
   return "";
 }
 
+std::string GeolocationNode::cameraFault(CameraTime time, const detections_t& detections) {
+  if (!lens_fault_.empty()) return lens_fault_;
+  if (std::string fault = boxFault(detections); !fault.empty()) {
+    box_fault_ = std::move(fault);
+    box_fault_time_ = time;
+    geolocator_.restart();  // who fitted into the image by chance is elsewhere
+  }
+  const bool lasts = time - box_fault_time_ < kBoxFaultMemory;
+  return lasts ? box_fault_ : "";
+}
+
 void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
-  const std::string camera_fault = cameraFault(detections);
+  const std::string camera_fault = cameraFault(time, detections);
   const ViewEstimate estimate = views_.at(imuTimeOf(time));
   const Zoom zoom = lens_ ? lens_->at(imuTimeOf(time)) : Zoom();
   if (lens_) lens_->eraseBefore(imuTimeOf(time) - kLensMemory);
@@ -121,8 +133,7 @@ void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
   message.has_global = views_.frame().isGlobal() ? 1 : 0;
   fillView(message, estimate);
   if (estimate.view) {
-    const CameraIntrinsics camera = zoomed(configuration_.camera, zoom.value);
-    const auto footprint = footprintOf(camera, *makeCameraModel(camera), *estimate.view,
+    const auto footprint = footprintOf(geolocator_.intrinsics(), geolocator_.camera(), *estimate.view,
                                        configuration_.geolocation.min_depression_deg * kDegree);
     if (footprint) fillFootprint(message, *footprint);
   }

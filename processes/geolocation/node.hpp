@@ -41,7 +41,9 @@ class GeolocationNode : public Stage {
   bool isReadyFor(CameraTime time) const;
   void locate(CameraTime time, const detections_t& detections);
   /// What shows that the boxes are of another camera than the configured one; empty: nothing does.
-  std::string cameraFault(const detections_t& detections) const;
+  std::string boxFault(const detections_t& detections) const;
+  /// The same, or what has shown it lately; targets that were placed before are forgotten.
+  std::string cameraFault(CameraTime time, const detections_t& detections);
   void describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault,
                 bool is_lens_known);
   std::string faultText(const ViewEstimate& estimate) const;
@@ -56,6 +58,8 @@ class GeolocationNode : public Stage {
   FrameQueue<Frame> pending_;
   MessageClock clock_;
   std::string lens_fault_;
+  std::string box_fault_;
+  CameraTime box_fault_time_;
   std::optional<LensTrack> lens_;  ///< of one that zooms
 };
 

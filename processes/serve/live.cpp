@@ -46,6 +46,13 @@ void Live::setMap(std::string text) {
   changed_.notify_all();
 }
 
+void Live::forget() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frame_.reset();
+  health_.clear();
+  map_.clear();
+}
+
 void Live::close() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -59,11 +66,14 @@ std::shared_ptr<SharedFrame> Live::frame() const {
   return frame_;
 }
 
+bool Live::hasNewer(const Sent& sent) const {
+  return (frame_ && frames_ > sent.frame) || (!health_.empty() && health_sequence_ > sent.health) ||
+         (!map_.empty() && map_sequence_ > sent.map);
+}
+
 Live::Update Live::wait(const Sent& sent, std::chrono::milliseconds timeout) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait_for(lock, timeout, [&] {
-    return is_closed_ || frames_ > sent.frame || health_sequence_ > sent.health || map_sequence_ > sent.map;
-  });
+  changed_.wait_for(lock, timeout, [&] { return is_closed_ || hasNewer(sent); });
   Update update;
   if (frames_ > sent.frame) update.frame = frame_;
   if (health_sequence_ > sent.health) update.health = health_;

@@ -59,6 +59,8 @@ class Live {
   void setHealth(std::string text);
   /// `text`: JSON, see mapJson().
   void setMap(std::string text);
+  /// Nobody looks: whoever comes next is shown what comes next, and nothing of before.
+  void forget();
   /// From now on nobody waits.
   void close();
 
@@ -83,6 +85,8 @@ class Live {
   Update wait(const Sent& sent, std::chrono::milliseconds timeout) const;
 
  private:
+  bool hasNewer(const Sent& sent) const;
+
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::shared_ptr<SharedFrame> frame_;

@@ -83,11 +83,6 @@ ServeNode::ServeNode(Bus& bus, const Configuration& configuration, Live& live, L
     map_.onFrame(m.utime, Clock::now());
     assembly_.onDetections(m);
   }));
-  always_.push_back(on<fused_homography_t>(channels_.fused_homography, [this](const fused_homography_t& m) {
-    map_.onFused(m);
-    mosaic_.onFused(m);
-    assembly_.onFused(m);
-  }));
   always_.push_back(on<pose_t>(channels_.pose, [this](const pose_t& m) { map_.onPose(m); }));
   always_.push_back(on<targets_t>(channels_.targets, [this](const targets_t& m) { map_.onTargets(m); }));
   // The board asks by itself whether it is plausible, and counts.
@@ -106,6 +101,12 @@ void ServeNode::followViewers() {
   }
   if (is_watched == !while_watched_.empty()) return;
   if (is_watched) {
+    while_watched_.push_back(
+        on<fused_homography_t>(channels_.fused_homography, [this](const fused_homography_t& m) {
+          map_.onFused(m);
+          mosaic_.onFused(m);
+          assembly_.onFused(m);
+        }));
     while_watched_.push_back(on<image_t>(channels_.camera, [this](const image_t& m) {
       map_.onFrame(m.utime, Clock::now());
       assembly_.onImage(m);
@@ -115,6 +116,7 @@ void ServeNode::followViewers() {
   } else {
     while_watched_.clear();
     assembly_.dropImages();
+    live_.forget();
     to_release_ = true;
   }
 }

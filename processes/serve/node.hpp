@@ -16,7 +16,8 @@
 
 namespace redbee {
 
-/// Images and masks, the bulk of what is published, are subscribed to only while somebody looks.
+/// Images, masks and homographies, the bulk of what is published, are subscribed to only while somebody
+/// looks.
 class ServeNode : public Node {
  public:
   ServeNode(Bus& bus, const Configuration& configuration, Live& live, LiveMosaic& mosaic);

@@ -32,7 +32,11 @@ class Browser {
   receive(message) {
     if (message.method === 'Runtime.exceptionThrown') this.errors.push(message.params.exceptionDetails.exception?.description);
     if (message.method === 'Log.entryAdded' && message.params.entry.source === 'security') this.errors.push(message.params.entry.text);
-    if (message.method === 'Fetch.requestPaused') this.held.push(message.params.request.url);
+    if (message.method === 'Fetch.requestPaused') {
+      this.held.push(message.params.request.url);
+      if (this.refusal)
+        this.send('Fetch.fulfillRequest', {requestId: message.params.requestId, responseCode: this.refusal}, message.sessionId).catch(() => {});
+    }
     const waiting = this.waiting.get(message.id);
     if (!waiting) return;
     this.waiting.delete(message.id);
@@ -96,7 +100,16 @@ class Page {
 
   /** Requests to these addresses are not answered, until release(). */
   hold(...addresses) { return this.send('Fetch.enable', {patterns: addresses.map((address) => ({urlPattern: `*${address}`}))}); }
-  release() { return this.send('Fetch.disable'); }
+  /** They are answered by this status instead, until release(). */
+  refuse(status, ...addresses) {
+    this.browser.held = [];
+    this.browser.refusal = status;
+    return this.hold(...addresses);
+  }
+  release() {
+    this.browser.refusal = undefined;
+    return this.send('Fetch.disable');
+  }
 
   /** A key, by its name in KeyboardEvent.key. */
   async press(key, modifiers = 0) {

@@ -1,7 +1,7 @@
 // check_map.js CHROMIUM URL TARGETS SCREENSHOTS GEOLOCATION...: the map in a real browser, without images.
 //   TARGETS      what target_trial prints of TARGETS: TARGET,t,status,id,state,latitude,longitude,metres from the truth
 //   GEOLOCATION  the command that publishes them
-// REDBEE_FLIGHT: the process of target_trial.
+// REDBEE_FLIGHT: the process of target_trial. REDBEE_OTHER_CAMERA: a vehicle file of another camera.
 'use strict';
 const {spawn} = require('child_process');
 const fs = require('fs');
@@ -57,6 +57,62 @@ async function checkView(page) {
   console.log('map: tiles, zoom, drag, follow');
 }
 
+/** A tile that the server refuses, as while its disk is busy, is asked for again, until it is there. */
+async function checkRefusedTiles(page) {
+  const tiles = 'Number(document.getElementById("map").dataset.tiles)';
+  const key = async (name) => {
+    await page.value('document.getElementById("map").focus()');
+    await page.press(name);
+  };
+  await page.refuse(503, '/api/tile?*');
+  const zoom = await page.value('document.getElementById("map").dataset.zoom');
+  // To a level of which no tile is there yet: the only ones that are drawn are those that come.
+  for (let i = 0; i < 12 && await page.value('document.getElementById("map").dataset.zoom') === zoom; ++i) await key('-');
+  await page.until('no tiles where they are refused', `${tiles} === 0`);
+  const refused = () => page.browser.held.length;
+  for (const end = Date.now() + 60000; refused() < 6;) {
+    assert(Date.now() < end, `a refused tile is not asked for again: ${refused()} requests`);
+    await sleep(100);
+  }
+  assert(new Set(page.browser.held).size < refused(), 'no tile was asked for twice');
+  await page.release();
+  await page.until('the tiles that were refused', `${tiles} > 0`);
+  await page.value('document.getElementById("map-follow").click()');
+  console.log(`map: ${refused()} refused tiles, and they came when they were given`);
+}
+
+/** What makes places wrong is said beside the map: boxes that the configured camera cannot have. */
+async function checkOtherCamera(page, [program, option]) {
+  await spawnFor([program, option, process.env.REDBEE_OTHER_CAMERA], async () => {
+    await note(page, 'DETECTIONS are of another camera than the vehicle file\'s');
+    await page.until('its words among the processes', 'document.getElementById("remarks").textContent.includes("DETECTIONS are of another camera: a box ends at")');
+    await page.until('no places', 'document.querySelectorAll("#targets tbody tr").length === 0');
+    await page.screenshot(path.join(screenshots, 'map_other_camera.png'), 1400);
+  });
+  console.log('map: another camera is said');
+}
+
+async function checkStalePose(page, command) {
+  await spawnFor(command, async () => {
+    await page.until('no words', 'document.getElementById("map-note").textContent === ""');
+    process.kill(Number(process.env.REDBEE_FLIGHT), 'SIGUSR2');
+    await note(page, 's old: what is drawn is where the drone was');
+    await note(page, 'no POSE near the frame');
+    await page.until('its words among the processes', 'document.getElementById("remarks").textContent.includes("from the frame, allowed are")');
+    await page.screenshot(path.join(screenshots, 'map_stale_pose.png'), 1400);
+  });
+  console.log('map: a stale pose is said');
+}
+
+async function spawnFor(command, work) {
+  const program = spawn(command[0], command.slice(1), {stdio: 'ignore'});
+  try {
+    await work();
+  } finally {
+    program.kill('SIGKILL');
+  }
+}
+
 /** Two fingers that part to twice their distance: the map is twice as large, and each stays where it was on the ground. */
 async function checkPinch(phone) {
   await phone.send('Page.bringToFront');
@@ -101,6 +157,7 @@ async function check(browser) {
     return ((s) => [s.scrollWidth, s.clientWidth])(document.querySelector("section[aria-label=processes]"));
   })()`);
   assert(wide <= room, `the table of the processes is ${wide} px wide in ${room} px`);
+  await checkOtherCamera(page, geolocation);
   const program = spawn(geolocation[0], geolocation.slice(1), {stdio: 'ignore'});
   try {
     await page.value(kWatch);
@@ -109,6 +166,7 @@ async function check(browser) {
     await page.until('many places', 'window.rows.size >= 20');
     await page.screenshot(path.join(screenshots, 'map.png'), 1400);
     await checkView(page);
+    await checkRefusedTiles(page);
     const phone = await browser.open(url, 390, 844, true);
     await inState(phone, 'moving');
     const width = await phone.value('document.documentElement.scrollWidth');
@@ -135,6 +193,7 @@ async function check(browser) {
   }
   await note(page, 'no TARGETS for');
   assert(await page.value('document.querySelectorAll("#targets tbody tr").length') === 0, 'targets stay on a map that has none');
+  await checkStalePose(page, geolocation);
   assert(browser.errors.length === 0, `faults in the page: ${browser.errors}`);
 }
 

@@ -160,6 +160,21 @@ TEST_F(GeolocationNodeTest, SaysThatTheDetectionsAreOfAnotherCamera) {
   EXPECT_THAT(health().message, HasSubstr("configured is an image of 320x200"));
 }
 
+TEST_F(GeolocationNodeTest, PlacesNobodyWhoseBoxOfAnotherCameraFitsNowAndThen) {
+  Configuration small = TargetFlight::configuration();
+  small.camera = {260, 240, 250, 250, 129.5, 119.5, {}};
+  begin(small);
+  fly(0, 12);
+  const auto is_told = [](const targets_t& m) { return m.status == targets_t::OTHER_CAMERA; };
+  const auto first = std::find_if(targets_.begin(), targets_.end(), is_told);
+  ASSERT_NE(first, targets_.end());
+  ASSERT_NE(first, targets_.begin()) << "his box has to fit at first";
+  for (auto m = first; m != targets_.end() && m->utime < first->utime + 9'000'000; ++m) {
+    EXPECT_EQ(m->status, targets_t::OTHER_CAMERA);
+    EXPECT_EQ(m->n, 0);
+  }
+}
+
 TEST_F(GeolocationNodeTest, SaysThatTheLensIsNotTheConfiguredOne) {
   begin();
   fly(0, 1);

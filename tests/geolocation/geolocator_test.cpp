@@ -74,6 +74,18 @@ TEST_F(GeolocatorTest, WhoStopsKeepsItsPlace) {
   EXPECT_TRUE(targets.empty()) << "after keep_stopped_s it is forgotten";
 }
 
+TEST_F(GeolocatorTest, KeepsNoMoreThanAMessageListsAndForgetsWhoWasUnseenLongest) {
+  std::vector<Target> targets;
+  for (int id = 0; id < 1040; ++id) {
+    const auto pixel = pixelOf(*camera_, view_, {(id % 20) - 10.0, (id / 20) % 10 * 2.0, 0}).value();
+    targets = geolocator_.step(CameraTime(fromSeconds(100 + 0.001 * id)), view_,
+                               {{id, boxStandingAt(pixel, 30, *camera_, view_, 1), true}});
+  }
+  ASSERT_EQ(targets.size(), 1024U);
+  EXPECT_EQ(targets.front().id, 16);
+  EXPECT_EQ(targets.back().id, 1039);
+}
+
 TEST_F(GeolocatorTest, ANewIdentityAtItsPlaceReplacesWhoStopped) {
   walkTo(3, {2, 5});
   for (int k = 0; k < 30; ++k) step({});

@@ -1,8 +1,8 @@
 // target_trial log FILE: the flight of tests/support/target_flight.hpp as a log, 15 s, with TARGETS.
 // target_trial inputs FILE: the same without TARGETS.
 // target_trial live SECONDS [--walks SECONDS] [--lcm-url URL]: the same in real time, and what is published
-// about it: a line for each of TARGETS and PROCESS_HEALTH; at SIGUSR1 the walker stands. For
-// tests/integration.
+// about it: a line for each of TARGETS and PROCESS_HEALTH; at SIGUSR1 the walker stands, at SIGUSR2 POSE
+// comes no more. For tests/integration.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
@@ -61,12 +61,14 @@ void print(const targets_t& m, int64_t start_us, const TargetFlight& flight) {
 }
 
 volatile std::sig_atomic_t stands = 0;
+volatile std::sig_atomic_t is_without_pose = 0;
 
 void flyLive(double seconds, double walks_s, const std::string& url) {
   TargetFlight flight;
   flight.walks_s = walks_s;
   flight.reported_s = walks_s + 2;
   std::signal(SIGUSR1, [](int) { stands = 1; });
+  std::signal(SIGUSR2, [](int) { is_without_pose = 1; });
   const auto bus = makeLcmBus(url);
   const int64_t start_us = hostNanoseconds() / 1000;
   const Subscription targets =
@@ -83,7 +85,7 @@ void flyLive(double seconds, double walks_s, const std::string& url) {
       flight.reported_s = t + 2;
     }
     while (hostNanoseconds() / 1000 < utime + kShift_us) bus->handle(std::chrono::milliseconds(5));
-    bus->publish("POSE", TargetFlight::pose(utime + kShift_us, t));
+    if (is_without_pose == 0) bus->publish("POSE", TargetFlight::pose(utime + kShift_us, t));
     bus->publish("ALTIMETER", TargetFlight::altimeter(utime + kShift_us));
     bus->publish("DETECTIONS", flight.detections(utime, t, k));
     std::fflush(stdout);

@@ -77,11 +77,24 @@ std::vector<std::string> inOrderOfWork(const Entries& entries) {
 }
 
 /// Control characters from the network must not reach a terminal.
-std::string printable(std::string text, int columns) {
+std::string withoutControls(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
-  return text.substr(0, static_cast<size_t>(columns));
+  return text;
+}
+
+/// What does not fit goes on in the next line, indented: a message's end says what to do.
+void appendWrapped(std::vector<BoardLine>& lines, const BoardLine& line, size_t columns) {
+  const std::string indent = "  ";
+  std::string rest = line.text;
+  while (rest.size() > columns) {
+    const size_t space = rest.rfind(' ', columns);
+    const bool is_between_words = space != std::string::npos && space > indent.size();
+    lines.push_back({rest.substr(0, is_between_words ? space : columns), line.tone});
+    rest.replace(0, is_between_words ? space + 1 : columns, indent);
+  }
+  lines.push_back({rest, line.tone});
 }
 
 }  // namespace
@@ -201,6 +214,7 @@ std::vector<BoardLine> HealthBoard::table(Time now, int columns) const {
                                "LOST", "DMGD", "MiB"),
                    Tone::kHeading});
   for (const Process& process : list(now)) lines.push_back(row(process));
+  const size_t rows = lines.size();
   lines.push_back({"", Tone::kPlain});
   appendRemarks(lines, now);
   appendBuilds(lines);
@@ -209,8 +223,14 @@ std::vector<BoardLine> HealthBoard::table(Time now, int columns) const {
   };
   count(strangers_, "of names outside the process table: not shown");
   count(implausible_, "that no process can have sent: not shown");
-  for (BoardLine& line : lines) line.text = printable(line.text, columns);
-  return lines;
+  const auto width = static_cast<size_t>(columns);
+  std::vector<BoardLine> shown;
+  for (BoardLine& line : lines) {
+    line.text = withoutControls(line.text);
+    if (shown.size() < rows) line.text = line.text.substr(0, width);
+    appendWrapped(shown, line, width);
+  }
+  return shown;
 }
 
 }  // namespace redbee

@@ -47,7 +47,7 @@ class HealthBoard {
   int good(Time now) const;
 
   /// Heading, one line per process (stages of the process table also before their first message), then
-  /// remarks; at most `columns` (80 or more) wide.
+  /// remarks; at most `columns` (80 or more) wide, remarks in as many lines as they take.
   std::vector<BoardLine> table(Time now, int columns = 80) const;
 
  private:

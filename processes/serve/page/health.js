@@ -38,6 +38,7 @@ function sayThatNothingFlies() {
 export function drawHealth(health, may_write) {
   body.replaceChildren();
   remarks.replaceChildren();
+  const is_alone = health.processes.every(({name, pid}) => name === 'serve' || pid === undefined);
   for (const process of health.processes) {
     const row = body.insertRow();
     row.dataset.name = process.name;
@@ -50,6 +51,7 @@ export function drawHealth(health, may_write) {
     cell(row, process.lost === undefined ? '' : String(process.lost));
     const last = row.insertCell();
     if (may_write) last.append(restartButton(process.name));
+    if (is_alone) continue;  // that nothing comes in is said once
     const lines = [process.message, process.state === 'silent' ? `silent for ${process.silent_s.toFixed(0)} s` : '',
                    process.calibration?.startsWith('does not') ? `calibration ${process.calibration}` : '',
                    process.restarts > 0 ? `restarts seen: ${process.restarts}` : ''];
@@ -60,7 +62,6 @@ export function drawHealth(health, may_write) {
       remarks.append(item);
     }
   }
-  const is_alone = health.processes.every(({name, pid}) => name === 'serve' || pid === undefined);
   document.getElementById('processes').hidden = is_alone && !may_write;  // restart buttons stay
   if (is_alone) sayThatNothingFlies();
 }

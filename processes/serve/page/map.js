@@ -31,10 +31,28 @@ function viewOf(map, before) {
   return {centre: ends.map(([low, high]) => (low + high) / 2), reach};
 }
 
+/** On a dark edge: tiles may be of any colour. */
+function drawWords(context, text, x, y, colour) {
+  context.font = '12px system-ui, sans-serif';
+  context.lineJoin = 'round';
+  context.lineWidth = 3;
+  context.strokeStyle = '#000c';
+  context.strokeText(text, x, y);
+  context.fillStyle = colour;
+  context.fillText(text, x, y);
+}
+
+function strokeOnEdge(context, colour, width) {
+  for (const [style, wide] of [['#000a', width + 2], [colour, width]]) {
+    context.strokeStyle = style;
+    context.lineWidth = wide;
+    context.stroke();
+  }
+}
+
 function drawGrid(context, size, centre, px_per_m) {
   const step = kSteps.find((s) => s * px_per_m >= 40) ?? kSteps.at(-1);
   context.strokeStyle = '#2b323a';
-  context.fillStyle = '#aab4bf';
   context.lineWidth = 1;
   context.beginPath();
   for (const [axis, length, sign] of [[0, size.width, 1], [1, size.height, -1]]) {
@@ -46,8 +64,7 @@ function drawGrid(context, size, centre, px_per_m) {
     }
   }
   context.stroke();
-  context.font = '12px system-ui, sans-serif';
-  context.fillText(`grid ${step} m, north up`, 6, size.height - 7);
+  drawWords(context, `grid ${step} m, north up`, 6, size.height - 7, '#eef1f4');
 }
 
 function drawOwn(context, [x, y], heading) {
@@ -73,9 +90,7 @@ function drawAxis(context, from, to) {
   context.moveTo(...from);
   context.lineTo(...to);
   context.setLineDash([5, 4]);
-  context.lineWidth = 1;
-  context.strokeStyle = '#e69f00';
-  context.stroke();
+  strokeOnEdge(context, '#e69f00', 1);
   context.setLineDash([]);
 }
 
@@ -103,13 +118,11 @@ export function drawMap(map, colourOf = () => '#e69f00') {
     polygon(map.footprint);
     context.closePath();
     context.fillStyle = '#e69f0026';
-    context.strokeStyle = '#e69f00';
     context.fill();
-    context.stroke();
+    strokeOnEdge(context, '#e69f00', 1);
   }
   polygon(map.path);
-  context.strokeStyle = '#eef1f4';
-  context.stroke();
+  strokeOnEdge(context, '#eef1f4', 1);
   if (map.own?.axis) drawAxis(context, place(map.own.position), place(map.own.axis));
   drawTargets(context, map.targets, place, px_per_m, colourOf, size.width);
   listTargets(map.targets, colourOf);
@@ -118,9 +131,7 @@ export function drawMap(map, colourOf = () => '#e69f00') {
   if (!map.own) return;
   drawOwn(context, place(map.own.position), map.own.heading);
   if (map.own.height !== undefined) {
-    context.font = '12px system-ui, sans-serif';
-    context.fillStyle = '#eef1f4';
-    context.fillText(`${map.own.height.toFixed(1)} m above ground`, 6, 16);
+    drawWords(context, `${map.own.height.toFixed(1)} m above ground`, 6, 16, '#eef1f4');
   }
 }
 

@@ -1,7 +1,8 @@
 // The image and its layers. All are canvases of the raw image's size, one over the other: what is drawn at a pixel is
 // what DETECTIONS says of it, however large the page shows it.
 
-const kColours = ['#e69f00', '#56b4e9', '#00c896', '#f0e442', '#cc79a7', '#ff7a3d', '#8fb4ff'];
+// Found by search: with any of the three kinds of colour-blindness they differ (tests/browser/check_colours.js), and carry black letters.
+const kColours = ['#ffd500', '#a466eb', '#2d9e61', '#f66f0e', '#b9ff7d', '#cb6aaf', '#50ed97'];
 const kUnseen = '#c8c8c8';
 const kMask = [86, 180, 233, 110];
 const layers = {};

@@ -116,6 +116,17 @@ TEST(HealthBoard, FitsTheTerminalAndRemovesControlCharacters) {
   }
 }
 
+TEST(HealthBoard, ARemarkThatIsTooLongForALineIsShownToItsEnd) {
+  HealthBoard board;
+  auto health = healthOf("redbee-geolocation", HealthState::kDegraded);
+  health.message =
+      "DETECTIONS are of another camera: a box ends at 285,232 px, configured is an image of 260x240";
+  board.onHealth(health, kNow);
+  EXPECT_THAT(textOf(board, kNow),
+              HasSubstr("geolocation: DETECTIONS are of another camera: a box ends at 285,232 px,\n"
+                        "  configured is an image of 260x240\n"));
+}
+
 TEST(HealthBoard, NamesOutsideTheProcessTableAreCountedNotKept) {
   HealthBoard board;
   board.onHealth(healthOf("redbee-imu-integration", HealthState::kGood), kNow);
