@@ -87,14 +87,15 @@ std::vector<sock_filter> datagramFilter(const std::vector<WantedChannel>& wanted
 }
 
 bool receiveOnly(int socket, const std::vector<WantedChannel>& wanted) {
-  if (wanted.size() > kMostChannels) {
-    int unused = 0;
-    setsockopt(socket, SOL_SOCKET, SO_DETACH_FILTER, &unused, sizeof unused);
-    return false;
+  if (wanted.size() <= kMostChannels) {
+    std::vector<sock_filter> program = datagramFilter(wanted);
+    const sock_fprog filter{static_cast<uint16_t>(program.size()), program.data()};
+    if (setsockopt(socket, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0) return true;
   }
-  std::vector<sock_filter> program = datagramFilter(wanted);
-  const sock_fprog filter{static_cast<uint16_t>(program.size()), program.data()};
-  return setsockopt(socket, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0;
+  // The kernel has no memory for it (net.core.optmem_max): the one before would drop what is wanted now.
+  int unused = 0;
+  setsockopt(socket, SOL_SOCKET, SO_DETACH_FILTER, &unused, sizeof unused);
+  return false;
 }
 
 std::set<int> udpSockets() {

@@ -23,7 +23,8 @@ struct WantedChannel {
 /// LCM is kept.
 std::vector<sock_filter> datagramFilter(const std::vector<WantedChannel>& wanted);
 
-/// From now on the socket receives only what datagramFilter() says; returns whether the kernel does so.
+/// From now on the socket receives only what datagramFilter() says, or all, where the kernel cannot do so;
+/// then false.
 bool receiveOnly(int socket, const std::vector<WantedChannel>& wanted);
 
 /// The file descriptors of this process's UDP sockets.

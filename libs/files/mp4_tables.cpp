@@ -52,7 +52,8 @@ class Tables {
   void checkBoxes(int64_t at, int64_t end, int depth) {
     constexpr int64_t kShort = 8, kLong = 16;
     constexpr int kDeepest = 10;
-    while (end - at >= kShort) {
+    constexpr int kMostBoxes = 100'000;  // of a recording: some hundreds, and two for each fragment
+    while (end - at >= kShort && ++boxes_ <= kMostBoxes) {
       int64_t size = numberAt(at, 4);
       const std::string type = typeAt(at + 4);
       const int64_t header = size == 1 ? kLong : kShort;
@@ -94,6 +95,7 @@ class Tables {
 
   const std::filesystem::path& file_;
   std::ifstream in_;
+  int boxes_ = 0;  ///< looked at
   int64_t size_;
   int64_t samples_ = 0;  ///< of all tracks
 };

@@ -20,15 +20,23 @@ constexpr double kDoubled = 0.4;      // fraction of the smaller of two boxes in
 // What is a candidate in one frame is one in the next: what a track adds up is not independent.
 constexpr double kCaution = -1;
 constexpr double kLeastLogOdds = -3;
-// A region of P_FG that the trees take for no object may still be one of a kind that they do not know: its
-// motion has to show it, by so much more of the photometric gain.
-constexpr double kDoubt = 0.2;
+// Less sure ones yield to a component of P_FG: it may be of a kind that the trees do not know.
+constexpr double kSureLogOdds = 1.5;
 
 cv::Rect inImage(const cv::Rect& box, cv::Size map, cv::Size image) {
   const auto scaled = [&](const cv::Point& at) {
     return cv::Point(at.x * image.width / map.width, at.y * image.height / map.height);
   };
   return cv::Rect(scaled(box.tl()), scaled(box.br())) & cv::Rect({}, image);
+}
+
+bool areDoubled(const cv::Rect& a, const cv::Rect& b) {
+  return (a & b).area() > kDoubled * std::min(a.area(), b.area());
+}
+
+bool areDoubled(const ForegroundComponents& found, const cv::Rect& box) {
+  return std::any_of(found.components.begin(), found.components.end(),
+                     [&](const Component& component) { return areDoubled(component.box, box); });
 }
 
 /// `pixels`: of the box; empty: all of them.
@@ -65,9 +73,8 @@ class ComponentSet {
 
   /// Whether one that claims its box covers the other, or is covered.
   bool isDoubled(const cv::Rect& box) const {
-    return std::any_of(claimed_.begin(), claimed_.end(), [&](const cv::Rect& claimed) {
-      return (claimed & box).area() > kDoubled * std::min(claimed.area(), box.area());
-    });
+    return std::any_of(claimed_.begin(), claimed_.end(),
+                       [&](const cv::Rect& claimed) { return areDoubled(claimed, box); });
   }
   void claim(const cv::Rect& box) { claimed_.push_back(box); }
 
@@ -164,17 +171,18 @@ ForegroundComponents componentsOf(const std::vector<Candidate>& candidates, cons
     Component component;
     component.box = inImage(candidate.box, maps.appearance.size(), probability.size());
     if (set.isDoubled(component.box)) continue;
+    if (log_odds < kSureLogOdds && areDoubled(of_foreground, component.box)) continue;
     cv::resize(candidate.pixels, pixels, component.box.size(), 0, 0, cv::INTER_NEAREST);
+    pixels.setTo(0, unknown(component.box));
     component.peak = 1 / (1 + std::exp(-log_odds));
     if (!maps.residual.empty())
       component.residual_around = meanAround(maps.residual, probability.size(), component.box);
     if (set.add(component, pixels)) set.claim(component.box);
   }
   for (size_t i = 0; i < of_foreground.components.size(); ++i) {
-    Component component = of_foreground.components[i];
+    const Component& component = of_foreground.components[i];
     if (component.area_px > kMostArea_px2 || set.isDoubled(component.box)) continue;
-    component.gain *= kDoubt;
-    set.add(component, of_foreground.pixelsOf(i));
+    set.add(component, of_foreground.pixelsOf(i));  // of a kind that the trees do not know
   }
   return set.take();
 }

@@ -31,8 +31,8 @@ std::vector<Candidate> findCandidates(const ForegroundMaps& maps, const cv::Mat1
                                       const std::optional<GroundPlane>& ground, const BoostedTrees& trees);
 
 /// The candidates as components, without those that a surer one covers or is covered by; Component::peak is
-/// their probability. What findComponents() finds comes first where it is larger than the trees know, and
-/// last, with a lower gain, where no candidate is.
+/// their probability. What findComponents() finds stays where no candidate is, in place of candidates that
+/// are not sure, and where it is larger than the trees know.
 /// `probability`: P_FG * 255.
 ForegroundComponents componentsOf(const std::vector<Candidate>& candidates, const cv::Mat1b& probability,
                                   const cv::Mat1b& unknown, const ObjectParameters& parameters,
