@@ -40,7 +40,10 @@ int fail(int code, const std::string& line) {
 /// Of what a shell makes of `F.lcm.*`, the first will do.
 std::string shortened(const std::string& line) {
   constexpr size_t kMost = 160;  // characters
-  return line.size() <= kMost ? line : line.substr(0, line.rfind(' ', kMost)) + " ...";
+  if (line.size() <= kMost) return line;
+  const size_t blank = line.rfind(' ', kMost);
+  // One long word is cut: what it begins with says more than nothing of it.
+  return line.substr(0, blank == std::string::npos || blank < kMost / 2 ? kMost : blank) + " ...";
 }
 
 /// Writes one line and ends the process, without memory: destructors and handlers of its exit would need

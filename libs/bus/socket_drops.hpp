@@ -8,8 +8,8 @@
 
 namespace redbee {
 
-/// Packets dropped because the receive buffer was full, over all UDP sockets of this process since they were
-/// opened; 0 if /proc has no such entry.
+/// Packets dropped because the receive buffer was full, or by a datagramFilter(), over all UDP sockets of
+/// this process since they were opened; 0 if /proc has no such entry.
 int64_t droppedPackets();
 
 /// The same for the sockets with these inodes, from a table in the format of /proc/net/udp.

@@ -46,11 +46,11 @@ struct ParallaxParameters {
 
 /// The appearance difference to the background, combined with the evidence of motion.
 struct AppearanceParameters {
-  bool enabled = true;            ///< false: P_FG from motion alone
-  int downscale = 2;              ///< 1, 2 or 4: downscaling of the background model
-  double span_s = 0.5;            ///< s: averaging time of the model
-  double noise = 20.0;            ///< grey levels: noise sigma of the difference
-  double edge_tolerance_px = 3;   ///< px: tolerance for misaligned edges of the background
+  bool enabled = true;           ///< false: P_FG from motion alone
+  int downscale = 2;             ///< 1, 2 or 4: downscaling of the background model
+  double span_s = 0.5;           ///< s: averaging time of the model
+  double noise = 20.0;           ///< grey levels: noise sigma of the difference
+  double edge_tolerance_px = 3;  ///< px: tolerance for misaligned edges of the background
   /// Components are regions of the difference of appearance that boosted trees judge; false: of P_FG. Only
   /// where `downscale` is the flow's work_downscale.
   bool use_candidates = true;

@@ -45,7 +45,8 @@ BoostedTrees::BoostedTrees(std::string_view text) {
       node.next[1] = next<int>(in, "left node");
       node.next[0] = next<int>(in, "right node");
       node.is_missing_left = next<int>(in, "side of what is missing") != 0;
-      if (node.feature >= static_cast<int>(features_)) refuse("feature " + std::to_string(node.feature));
+      if (node.feature < -1 || node.feature >= static_cast<int>(features_))
+        refuse("feature " + std::to_string(node.feature));
       for (int& to : node.next) {
         if (node.feature >= 0 && (to <= i || to >= count)) refuse("node " + std::to_string(to));
         to += static_cast<int>(first);
@@ -53,6 +54,7 @@ BoostedTrees::BoostedTrees(std::string_view text) {
       nodes_.push_back(node);
     }
   }
+  if (std::string rest; in >> rest) refuse("\"" + rest + "\" behind the last tree");
 }
 
 double BoostedTrees::logOdds(const float* features) const {

@@ -12,7 +12,8 @@ namespace redbee {
 namespace {
 
 constexpr float kNearBegins_px = 3, kFarBegins_px = 7, kFarEnds_px = 16;  // of the image, around the region
-constexpr double kGrazing = 0.02;  // cosine to the ground's normal: rays closer to the horizon count as this
+constexpr double kGrazing =
+    0.02;  // of ray and the ground's normal, the ray's depth 1: closer to the horizon counts as this
 constexpr size_t kOwn = 0, kNear = 1, kFar = 2, kRings = 3;
 constexpr size_t kGround = 0, kAppearance = 1, kMotion = 2, kForeground = 3, kMaps = 4;
 

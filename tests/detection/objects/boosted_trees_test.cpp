@@ -53,14 +53,14 @@ TEST(BoostedTrees, RefusesWhatWouldReadBeyondItsNodesOrFeatures) {
        }) {
     EXPECT_THROW(BoostedTrees{text}, std::invalid_argument) << text;
   }
-  for (const char* tree : {
-           "1\n",                                      // no node
-           "1\n2 1 0 0 0\n",                           // feature 2 of two
-           "3\n0 1 1 3 0\n-1 1 0 0 0\n-1 1 0 0 0\n",   // node 3 of three
-           "3\n0 1 0 2 0\n-1 1 0 0 0\n-1 1 0 0 0\n",   // back to itself, for ever
-           "3\n0 1 -1 2 0\n-1 1 0 0 0\n-1 1 0 0 0\n",  // before the first
-           "2\n-1 1 0 0 0\n",                          // the second is missing
-       }) {
+  for (const char* tree : {"1\n",                                      // no node
+                           "1\n2 1 0 0 0\n",                           // feature 2 of two
+                           "3\n0 1 1 3 0\n-1 1 0 0 0\n-1 1 0 0 0\n",   // node 3 of three
+                           "3\n0 1 0 2 0\n-1 1 0 0 0\n-1 1 0 0 0\n",   // back to itself, for ever
+                           "3\n0 1 -1 2 0\n-1 1 0 0 0\n-1 1 0 0 0\n",  // before the first
+                           "2\n-1 1 0 0 0\n",                          // the second is missing
+                           "1\n-5 1 0 0 0\n",                          // neither a feature nor a leaf
+                           "1\n-1 1 0 0 0\nmore"}) {
     EXPECT_THROW(BoostedTrees(head + tree), std::invalid_argument) << tree;
   }
 }
