@@ -88,7 +88,7 @@ void ForegroundPublisher::publish(const image_t& image, CameraTime time_previous
 
 void ForegroundPublisher::publishOverlay(const image_t& image, const DetectorOutput& output) {
   const int period = configuration_.overlay_period_frames;
-  if (period == 0 || ++frames_since_overlay_ < period) return;
+  if (!draws_overlays_ || period == 0 || ++frames_since_overlay_ < period) return;
   frames_since_overlay_ = 0;
   if (const auto colour = decodeColour(image); colour && colour->size() == output.mask.size()) {
     OverlayStatus status;

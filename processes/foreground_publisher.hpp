@@ -17,6 +17,8 @@ class ForegroundPublisher {
       : publisher_(publisher), configuration_(configuration), camera_(camera) {}
 
   /// `image`: as received. `output`: on the ideal grid, of an image from which `exposure` was taken out.
+  /// From the next frame on.
+  void drawOverlays(bool wanted) { draws_overlays_ = wanted; }
   /// Publishes one message of each kind, and periodically an overlay.
   void publish(const image_t& image, CameraTime time_previous, DetectorOutput output,
                const Exposure& exposure = {});
@@ -28,6 +30,7 @@ class ForegroundPublisher {
   const Configuration& configuration_;
   const RectifiedCamera& camera_;
   int frames_since_overlay_ = 0;
+  bool draws_overlays_ = true;
 };
 
 }  // namespace redbee

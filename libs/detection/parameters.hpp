@@ -30,7 +30,9 @@ struct ParallaxParameters {
       0.15;                      ///< of the height: no static surface is nearer to the camera than this
   double evidence_sigmas = 2.5;  ///< distance from the parallax segment [sigmas] at which the evidence is 1/2
   double evidence_rate = 0.2;  ///< learning rate of the evidence propagated along the flow; 1: no propagation
-  bool use_point_paths = true;  ///< with an IMU: follow points for a second, for small and slow objects
+  /// With an IMU and where no candidates are looked for: follow points for a second, for small and slow
+  /// objects.
+  bool use_point_paths = true;
   bool use_registration =
       true;  ///< estimate and remove the residual homography error before testing for motion
   /// Fraction of the image's width: without an IMU, evidence connected to a stretch of the border at least

@@ -87,6 +87,7 @@ void MotionSegmentationNode::adjustQuality(CameraTime frame) {
   const size_t rung = ladder_.update(backlog, fromSeconds(configuration_.waits.segmentation_s));
   if (rung != before) spdlog::warn("quality {} of {}", rung, adjustable_->rungs().size());
   adjustable_->setQuality(rung);
+  foreground_.drawOverlays(rung == 0);
 }
 
 FrameInput MotionSegmentationNode::inputFor(const image_t& message) {
@@ -221,6 +222,7 @@ void MotionSegmentationNode::updateState(DetectorStatus status, bool has_fused) 
     std::string message =
         "overload: quality " + std::to_string(ladder_.rung()) + " of " + std::to_string(rungs.size());
     for (size_t i = 0; i < ladder_.rung(); ++i) message += (i == 0 ? ": " : ", ") + rungs[i];
+    if (configuration_.overlay_period_frames > 0) message += ", no overlay";
     health().setState(HealthState::kDegraded, message);
   } else {
     health().setState(HealthState::kGood);

@@ -19,7 +19,7 @@ namespace redbee::test {
 using Slowness = std::map<const ProcessDescription*, double>;
 
 /// The part that the segmentation takes at each rung of quality, by the instructions of its frame.
-constexpr double kCosts[] = {1, 0.8};
+constexpr double kCosts[] = {1, 0.9};
 
 /// What it says of itself: "overload: quality 1 of 1: ...".
 inline size_t rungOf(Node& node) {

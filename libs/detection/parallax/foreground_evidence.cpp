@@ -15,6 +15,18 @@ namespace {
 
 constexpr float kUnknownVariance = 1e6F;  // px^2, of the speed where it is unknown
 
+bool usesCandidates(const ParallaxParameters& parallax, const AppearanceParameters& appearance) {
+  const bool is_one_size = std::max(appearance.downscale, 1) == std::max(parallax.work_downscale, 1);
+  return appearance.enabled && appearance.use_candidates && is_one_size;
+}
+
+/// Beside candidates points find next to nothing (EXPERIMENTS.md), for a seventh of the work.
+ParallaxParameters withoutNeedlessPoints(ParallaxParameters parallax,
+                                         const AppearanceParameters& appearance) {
+  if (usesCandidates(parallax, appearance)) parallax.use_point_paths = false;
+  return parallax;
+}
+
 /// x / (x + half) of each value x, in place.
 void overSumWith(float half, cv::Mat1f& map) {
   for (int y = 0; y < map.rows; ++y) {
@@ -27,14 +39,13 @@ void overSumWith(float half, cv::Mat1f& map) {
 
 ForegroundEvidence::ForegroundEvidence(const ParallaxParameters& parallax,
                                        const AppearanceParameters& appearance, const ShadowParameters& shadow)
-    : parallax_(parallax),
+    : parallax_(withoutNeedlessPoints(parallax, appearance)),
       appearance_(appearance),
       downscale_(std::max(appearance.downscale, 1)),
       to_background_(downscaling(downscale_)),
-      motion_(parallax),
+      motion_(parallax_),
       background_(appearance, shadow, parallax.evidence_sigmas) {
-  const bool is_one_size = downscale_ == std::max(parallax.work_downscale, 1);
-  if (appearance.enabled && appearance.use_candidates && is_one_size) ground_.emplace();
+  if (usesCandidates(parallax, appearance)) ground_.emplace();
 }
 
 void ForegroundEvidence::reset() {
@@ -126,14 +137,14 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
         foreground.convertTo(maps.motion, CV_8U, 255);
       }
       cv::multiply(foreign, foreground, foreign);
-      if (parallax_.use_hole_filling) {
+      if (parallax_.use_hole_filling && is_complete_) {
         const double gap_px = parallax_.outline_gap_px / downscale_;
         fillHoles(foreign, static_cast<int>(std::lround(gap_px)));
         foreign = cv::min(foreign, foreground);
       }
       foreground = foreign;
       foreign.release();
-      if (parallax_.region_radius_px > 0) fillRegions(image, foreground);
+      if (parallax_.region_radius_px > 0 && is_complete_) fillRegions(image, foreground);
       // Half is enough: an object learned as background would be missed for the model's whole span.
       moving = cv::min(2 * foreground, 1);
       if (!around_points.empty()) {

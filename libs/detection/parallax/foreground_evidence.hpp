@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "redbee/detection/appearance/appearance_model.hpp"
 #include "redbee/detection/foreground_maps.hpp"
@@ -22,7 +24,9 @@ class ForegroundEvidence {
                      const ShadowParameters& shadow);
 
   void reset();
-  void setQuality(size_t rung) { motion_.setQuality(rung); }
+  /// AdjustableQuality's.
+  std::vector<std::string> rungs() const;
+  void setQuality(size_t rung);
   /// Propagates images and background by the camera's motion (previous to current; full-size pixels).
   void propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
                  const std::optional<PlaneMotion>& motion, const CameraPair& cameras);
@@ -45,6 +49,7 @@ class ForegroundEvidence {
   ParallaxEvidence motion_;
   AppearanceModel background_;
   std::optional<GroundDifference> ground_;  ///< if candidates are wanted
+  bool is_complete_ = true;                 ///< nothing is left out
   SpareMaps spare_;
   CameraTime last_time_{};
 };

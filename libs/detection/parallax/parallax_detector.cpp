@@ -5,9 +5,7 @@
 namespace redbee {
 
 ParallaxDetector::ParallaxDetector(const DetectionParameters& parameters)
-    : GroundDetector(parameters),
-      uses_points_(parameters.parallax.use_point_paths),
-      evidence_(parameters.parallax, parameters.appearance, parameters.shadow) {
+    : GroundDetector(parameters), evidence_(parameters.parallax, parameters.appearance, parameters.shadow) {
   needs_.colour = true;
   needs_.camera_motion = true;
   // All processing is on smaller images, and a JPEG is decoded faster into one.

@@ -21,7 +21,6 @@ class ParallaxDetector : public GroundDetector, public AdjustableQuality {
   ForegroundMaps learn(const FrameInput& input) override;
 
   DetectorNeeds needs_;
-  bool uses_points_;
   ForegroundEvidence evidence_;
 };
 

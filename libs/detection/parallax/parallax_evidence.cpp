@@ -42,8 +42,8 @@ InverseSearch makeMotionFlow(const ParallaxParameters& parameters) {
 }
 
 ParallaxEvidence::ParallaxEvidence(const ParallaxParameters& parameters)
-    : configured_(parameters),
-      parameters_(parameters),
+    : parameters_(parameters),
+      follows_points_(parameters.use_point_paths),
       scale_(std::max(parameters.work_downscale, 1)),
       work_(downscaling(scale_)),
       search_(makeMotionFlow(parameters)),
@@ -60,6 +60,12 @@ void ParallaxEvidence::reset() {
   speed_.release();
   residual_.release();
   compared_.reset();
+}
+
+void ParallaxEvidence::followPoints(bool wanted) {
+  const bool follows = wanted && parameters_.use_point_paths;
+  if (follows != follows_points_) paths_.reset();
+  follows_points_ = follows;
 }
 
 void ParallaxEvidence::propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
@@ -89,7 +95,7 @@ cv::Mat1f ParallaxEvidence::learn(CameraTime time, const cv::Mat1b& grey, const 
     found = evidence(*frame, small, work_ * K, frames, spare);
   }
   frames_.store(time, small, work_ * K, parameters_.baseline_s);
-  if (parameters_.use_point_paths) paths_.update(time, small, work_ * K, own_parts_);
+  if (follows_points_) paths_.update(time, small, work_ * K, own_parts_);
   return found;
 }
 

@@ -33,8 +33,8 @@ class ParallaxEvidence {
   explicit ParallaxEvidence(const ParallaxParameters& parameters);
 
   void reset();
-  /// From the next image on: see ParallaxDetector::rungs().
-  void setQuality(size_t rung);
+  /// From the next image on: false leaves out what `use_point_paths` asks for.
+  void followPoints(bool wanted);
   /// Propagates the stored images and evidence by the camera's motion (previous to current; full-size
   /// pixels).
   void propagate(const Eigen::Matrix3d& ground, const std::optional<Eigen::Matrix3d>& front,
@@ -75,10 +75,10 @@ class ParallaxEvidence {
                             const Eigen::Matrix3d& K);
   void suppressBorderStructure(cv::Mat1f& motion) const;
 
-  ParallaxParameters configured_;
-  ParallaxParameters parameters_;  ///< at the present quality
-  double scale_;                   ///< full-size pixels per pixel at work_downscale
-  Eigen::Matrix3d work_;           ///< full-size pixels to those at work_downscale
+  ParallaxParameters parameters_;
+  bool follows_points_;
+  double scale_;          ///< full-size pixels per pixel at work_downscale
+  Eigen::Matrix3d work_;  ///< full-size pixels to those at work_downscale
   InverseSearch search_;
   EarlierFrames frames_;
   EpipoleEstimator epipole_;
