@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
 
 namespace redbee {
@@ -23,6 +24,8 @@ struct ForegroundMaps {
   /// difference of appearance to the background (29), the evidence of motion M / (M + half) (30), and
   /// groundDifference().
   cv::Mat1b appearance{}, motion{}, ground{};
+  /// `ground` has values where this has been called for it, until the next frame; empty: everywhere.
+  std::function<void(const cv::Rect&)> complete_ground{};
   cv::Mat4b colours{};  ///< the image that they are of: blue, green, red, unused
 };
 

@@ -1,6 +1,6 @@
 #include "redbee/imaging/chamfer_distance.hpp"
 
-#include <algorithm>
+#include "redbee/imaging/chamfer_kernels.hpp"
 
 namespace redbee {
 namespace {
@@ -8,32 +8,10 @@ namespace {
 constexpr float kBeside = 0.955F, kDiagonal = 1.369F;
 constexpr float kFar = 1e6F;  // px
 
-/// Two passes; `beyond`: of the pixels outside of the map.
+/// `beyond`: of the pixels outside of the map.
 void propagate(cv::Mat1f& distance, float beyond) {
-  const int last = distance.cols - 1;
-  const auto relax = [&](const float* beside, float* row, int x) {
-    const float left = x > 0 ? beside[x - 1] : beyond, right = x < last ? beside[x + 1] : beyond;
-    row[x] = std::min({row[x], beside[x] + kBeside, left + kDiagonal, right + kDiagonal});
-  };
-  const auto relaxAtBorder = [&](float* row) {
-    for (int x = 0; x <= last; ++x) row[x] = std::min(row[x], beyond + kBeside);
-  };
-  for (int y = 0; y < distance.rows; ++y) {
-    float* const row = distance[y];
-    if (y == 0) relaxAtBorder(row);
-    for (int x = 0; x <= last; ++x) {
-      if (y > 0) relax(distance[y - 1], row, x);
-      row[x] = std::min(row[x], (x > 0 ? row[x - 1] : beyond) + kBeside);
-    }
-  }
-  for (int y = distance.rows - 1; y >= 0; --y) {
-    float* const row = distance[y];
-    if (y == distance.rows - 1) relaxAtBorder(row);
-    for (int x = last; x >= 0; --x) {
-      if (y < distance.rows - 1) relax(distance[y + 1], row, x);
-      row[x] = std::min(row[x], (x < last ? row[x + 1] : beyond) + kBeside);
-    }
-  }
+  propagateDistances({distance[0], distance.step1(), distance.cols, distance.rows},
+                     {kBeside, kDiagonal, beyond});
 }
 
 }  // namespace

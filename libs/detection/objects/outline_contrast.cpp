@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace redbee {
@@ -16,42 +17,52 @@ constexpr double kLeastAcross_px2 = 0.1;
 /// Centre and principal axes of the region's pixels, in its box.
 struct Axes {
   cv::Point2d centre;
-  cv::Point2d along;  ///< unit vector of the longer one
-  double sigma_along, sigma_across;
+  cv::Point2d along, across;  ///< the longer one first, over the standard deviation
 };
 
 Axes axesOf(const cv::Mat1f& depth) {
-  double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  int64_t count = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_yy = 0, sum_xy = 0;
   for (int v = 0; v < depth.rows; ++v) {
     const float* const row = depth[v];
+    int in_row = 0, x_of_row = 0;
+    int64_t xx_of_row = 0;
     for (int u = 0; u < depth.cols; ++u) {
       if (row[u] == 0) continue;
-      n += 1;
-      x += u;
-      y += v;
-      xx += u * u;
-      yy += v * v;
-      xy += u * v;
+      ++in_row;
+      x_of_row += u;
+      xx_of_row += u * u;
     }
+    count += in_row;
+    sum_x += x_of_row;
+    sum_xx += xx_of_row;
+    sum_y += static_cast<int64_t>(v) * in_row;
+    sum_yy += static_cast<int64_t>(v) * v * in_row;
+    sum_xy += static_cast<int64_t>(v) * x_of_row;
   }
-  x /= n;
-  y /= n;
-  xx = xx / n - x * x + kPixelVariance;
-  yy = yy / n - y * y + kPixelVariance;
-  xy = xy / n - x * y;
+  const auto n = static_cast<double>(count);
+  const double x = static_cast<double>(sum_x) / n, y = static_cast<double>(sum_y) / n;
+  const double xx = static_cast<double>(sum_xx) / n - x * x + kPixelVariance;
+  const double yy = static_cast<double>(sum_yy) / n - y * y + kPixelVariance;
+  const double xy = static_cast<double>(sum_xy) / n - x * y;
   const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
   const double c = std::cos(angle), s = std::sin(angle);
-  const double along = c * c * xx + 2 * c * s * xy + s * s * yy;
+  const double sigma_along = std::sqrt(c * c * xx + 2 * c * s * xy + s * s * yy);
   const double across = s * s * xx - 2 * c * s * xy + c * c * yy;
-  return {{x, y}, {c, s}, std::sqrt(along), std::sqrt(std::max(across, kLeastAcross_px2))};
+  const double sigma_across = std::sqrt(std::max(across, kLeastAcross_px2));
+  return {{x, y}, {c / sigma_along, s / sigma_along}, {-s / sigma_across, c / sigma_across}};
 }
 
+/// Of the angle, in eighths of a turn: 4 is along, 6 across, 0 against the first axis.
 size_t sectorOf(const Axes& axes, double x, double y) {
+  constexpr double kTangent = 0.41421356237309503;  // of half a sector
   const double dx = x - axes.centre.x, dy = y - axes.centre.y;
-  const double along = (axes.along.x * dx + axes.along.y * dy) / axes.sigma_along;
-  const double across = (axes.along.x * dy - axes.along.y * dx) / axes.sigma_across;
-  const double turns = std::atan2(across, along) / (2 * CV_PI) + 0.5;
-  return static_cast<size_t>(std::floor(turns * kSectors + 0.5)) % kSectors;
+  const double along = axes.along.x * dx + axes.along.y * dy;
+  const double across = axes.across.x * dx + axes.across.y * dy;
+  const double a = std::abs(along), b = std::abs(across);
+  const size_t from_axis = b < kTangent * a ? 0 : (a < kTangent * b ? 2 : 1);
+  if (a == 0 && b == 0) return kSectors / 2;
+  if (along >= 0) return across >= 0 ? kSectors / 2 + from_axis : kSectors / 2 - from_axis;
+  return across >= 0 ? (kSectors - from_axis) % kSectors : from_axis;
 }
 
 struct ColourSum {
@@ -81,13 +92,16 @@ OutlineContrast outlineContrast(const cv::Mat4b& colours, const cv::Rect& box, c
   std::array<ColourSum, kSectors> inside{}, outside{};
   for (int y = 0; y < around.height; ++y) {
     const int in_box_y = around.y + y - box.y;
+    const float* const distances = distance[y];
+    const cv::Vec4b* const row = colours[around.y + y] + around.x;
+    const bool is_in_box = in_box_y >= 0 && in_box_y < box.height;
+    const float* const depths = is_in_box ? depth[in_box_y] + (around.x - box.x) : nullptr;
     for (int x = 0; x < around.width; ++x) {
-      const float d = distance(y, x);
-      const int in_box_x = around.x + x - box.x;
-      const bool is_inside = d == 0 && depth(in_box_y, in_box_x) <= kInside_px;
+      const float d = distances[x];
+      const bool is_inside = d == 0 && depths[x] <= kInside_px;
       if (!is_inside && (d <= ring.begins || d > ring.ends)) continue;
-      const size_t sector = sectorOf(axes, in_box_x, in_box_y);
-      (is_inside ? inside : outside)[sector].add(colours(around.y + y, around.x + x));
+      const size_t sector = sectorOf(axes, around.x + x - box.x, in_box_y);
+      (is_inside ? inside : outside)[sector].add(row[x]);
     }
   }
   std::array<float, kSectors> known{};

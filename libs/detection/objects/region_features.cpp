@@ -96,6 +96,7 @@ RegionFeatures RegionMeter::measure(const cv::Rect& box, const cv::Mat1b& pixels
   const cv::Rect around =
       cv::Rect(box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach) &
       cv::Rect({}, size);
+  if (maps_.complete_ground) maps_.complete_ground(around);
   const cv::Mat1f distance = outside_(cv::Rect({}, around.size()));
   distanceOutside(box - around.tl(), pixels, distance);
   const RingSums sums = sumsOf(maps_, around, distance, static_cast<float>(scale_));

@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "redbee/detection/parallax/alignment_kernels.hpp"
 #include "redbee/imaging/for_lanes.hpp"
@@ -17,28 +18,89 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kSubpixels = 32;
 constexpr double kFarAway = 1e6;  // px: outside of every image
 
-/// Where pixels come from: the nearest pixels' x, their y, then x and y in units of 1 / kSubpixels px.
+/// Where pixels come from, in units of 1 / `unit` px.
 template <typename D>
-HWY_INLINE void places(D d, const double* back, const AlignedRow& row, int x) {
+HWY_INLINE void places(D d, const double* back, int y, int x, double unit, int32_t* to_x, int32_t* to_y) {
   const hn::Rebind<int32_t, D> integers;
   const auto u = hn::Add(hn::Set(d, x), hn::Iota(d, 0.0));
   const auto mapped = [&](const double* H) HWY_ATTR {
-    return hn::Add(hn::Mul(hn::Set(d, H[0]), u), hn::Set(d, H[1] * row.y + H[2]));
+    return hn::Add(hn::Mul(hn::Set(d, H[0]), u), hn::Set(d, H[1] * y + H[2]));
   };
-  const auto w = mapped(back + 6), at_x = mapped(back), at_y = mapped(back + 3);
+  const auto w = mapped(back + 6);
   const auto is_nowhere = hn::Eq(w, hn::Zero(d));
   const auto limit = hn::Set(d, kFarAway * kSubpixels);
-  const int pixels = row.end - row.begin;
-  int32_t* to = row.places + (x - row.begin);
-  for (const double unit : {1.0, static_cast<double>(kSubpixels)}) {
-    const auto scale = hn::IfThenZeroElse(is_nowhere, hn::Div(hn::Set(d, unit), w));
-    const auto rounded = [&](auto at) HWY_ATTR {
-      return hn::DemoteTo(integers, hn::Round(hn::Max(hn::Min(hn::Mul(at, scale), limit), hn::Neg(limit))));
-    };
-    hn::StoreU(rounded(at_x), integers, to);
-    hn::StoreU(rounded(at_y), integers, to + pixels);
-    to += 2 * pixels;
+  const auto scale = hn::IfThenZeroElse(is_nowhere, hn::Div(hn::Set(d, unit), w));
+  const auto rounded = [&](auto at) HWY_ATTR {
+    return hn::DemoteTo(integers, hn::Round(hn::Max(hn::Min(hn::Mul(at, scale), limit), hn::Neg(limit))));
+  };
+  hn::StoreU(rounded(mapped(back)), integers, to_x);
+  hn::StoreU(rounded(mapped(back + 3)), integers, to_y);
+}
+
+/// Of all pixels of the row: the x of their places in row.places, and y behind them.
+HWY_INLINE void placesOfRow(const double* back, const AlignedRow& row, double unit) {
+  const hn::ScalableTag<double> d;
+  const int lanes = static_cast<int>(hn::Lanes(d)), pixels = row.end - row.begin;
+  int i = 0;
+  for (; i + lanes <= pixels; i += lanes)
+    places(d, back, row.y, row.begin + i, unit, row.places + i, row.places + pixels + i);
+  for (; i < pixels; ++i)
+    places(hn::CappedTag<double, 1>(), back, row.y, row.begin + i, unit, row.places + i,
+           row.places + pixels + i);
+}
+
+/// Whether the nearest pixel of where a pixel comes from is in the image.
+HWY_INLINE bool isShown(const EarlierImage& image, const double* back, int y, int x) {
+  int32_t at_x = 0, at_y = 0;
+  places(hn::CappedTag<double, 1>(), back, y, x, 1, &at_x, &at_y);
+  return at_x >= 0 && at_y >= 0 && at_x < image.width && at_y < image.height;
+}
+
+/// `shown` is, `hidden` is not, and between the two this changes once: the shown pixel next to the change.
+HWY_INLINE int lastShown(const EarlierImage& image, const double* back, int y, int shown, int hidden) {
+  while (std::abs(hidden - shown) > 1) {
+    const int between = (shown + hidden) / 2;
+    (isShown(image, back, y, between) ? shown : hidden) = between;
   }
+  return shown;
+}
+
+/// True if the places of the row's pixels go in one direction, which they do unless a pole lies between.
+HWY_INLINE bool isMonotone(const double* back, const AlignedRow& row) {
+  const auto w = [&](int x) HWY_ATTR { return back[6] * x + (back[7] * row.y + back[8]); };
+  return w(row.begin) * w(row.end - 1) > 0;
+}
+
+/// All of row.unknown, by the ends of what is shown; false, and nothing done, if these do not say it.
+HWY_INLINE bool markBetweenEnds(const EarlierImage& image, const double* back, const AlignedRow& row) {
+  if (!isMonotone(back, row)) return false;
+  const int last = row.end - 1;
+  const bool first_shown = isShown(image, back, row.y, row.begin),
+             last_shown = isShown(image, back, row.y, last);
+  if (!first_shown && !last_shown) return false;
+  const int from = first_shown ? row.begin : lastShown(image, back, row.y, last, row.begin);
+  const int to = last_shown ? last : lastShown(image, back, row.y, row.begin, last);
+  std::fill(row.unknown + row.begin, row.unknown + from, uint8_t{255});
+  std::fill(row.unknown + from, row.unknown + to + 1, uint8_t{0});
+  std::fill(row.unknown + to + 1, row.unknown + row.end, uint8_t{255});
+  return true;
+}
+
+HWY_INLINE void markEach(const EarlierImage& image, const double* back, const AlignedRow& row) {
+  placesOfRow(back, row, 1);
+  const int pixels = row.end - row.begin;
+  forLanes<int32_t>(static_cast<size_t>(pixels), [&](auto tag, size_t i) HWY_ATTR {
+    const hn::RebindToUnsigned<decltype(tag)> without_sign;
+    const auto is_inside = [&](const int32_t* coordinates, int size) HWY_ATTR {
+      return hn::Lt(hn::BitCast(without_sign, hn::LoadU(tag, coordinates + i)),
+                    hn::Set(without_sign, static_cast<uint32_t>(size)));
+    };
+    const auto known =
+        hn::And(is_inside(row.places, image.width), is_inside(row.places + pixels, image.height));
+    const auto value = hn::BitCast(tag, hn::IfThenZeroElse(known, hn::Set(without_sign, 255)));
+    const hn::Rebind<uint8_t, decltype(tag)> narrow;
+    hn::StoreU(hn::DemoteTo(narrow, value), narrow, row.unknown + row.begin + i);
+  });
 }
 
 HWY_INLINE uint8_t blend(int right, int below, int p00, int p01, int p10, int p11) {
@@ -98,27 +160,11 @@ HWY_INLINE bool interpolate(D d, const EarlierImage& image, const int32_t* x32, 
 }
 
 void align(const EarlierImage& image, const double* back, const AlignedRow& row) {
-  const hn::ScalableTag<double> d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  int at = row.begin;
-  for (; at + lanes <= row.end; at += lanes) places(d, back, row, at);
-  for (; at < row.end; ++at) places(hn::CappedTag<double, 1>(), back, row, at);
+  if (!markBetweenEnds(image, back, row)) markEach(image, back, row);
+  placesOfRow(back, row, kSubpixels);
   const int pixels = row.end - row.begin;
   const int32_t* x = row.places;
   const int32_t* y = x + pixels;
-  forLanes<int32_t>(static_cast<size_t>(pixels), [&](auto tag, size_t i) HWY_ATTR {
-    const hn::RebindToUnsigned<decltype(tag)> without_sign;
-    const auto is_inside = [&](const int32_t* coordinates, int size) HWY_ATTR {
-      return hn::Lt(hn::BitCast(without_sign, hn::LoadU(tag, coordinates + i)),
-                    hn::Set(without_sign, static_cast<uint32_t>(size)));
-    };
-    const auto known = hn::And(is_inside(x, image.width), is_inside(y, image.height));
-    const auto value = hn::BitCast(tag, hn::IfThenZeroElse(known, hn::Set(without_sign, 255)));
-    const hn::Rebind<uint8_t, decltype(tag)> narrow;
-    hn::StoreU(hn::DemoteTo(narrow, value), narrow, row.unknown + row.begin + i);
-  });
-  x += 2 * pixels;
-  y += 2 * pixels;
   const hn::ScalableTag<int32_t> wide;
   const int together = static_cast<int>(hn::Lanes(wide));
   uint8_t* grey = row.grey + row.begin;
@@ -141,7 +187,7 @@ namespace redbee {
 
 HWY_EXPORT(align);
 
-void alignRow(const EarlierImage& image, const double back[9], const AlignedRow& row) {
+void alignPixels(const EarlierImage& image, const double back[9], const AlignedRow& row) {
   HWY_DYNAMIC_DISPATCH(align)(image, back, row);
 }
 

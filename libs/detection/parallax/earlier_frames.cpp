@@ -63,22 +63,30 @@ const EarlierFrame* EarlierFrames::aged(CameraTime now, double age_s) const {
   return best;
 }
 
+ImageAlignment::ImageAlignment(const EarlierFrame& frame, const Eigen::Matrix3d& K)
+    : grey_(frame.grey),
+      scene_(frame.ground, frame.motion, {frame.K, K}),
+      ground_(inverseOf(scene_.ground)),
+      far_(inverseOf(scene_.far)),
+      places_(2 * static_cast<size_t>(frame.grey.cols)) {}
+
+void ImageAlignment::alignRow(int y, int begin, int end, uint8_t* grey, uint8_t* unknown) {
+  const SceneMotion::HorizonCut cut = scene_.cutAtHorizon(y, grey_.cols);
+  const EarlierImage image{grey_[0], grey_.step[0], grey_.cols, grey_.rows};
+  const auto align = [&](bool is_ground, int from, int to) {
+    if (from < to)
+      alignPixels(image, (is_ground ? ground_ : far_).data(), {y, from, to, places_.data(), grey, unknown});
+  };
+  align(cut.ground_first, begin, std::min(cut.at, end));
+  align(!cut.ground_first, std::max(cut.at, begin), end);
+}
+
 AlignedImage alignImage(const EarlierFrame& frame, const Eigen::Matrix3d& K, int margin_px) {
-  const SceneMotion scene(frame.ground, frame.motion, {frame.K, K});
-  const std::array<double, 9> ground = inverseOf(scene.ground), far = inverseOf(scene.far);
+  ImageAlignment alignment(frame, K);
   const cv::Size size = frame.grey.size();
   AlignedImage aligned{cv::Mat1b(size), cv::Mat1b(size)};
-  std::vector<int32_t> places(4 * static_cast<size_t>(size.width));
-  const EarlierImage image{frame.grey[0], frame.grey.step[0], size.width, size.height};
-  for (int y = 0; y < size.height; ++y) {
-    const SceneMotion::HorizonCut cut = scene.cutAtHorizon(y, size.width);
-    const auto align = [&](bool is_ground, int begin, int end) {
-      alignRow(image, (is_ground ? ground : far).data(),
-               {y, begin, end, places.data(), aligned.grey[y], aligned.unknown[y]});
-    };
-    align(cut.ground_first, 0, cut.at);
-    align(!cut.ground_first, cut.at, size.width);
-  }
+  for (int y = 0; y < size.height; ++y)
+    alignment.alignRow(y, 0, size.width, aligned.grey[y], aligned.unknown[y]);
   growUnknown(aligned.unknown, margin_px);
   return aligned;
 }

@@ -1,13 +1,16 @@
 // The latest images, each with the camera's motion from it to the current frame.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 #include "redbee/geometry/homography.hpp"
 #include "redbee/geometry/time.hpp"
+#include "redbee/imaging/warping.hpp"
 
 namespace redbee {
 
@@ -37,8 +40,25 @@ class EarlierFrames {
   std::deque<EarlierFrame> frames_;  ///< oldest first
 };
 
-/// An earlier image warped into the current view, for a scene of ground up to the horizon and infinite depth
+/// Warps an earlier image into the current view, for a scene of ground up to the horizon and infinite depth
 /// above it.
+class ImageAlignment {
+ public:
+  /// Keeps the image of `frame` (not copied). `K`: of the current image [px].
+  ImageAlignment(const EarlierFrame& frame, const Eigen::Matrix3d& K);
+
+  /// Pixels [begin, end) of row y of an image of the same size; `grey` and `unknown`: of the row, the latter
+  /// 255 where the earlier image does not show the scene, else 0.
+  void alignRow(int y, int begin, int end, uint8_t* grey, uint8_t* unknown);
+
+ private:
+  cv::Mat1b grey_;
+  SceneMotion scene_;
+  std::array<double, 9> ground_, far_;  ///< current to earlier, row by row
+  std::vector<int32_t> places_;
+};
+
+/// An earlier image as a whole, by ImageAlignment.
 struct AlignedImage {
   cv::Mat1b grey;
   cv::Mat1b unknown;  ///< 255 where the earlier image does not show the scene, or within margin_px of that

@@ -118,7 +118,10 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   cv::Mat1f foreground = motion_.learn(time, grey, K, full, own_parts, spare_), around_points;
   ForegroundMaps maps;
   const bool is_first = foreground.empty();
-  if (ground_) maps.ground = ground_->learn(time, motion_.image(), to_background_ * K);
+  if (ground_) {
+    maps.ground = ground_->learn(time, motion_.image(), to_background_ * K);
+    maps.complete_ground = [this](const cv::Rect& part) { ground_->complete(part); };
+  }
   overSumWith(static_cast<float>(parallax_.motion_half), foreground);
   if (appearance_.enabled) {
     const cv::Mat4b image = imageToCompare(grey, colour, full);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/imgproc.hpp>
+
+#include "redbee/detection/parallax/ground_difference_kernels.hpp"
 
 namespace redbee {
 namespace {
@@ -12,63 +13,68 @@ constexpr double kSpacing_s = 1.0 / 12;  // of the images that are kept
 constexpr double kTimeTolerance = 0.9;
 constexpr float kNoise = 6;           // grey levels
 constexpr float kTolerance_px = 0.6;  // of the registration
-
-/// noise^2 + (tolerance * slope)^2 of each pixel.
-cv::Mat1f varianceOf(const cv::Mat1b& grey) {
-  constexpr double kSobelSum = 8;
-  cv::Mat1s dx, dy;
-  cv::Sobel(grey, dx, CV_16S, 1, 0);
-  cv::Sobel(grey, dy, CV_16S, 0, 1);
-  constexpr auto kPerSquare = static_cast<float>(kTolerance_px * kTolerance_px / (kSobelSum * kSobelSum));
-  cv::Mat1f variance(grey.size());
-  for (int y = 0; y < grey.rows; ++y) {
-    const int16_t* const x_row = dx[y];
-    const int16_t* const y_row = dy[y];
-    float* const out = variance[y];
-    for (int x = 0; x < grey.cols; ++x) {
-      const int squares = x_row[x] * x_row[x] + y_row[x] * y_row[x];
-      out[x] = kNoise * kNoise + kPerSquare * static_cast<float>(squares);
-    }
-  }
-  return variance;
-}
-
-/// The lesser of `least` and the difference to the aligned image.
-void keepLesser(const cv::Mat1b& grey, const AlignedImage& earlier, const cv::Mat1f& variance,
-                cv::Mat1b& least) {
-  for (int y = 0; y < grey.rows; ++y) {
-    const uint8_t* const now = grey[y];
-    const uint8_t* const then = earlier.grey[y];
-    const uint8_t* const unknown = earlier.unknown[y];
-    const float* const noise = variance[y];
-    uint8_t* const out = least[y];
-    for (int x = 0; x < grey.cols; ++x) {
-      const auto d = static_cast<float>(now[x] - then[x]);
-      const int fraction = static_cast<int>(255 * d * d / (d * d + noise[x]));
-      out[x] = static_cast<uint8_t>(std::min<int>(out[x], unknown[x] != 0 ? 0 : fraction));
-    }
-  }
-}
+constexpr int kTile_px = 16;          // of a row that is computed together
 
 }  // namespace
 
-cv::Mat1b GroundDifference::learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K) {
-  cv::Mat1b least(grey.size(), 255);
+const cv::Mat1b& GroundDifference::learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K) {
+  const cv::Size size = grey.size();
+  image_ = grey;
+  earlier_.clear();
   const EarlierFrame* last = nullptr;
-  cv::Mat1f variance;
   for (const double age_s : kAges_s) {
     const EarlierFrame* const frame = frames_.aged(time, age_s);
-    if (frame == nullptr || frame == last || frame->grey.size() != grey.size()) continue;
-    if (last == nullptr) variance = varianceOf(grey);
+    if (frame == nullptr || frame == last || frame->grey.size() != size) continue;
     last = frame;
-    keepLesser(grey, alignImage(*frame, K, 0), variance, least);
+    earlier_.emplace_back(*frame, K);
   }
-  if (last == nullptr) least.setTo(0);
+  map_.create(size);
+  done_.create(size.height, (size.width + kTile_px - 1) / kTile_px);
+  done_.setTo(earlier_.empty() ? 1 : 0);
+  if (earlier_.empty()) map_.setTo(0);
+  grey_.resize(static_cast<size_t>(size.width));
+  unknown_.resize(grey_.size());
+  variance_.resize(grey_.size());
   const EarlierFrame* const newest = frames_.newest();
   if (newest == nullptr || seconds(time - newest->time) >= kTimeTolerance * kSpacing_s) {
     frames_.store(time, grey, K, kAges_s.back());
   }
-  return least;
+  return map_;
+}
+
+void GroundDifference::complete(const cv::Rect& part) {
+  const cv::Rect inside = part & cv::Rect({}, map_.size());
+  const int begin = inside.x / kTile_px, end = (inside.br().x + kTile_px - 1) / kTile_px;
+  for (int y = inside.y; y < inside.br().y; ++y) {
+    uint8_t* const done = done_[y];
+    for (int first = begin; first < end; ++first) {
+      int next = first;
+      while (next < end && done[next] == 0) done[next++] = 1;
+      if (next == first) continue;
+      compute(y, first * kTile_px, std::min(next * kTile_px, map_.cols));
+      first = next;  // which is done already
+    }
+  }
+}
+
+/// Pixels [begin, end) of a row.
+void GroundDifference::compute(int y, int begin, int end) {
+  constexpr float kSobelSum = 8;
+  constexpr float kPerSquare = kTolerance_px * kTolerance_px / (kSobelSum * kSobelSum);
+  const int last = image_.rows - 1, next = std::min(1, last);
+  uint8_t* const least = map_[y];
+  std::fill(least + begin, least + end, uint8_t{255});
+  varianceOfRow(
+      {image_[y > 0 ? y - 1 : next], image_[y], image_[y < last ? y + 1 : last - next], image_.cols},
+      {kNoise * kNoise, kPerSquare}, begin, end, variance_.data());
+  for (ImageAlignment& earlier : earlier_) {
+    earlier.alignRow(y, begin, end, grey_.data(), unknown_.data());
+    keepLesser({image_[y], grey_.data(), unknown_.data(), variance_.data()}, begin, end, least);
+  }
+  // As in alignImage(), nothing is known at the border.
+  if (y == 0 || y == last) std::fill(least + begin, least + end, uint8_t{0});
+  if (begin == 0) least[0] = 0;
+  if (end == image_.cols) least[end - 1] = 0;
 }
 
 }  // namespace redbee

@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 #include "redbee/detection/parallax/earlier_frames.hpp"
 #include "redbee/geometry/homography.hpp"
@@ -20,12 +21,21 @@ class GroundDifference {
   }
   /// 255 d^2 / (d^2 + noise^2 + (tolerance * slope)^2) of the difference d of grey values, the least over
   /// images a sixth, a third and half of a second old: where an object has left, the background is in one of
-  /// them. 0 where one of them does not show the scene, and without any. Keeps the image (not copied). `K`:
-  /// of the image [px].
-  cv::Mat1b learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K);
+  /// them. 0 where one of them does not show the scene, and without any. Computed where complete() asks for
+  /// it. Keeps the image (not copied). `K`: of the image [px].
+  const cv::Mat1b& learn(CameraTime time, const cv::Mat1b& grey, const Eigen::Matrix3d& K);
+  /// Of the last learn(): the map has its values in this part of it.
+  void complete(const cv::Rect& part);
 
  private:
+  void compute(int y, int begin, int end);
+
   EarlierFrames frames_;
+  cv::Mat1b image_, map_;
+  cv::Mat1b done_;  ///< not 0 where a stretch of a row has its values
+  std::vector<ImageAlignment> earlier_;
+  std::vector<uint8_t> grey_, unknown_;  ///< a row
+  std::vector<float> variance_;
 };
 
 }  // namespace redbee

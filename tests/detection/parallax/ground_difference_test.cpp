@@ -40,6 +40,7 @@ cv::Mat1b differenceAfter(int frames, const Place& place) {
     last =
         difference.learn(CameraTime(std::chrono::microseconds(41667 * k)), image(texture, k, place(k)), kK);
   }
+  difference.complete({0, 0, last.cols, last.rows});
   return last;
 }
 
@@ -61,6 +62,27 @@ TEST(GroundDifference, IsHighOnWhatMovesAndNotWhereItWas) {
 TEST(GroundDifference, IsNothingOnWhatRestsOnTheGround) {
   const cv::Mat1b difference = differenceAfter(20, [](int k) { return 120 - kStep_px * k; });
   EXPECT_LT(meanIn(difference, {63, 50, 10, 10}), 5);
+}
+
+TEST(GroundDifference, IsTheSameInPartsAndAsAWhole) {
+  const cv::Mat1b texture = groundTexture();
+  Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();
+  ground(0, 2) = -kStep_px;
+  GroundDifference of_parts, of_whole;
+  for (int k = 0; k < 16; ++k) {
+    if (k > 0) of_parts.propagate(ground, std::nullopt);
+    if (k > 0) of_whole.propagate(ground, std::nullopt);
+    const CameraTime time(std::chrono::microseconds(41667 * k));
+    const cv::Mat1b parts = of_parts.learn(time, image(texture, k, 40 + k), kK);
+    const cv::Mat1b whole = of_whole.learn(time, image(texture, k, 40 + k), kK);
+    of_whole.complete({0, 0, whole.cols, whole.rows});
+    for (const cv::Rect& part : {cv::Rect(3, 2, 20, 10), cv::Rect(10, 5, 60, 40), cv::Rect(100, 90, 80, 60),
+                                 cv::Rect(0, 0, 160, 120)}) {
+      of_parts.complete(part);
+      const cv::Rect inside = part & cv::Rect({}, parts.size());
+      ASSERT_EQ(cv::norm(parts(inside), whole(inside), cv::NORM_INF), 0) << k << part;
+    }
+  }
 }
 
 TEST(GroundDifference, SaysNothingWithoutAnEarlierImage) {
