@@ -45,8 +45,9 @@ int greatestForeground(const ForegroundMaps& maps, const cv::Rect& box, const cv
   for (int y = 0; y < box.height; ++y) {
     const uint8_t* const appearance = maps.appearance[box.y + y] + box.x;
     const uint8_t* const motion = maps.motion[box.y + y] + box.x;
+    const uint8_t* const own = pixels.empty() ? nullptr : pixels[y];
     for (int x = 0; x < box.width; ++x) {
-      if (pixels.empty() || pixels(y, x) != 0) most = std::max(most, appearance[x] * motion[x] / 255);
+      if (own == nullptr || own[x] != 0) most = std::max(most, appearance[x] * motion[x] / 255);
     }
   }
   return most;

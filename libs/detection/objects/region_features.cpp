@@ -19,7 +19,7 @@ constexpr size_t kGround = 0, kAppearance = 1, kMotion = 2, kForeground = 3, kMa
 
 /// Of one map in one ring.
 struct RingSum {
-  double sum = 0;
+  int sum = 0;
   int most = 0;
 
   void add(int value) {
@@ -34,7 +34,7 @@ struct RingSums {
 
   float mean(size_t map, size_t ring) const {
     if (count[ring] == 0) return std::numeric_limits<float>::quiet_NaN();
-    return static_cast<float>(of[map][ring].sum / count[ring]);
+    return static_cast<float>(static_cast<double>(of[map][ring].sum) / count[ring]);
   }
 };
 
