@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "redbee/detection/foreground_maps.hpp"
+#include "redbee/detection/objects/disc_morphology.hpp"
 #include "redbee/detection/objects/moving_components.hpp"
 #include "redbee/detection/objects/regions.hpp"
 
@@ -30,8 +31,7 @@ cv::Mat1b foregroundPart(const cv::Mat1b& probability, const cv::Mat1b& unknown,
          cv::Rect({}, mask.size());
   mask = mask(part).clone();
   if (mask.empty()) return mask;
-  if (parameters.opening_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(parameters.opening_px));
-  if (parameters.closing_px > 0) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disc(parameters.closing_px));
+  openAndClose(mask, parameters.opening_px, parameters.closing_px);
   mask.setTo(0, unknown(part));
   return mask;
 }
