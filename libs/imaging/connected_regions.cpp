@@ -28,6 +28,8 @@ int nextClear(const uint8_t* row, int at, int width) {
 }  // namespace
 
 ConnectedRegions::ConnectedRegions(const cv::Mat1b& mask) {
+  constexpr size_t kRunsOfRow = 4;  // typically
+  runs_.reserve(kRunsOfRow * static_cast<size_t>(mask.rows));
   for (int y = 0; y < mask.rows; ++y) addRow(mask[y], y, mask.cols);
   gather();
 }
@@ -62,6 +64,9 @@ void ConnectedRegions::join(int a, int b) {
 }
 
 void ConnectedRegions::gather() {
+  size_t count = 0;
+  for (size_t i = 0; i < runs_.size(); ++i) count += runs_[i].region == static_cast<int>(i) ? 1 : 0;
+  regions_.reserve(count);
   for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
     Run& run = runs_[static_cast<size_t>(i)];
     const cv::Rect box(run.begin, run.y, run.end - run.begin, 1);
@@ -85,9 +90,23 @@ void ConnectedRegions::gather() {
   });
 }
 
+/// All 0.
+cv::Mat1b ConnectedRegions::room(const cv::Size& size) const {
+  constexpr int kPiece = 4096;  // bytes
+  const int area = size.area();
+  if (used_ + area > memory_.cols) {
+    memory_ = cv::Mat1b(1, std::max(kPiece, area));
+    used_ = 0;
+  }
+  cv::Mat1b part = memory_.colRange(used_, used_ + area).reshape(1, size.height);
+  used_ += area;
+  std::memset(part.data, 0, static_cast<size_t>(area));
+  return part;
+}
+
 cv::Mat1b ConnectedRegions::pixels(size_t region) const {
   const cv::Rect& box = regions_[region].box;
-  cv::Mat1b pixels = cv::Mat1b::zeros(box.size());
+  cv::Mat1b pixels = room(box.size());
   for (int i = regions_[region].first; i >= 0; i = runs_[static_cast<size_t>(i)].next) {
     const Run& run = runs_[static_cast<size_t>(i)];
     std::memset(pixels[run.y - box.y] + run.begin - box.x, 255, static_cast<size_t>(run.end - run.begin));

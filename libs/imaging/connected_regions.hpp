@@ -16,7 +16,7 @@ class ConnectedRegions {
   const cv::Rect& box(size_t region) const { return regions_[region].box; }
   /// px^2
   int area(size_t region) const { return regions_[region].area_px; }
-  /// 255 where the region is, in its box.
+  /// 255 where the region is, in its box. Those of several regions share a piece of memory.
   cv::Mat1b pixels(size_t region) const;
 
  private:
@@ -36,10 +36,13 @@ class ConnectedRegions {
   int first(int run) const;
   void join(int a, int b);
   void gather();
+  cv::Mat1b room(const cv::Size& size) const;
 
   std::vector<Run> runs_;
   size_t row_ = 0, row_above_ = 0;  ///< the first runs of the row, and of the one above it
   std::vector<Region> regions_;
+  mutable cv::Mat1b memory_;  ///< a row: the newest piece, of which some is in use
+  mutable int used_ = 0;
 };
 
 }  // namespace redbee
