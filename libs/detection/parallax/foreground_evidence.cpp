@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/imaging/enlarged.hpp"
 #include "redbee/imaging/grey_reconstruction.hpp"
 #include "redbee/imaging/guided_filter.hpp"
 #include "redbee/imaging/repeated_pixels.hpp"
@@ -168,7 +169,7 @@ ForegroundMaps ForegroundEvidence::learn(CameraTime time, const cv::Mat1b& grey,
   maps.moving = around_points;
   maps.unknown = repeatedPixels(motion_.unknown(), full);
   foreground.convertTo(maps.foreground, CV_8U, 255);
-  cv::resize(maps.foreground, maps.foreground, full, 0, 0, cv::INTER_LINEAR);
+  maps.foreground = enlarged(maps.foreground, full);
   return maps;
 }
 
