@@ -135,10 +135,10 @@ TEST(SteadyState, AllocationsOfAFrameAndMemoryAreBounded) {
   const std::map<std::string, double> bounds{{programName(kImuIntegration), 51},
                                              {programName(kVisualHomography), 153},
                                              {programName(kHomographyFusion), 105},
-                                             {programName(kMotionSegmentation), 1270},
+                                             {programName(kMotionSegmentation), 945},
                                              {"messages", 175}};
   const auto [counter, most_held_mb] = countFlight();
-  constexpr double kMostHeld_mb = 14;
+  constexpr double kMostHeld_mb = 13.5;
   std::printf("%-20s %.1f MB at most\n", "memory", most_held_mb);
   EXPECT_GT(most_held_mb, 1);
   EXPECT_LE(most_held_mb, kMostHeld_mb);

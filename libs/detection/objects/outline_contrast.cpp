@@ -98,7 +98,7 @@ OutlineContrast outlineContrast(const cv::Mat4b& colours, const cv::Rect& box, c
     const float* const depths = is_in_box ? depth[in_box_y] + (around.x - box.x) : nullptr;
     for (int x = 0; x < around.width; ++x) {
       const float d = distances[x];
-      const bool is_inside = d == 0 && depths[x] <= kInside_px;
+      const bool is_inside = d == 0 && depths != nullptr && depths[x] <= kInside_px;
       if (!is_inside && (d <= ring.begins || d > ring.ends)) continue;
       const size_t sector = sectorOf(axes, around.x + x - box.x, in_box_y);
       (is_inside ? inside : outside)[sector].add(row[x]);
