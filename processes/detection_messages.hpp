@@ -2,6 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
 
 #include "redbee/detection/objects/object_tracker.hpp"
 #include "redbee/detection_t.hpp"
@@ -29,6 +33,21 @@ inline Detection detectionOf(const detection_t& message) {
   detection.score = message.score;
   detection.seen = message.seen != 0;
   return detection;
+}
+
+/// The `count` of the highest score, in their order.
+inline std::vector<Detection> strongest(std::vector<Detection> detections, size_t count) {
+  if (detections.size() <= count) return detections;
+  std::vector<size_t> order(detections.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return detections[a].score > detections[b].score; });
+  order.resize(count);
+  std::sort(order.begin(), order.end());
+  std::vector<Detection> result;
+  result.reserve(count);
+  for (const size_t i : order) result.push_back(detections[i]);
+  return result;
 }
 
 /// The middle of the box's lower edge, where an object seen from the side stands [px].

@@ -1,11 +1,14 @@
 #include "processes/foreground_publisher.hpp"
 
+#include <utility>
+
 #include "processes/detection_messages.hpp"
 #include "redbee/bus/image.hpp"
 #include "redbee/detections_t.hpp"
 #include "redbee/foreground_t.hpp"
 #include "redbee/image_codec/png.hpp"
 #include "redbee/node/frame_time.hpp"
+#include "redbee/node/message_limits.hpp"
 #include "redbee/results/overlay.hpp"
 
 namespace redbee {
@@ -51,6 +54,8 @@ cv::Rect rawBox(const Camera& camera, const cv::Rect& box, const std::optional<R
 
 void ForegroundPublisher::publish(const image_t& image, CameraTime time_previous, DetectorOutput output,
                                   const Exposure& exposure) {
+  // With more, all receivers would refuse the message.
+  output.detections = strongest(std::move(output.detections), message_limits::kMaxDetections);
   const Rectifier& rectifier = camera_.rectifier();
   // Of any detector: most know nothing of the vehicle's own parts.
   if (const cv::Mat1b& own_parts = rectifier.ownParts(exposure); !own_parts.empty()) {

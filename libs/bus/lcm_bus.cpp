@@ -128,7 +128,7 @@ class LcmBus : public Bus {
     });
   }
 
-  bool isFirst() const { return is_udp_ && entries_.size() == 1 && socket_ < 0; }
+  bool isFirst() { return is_udp_ && !std::exchange(has_subscribed_, true); }
 
   lcm_subscription_t* subscribeTo(Entry& entry) {
     return lcm_subscribe(lcm_.get(), escapePattern(entry.channel).c_str(), &dispatch, &entry);
@@ -191,6 +191,7 @@ class LcmBus : public Bus {
   std::unique_ptr<lcm_t, LcmDeleter> lcm_;
   bool in_process_;
   bool is_udp_;
+  bool has_subscribed_ = false;
   int socket_ = -1;  ///< that LCM receives with; -1: not known
 };
 

@@ -19,7 +19,11 @@ constexpr size_t kMaxPendingDetections = 64;
 constexpr Duration kPoseWait = std::chrono::milliseconds(100);
 constexpr Duration kLensMemory = std::chrono::seconds(1);       // detections come in order of time
 constexpr Duration kBoxFaultMemory = std::chrono::seconds(10);  // some boxes fit into any image
-constexpr double kFocalTolerance = 0.05;                        // of a lens that is the configured one
+// Boxes that end beyond the image are of another camera, or of a stray or forged message. Each counts as much
+// as so many messages that fit, and five within a short time say that it is another camera.
+constexpr int kBoxFaultWeight = 8;
+constexpr int kOtherCameraScore = 5 * kBoxFaultWeight;
+constexpr double kFocalTolerance = 0.05;  // of a lens that is the configured one
 
 const Configuration& enabled(const Configuration& configuration) {
   if (configuration.geolocation.enabled) return configuration;
@@ -29,8 +33,11 @@ const Configuration& enabled(const Configuration& configuration) {
 }  // namespace
 
 GeolocationNode::GeolocationNode(Bus& bus, const Configuration& configuration)
-    : Stage(bus, programName(kGeolocation), configurationHash(enabled(configuration))),
-      configuration_(configuration),
+    : GeolocationNode(bus, configuration, configurationHash(configuration)) {}
+
+GeolocationNode::GeolocationNode(Bus& bus, const Configuration& configuration, const std::string& hash)
+    : Stage(bus, programName(kGeolocation), hash),
+      configuration_(enabled(configuration)),
       timeshift_(fromSeconds(configuration.inertial.extrinsics.timeshift_s)),
       views_(configuration.geolocation, configuration.inertial.extrinsics.R_CI,
              configuration.inertial.extrinsics.p_IC),
@@ -51,10 +58,17 @@ GeolocationNode::GeolocationNode(Bus& bus, const Configuration& configuration)
 }
 
 void GeolocationNode::onDetections(const detections_t& message) {
+  if (isStray(message)) return health().noteDamaged();
   queueFrame(pending_, configuration_.channels.detections, CameraTime(fromUtime(message.utime)),
              Frame{message, WorkTimer()});
   health().noteSkipped(static_cast<int64_t>(pending_.limitTo(kMaxPendingDetections).size()));
   if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
+}
+
+bool GeolocationNode::isStray(const detections_t& message) {
+  const bool fits = boxFault(message).empty();
+  box_fault_score_ = std::clamp(box_fault_score_ + (fits ? -1 : kBoxFaultWeight), 0, kOtherCameraScore);
+  return !fits && box_fault_score_ < kOtherCameraScore;
 }
 
 void GeolocationNode::onLens(const lens_t& message) {
@@ -76,6 +90,7 @@ void GeolocationNode::restart(CameraTime) {
   geolocator_.restart();
   clock_.restart();
   box_fault_.clear();
+  box_fault_score_ = 0;
 }
 
 bool GeolocationNode::isReadyFor(CameraTime time) const {

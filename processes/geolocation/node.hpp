@@ -24,6 +24,8 @@ class GeolocationNode : public Stage {
  public:
   /// Throws UserError unless geolocation.enabled is set.
   GeolocationNode(Bus& bus, const Configuration& configuration);
+  /// `hash`: configurationHash(), which costs more than a second of messages, for who makes many nodes.
+  GeolocationNode(Bus& bus, const Configuration& configuration, const std::string& hash);
   bool processNext() override;
   /// Who has stopped is known after a restart.
   void keepStateIn(const std::filesystem::path& folder) override {
@@ -40,6 +42,8 @@ class GeolocationNode : public Stage {
   ImuTime imuTimeOf(CameraTime time) const { return toImu(time, timeshift_); }
   bool isReadyFor(CameraTime time) const;
   void locate(CameraTime time, const detections_t& detections);
+  /// Boxes beyond the image, but too seldom for another camera.
+  bool isStray(const detections_t& message);
   /// What shows that the boxes are of another camera than the configured one; empty: nothing does.
   std::string boxFault(const detections_t& detections) const;
   /// The same, or what has shown it lately; targets that were placed before are forgotten.
@@ -60,6 +64,7 @@ class GeolocationNode : public Stage {
   std::string lens_fault_;
   std::string box_fault_;
   CameraTime box_fault_time_;
+  int box_fault_score_ = 0;
   std::optional<LensTrack> lens_;  ///< of one that zooms
 };
 

@@ -35,6 +35,11 @@ void LiveMap::onFrame(int64_t utime, Time now) {
   is_new_ = true;
 }
 
+void LiveMap::renew() {
+  is_new_ = true;
+  next_ = Time();
+}
+
 int64_t LiveMap::utimeAt(Time now) const {
   const bool is_frame_current = frame_utime_ != 0 && now - frame_arrival_ < kFrameIsCurrent;
   return is_frame_current || pose_utime_ == 0 ? frame_utime_ : pose_utime_ - timeshift_us_;

@@ -23,6 +23,8 @@ class LiveMap {
   /// An image or what was detected in it, us, camera clock.
   void onFrame(int64_t utime, Time now);
 
+  /// Whoever looks has seen none: the next is due though nothing is new.
+  void renew();
   /// JSON, see mapJson(); std::nullopt where nothing is new, or the last is younger than kPeriod.
   std::optional<std::string> takeText(Time now);
 

@@ -101,6 +101,7 @@ void ServeNode::followViewers() {
   }
   if (is_watched == !while_watched_.empty()) return;
   if (is_watched) {
+    map_.renew();
     while_watched_.push_back(
         on<fused_homography_t>(channels_.fused_homography, [this](const fused_homography_t& m) {
           map_.onFused(m);

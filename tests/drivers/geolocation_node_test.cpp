@@ -175,6 +175,23 @@ TEST_F(GeolocationNodeTest, PlacesNobodyWhoseBoxOfAnotherCameraFitsNowAndThen) {
   }
 }
 
+// Once a second: a stray sender, or one who wants nobody placed.
+TEST_F(GeolocationNodeTest, AStrayMessageOfAnotherCameraBlindsNobody) {
+  begin();
+  constexpr int kSeconds = 9;
+  for (int s = 0; s < kSeconds; ++s) {
+    const double t = s + 0.5 / TargetFlight::kRate_hz;
+    detections_t stray = TargetFlight{}.detections(utimeOf(t), t, 1000 + s);
+    stray.detections[0].x += 2000;
+    bus_->publish("DETECTIONS", stray);
+    fly(s, s + 1);
+  }
+  ASSERT_EQ(targets_.size(), kSeconds * TargetFlight::kRate_hz) << "only frames of this camera are answered";
+  for (const targets_t& m : targets_) EXPECT_EQ(m.status, targets_t::GOOD);
+  EXPECT_EQ(targets_.back().n, 1);
+  EXPECT_EQ(health().damaged, kSeconds);
+}
+
 TEST_F(GeolocationNodeTest, SaysThatTheLensIsNotTheConfiguredOne) {
   begin();
   fly(0, 1);

@@ -225,7 +225,8 @@ int main(int argc, char** argv) {
   writeMcapSeeds(folder);
   for (const auto& [name, text] : imuTableSeeds()) write(folder / "imu_table" / name, text);
   write(folder / "mavlink" / "one_second", mavlinkSeed());
-  write(folder / "targets" / "walker", targetsSeed());
+  write(folder / "targets" / "walker", targetsSeed(false));
+  write(folder / "targets" / "walker_gimbal", targetsSeed(true));
   write(folder / "ground_link" / "commands", groundLinkSeed());
   return 0;
 }

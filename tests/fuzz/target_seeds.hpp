@@ -14,7 +14,7 @@
 namespace redbee::fuzz {
 
 /// A second in which the walker stops, as targets_fuzz counts the channels.
-inline std::vector<uint8_t> targetsSeed() {
+inline std::vector<uint8_t> targetsSeed(bool has_gimbal) {
   std::vector<uint8_t> seed;
   const auto append = [&](uint8_t channel, const auto& message) {
     const std::vector<uint8_t> data = encodeMessage(message);
@@ -39,6 +39,7 @@ inline std::vector<uint8_t> targetsSeed() {
     append(3, gimbal);
     append(0, flight.detections(utime, t, k));
   }
+  if (has_gimbal) seed.front() = 0x83;  // the same channel, of five
   return seed;
 }
 

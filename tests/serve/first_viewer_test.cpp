@@ -83,6 +83,24 @@ TEST_F(FirstViewer, SeesNothingOfWhatWasShownToOthersBefore) {
   EXPECT_EQ(shown()->utime(), utimeOf(100));
 }
 
+// Nothing but a pose has come, and nothing comes any more: a page that is loaded again shows it as the one
+// before did.
+TEST_F(FirstViewer, SeesTheMapThoughNothingNewComes) {
+  pose_t pose{};
+  pose.utime = utimeOf(0);
+  pose.quat[0] = 1;
+  bus_->publish(configuration_.channels.pose, pose);
+  const auto map = [this] {
+    const auto viewer = live_.join();
+    pass();
+    return live_.wait({}, std::chrono::milliseconds(0)).map;
+  };
+  const std::string first = map();
+  EXPECT_NE(first, "");
+  pass();  // in which it is seen that nobody looks
+  EXPECT_EQ(map(), first);
+}
+
 TEST_F(FirstViewer, WithoutViewersTheBulkIsNotReceived) {
   EXPECT_EQ(damagedAfterNoise(), 0);
   const auto viewer = live_.join();
