@@ -17,11 +17,11 @@ class ForegroundPublisher {
       : publisher_(publisher), configuration_(configuration), camera_(camera) {}
 
   /// `image`: as received. `output`: on the ideal grid, of an image from which `exposure` was taken out.
-  /// From the next frame on.
-  void drawOverlays(bool wanted) { draws_overlays_ = wanted; }
   /// Publishes one message of each kind, and periodically an overlay.
   void publish(const image_t& image, CameraTime time_previous, DetectorOutput output,
                const Exposure& exposure = {});
+  /// From the next frame on.
+  void drawOverlays(bool wanted) { draws_overlays_ = wanted; }
 
  private:
   void publishOverlay(const image_t& image, const DetectorOutput& output);

@@ -116,19 +116,19 @@ class LcmBus : public Bus {
     checkChannel(channel);
     entries_.push_back({channel, std::move(handler), &handler_failures_, is_short});
     const auto entry = std::prev(entries_.end());
-    entry->subscription = isFirst() ? subscribeFirst(*entry) : subscribeTo(*entry);
+    const bool is_first = is_udp_ && !has_subscribed_;
+    entry->subscription = is_first ? subscribeFirst(*entry) : subscribeTo(*entry);
     if (entry->subscription == nullptr) {
       entries_.erase(entry);
       throw std::runtime_error(channel + ": LCM cannot subscribe");
     }
+    has_subscribed_ = true;
     narrow();
     lcm_subscription_set_queue_capacity(entry->subscription, capacity);
     return Subscription([this, entry, alive = std::weak_ptr<bool>(alive_)] {
       if (!alive.expired()) end(entry);
     });
   }
-
-  bool isFirst() { return is_udp_ && !std::exchange(has_subscribed_, true); }
 
   lcm_subscription_t* subscribeTo(Entry& entry) {
     return lcm_subscribe(lcm_.get(), escapePattern(entry.channel).c_str(), &dispatch, &entry);

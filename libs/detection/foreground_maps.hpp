@@ -22,7 +22,7 @@ struct ForegroundMaps {
   cv::Mat1f moving{};
   /// What candidates are judged by (objects/candidates.hpp), of one size, or all empty. 0 to 255: the
   /// difference of appearance to the background (29), the evidence of motion M / (M + half) (30), and
-  /// groundDifference().
+  /// GroundDifference.
   cv::Mat1b appearance{}, motion{}, ground{};
   /// `ground` has values where this has been called for it, until the next frame; empty: everywhere.
   std::function<void(const cv::Rect&)> complete_ground{};

@@ -29,7 +29,9 @@ GroundDetector::GroundDetector(const DetectionParameters& parameters)
       objects_(parameters.objects),
       image_check_(parameters.min_contrast),
       probability_(parameters.refinement),
-      tracker_(parameters.objects, parameters.parallax) {}
+      tracker_(parameters.objects, parameters.parallax) {
+  objectTrees();  // read now, rather than in a frame
+}
 
 DetectorOutput GroundDetector::step(const FrameInput& frame) {
   const bool continues = isConsecutive(frame);

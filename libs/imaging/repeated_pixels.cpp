@@ -14,7 +14,8 @@ constexpr int kTogether = 16;
 
 cv::Mat1b repeatedPixels(const cv::Mat1b& mask, cv::Size size) {
   cv::Mat1b repeated;
-  if (size == mask.size() * 4) return repeatedPixels(repeatedPixels(mask, mask.size() * 2), size);
+  if (!mask.empty() && size == mask.size() * 4)
+    return repeatedPixels(repeatedPixels(mask, mask.size() * 2), size);
   if (size != mask.size() * 2) {
     cv::resize(mask, repeated, size, 0, 0, cv::INTER_NEAREST);
     return repeated;

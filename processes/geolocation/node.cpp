@@ -20,7 +20,7 @@ constexpr Duration kPoseWait = std::chrono::milliseconds(100);
 constexpr Duration kLensMemory = std::chrono::seconds(1);       // detections come in order of time
 constexpr Duration kBoxFaultMemory = std::chrono::seconds(10);  // some boxes fit into any image
 // Boxes that end beyond the image are of another camera, or of a stray or forged message. Each counts as much
-// as so many messages that fit, and five within a short time say that it is another camera.
+// as so many messages with boxes that fit, and five within a short time say that it is another camera.
 constexpr int kBoxFaultWeight = 8;
 constexpr int kOtherCameraScore = 5 * kBoxFaultWeight;
 constexpr double kFocalTolerance = 0.05;  // of a lens that is the configured one
@@ -58,14 +58,15 @@ GeolocationNode::GeolocationNode(Bus& bus, const Configuration& configuration, c
 }
 
 void GeolocationNode::onDetections(const detections_t& message) {
-  if (isStray(message)) return health().noteDamaged();
+  if (countStray(message)) return health().noteDamaged();
   queueFrame(pending_, configuration_.channels.detections, CameraTime(fromUtime(message.utime)),
              Frame{message, WorkTimer()});
   health().noteSkipped(static_cast<int64_t>(pending_.limitTo(kMaxPendingDetections).size()));
   if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
 }
 
-bool GeolocationNode::isStray(const detections_t& message) {
+bool GeolocationNode::countStray(const detections_t& message) {
+  if (message.detections.empty()) return false;  // fits any camera
   const bool fits = boxFault(message).empty();
   box_fault_score_ = std::clamp(box_fault_score_ + (fits ? -1 : kBoxFaultWeight), 0, kOtherCameraScore);
   return !fits && box_fault_score_ < kOtherCameraScore;

@@ -43,7 +43,7 @@ class GeolocationNode : public Stage {
   bool isReadyFor(CameraTime time) const;
   void locate(CameraTime time, const detections_t& detections);
   /// Boxes beyond the image, but too seldom for another camera.
-  bool isStray(const detections_t& message);
+  bool countStray(const detections_t& message);
   /// What shows that the boxes are of another camera than the configured one; empty: nothing does.
   std::string boxFault(const detections_t& detections) const;
   /// The same, or what has shown it lately; targets that were placed before are forgotten.

@@ -180,8 +180,7 @@ TEST_F(GeolocationNodeTest, AStrayMessageOfAnotherCameraBlindsNobody) {
   begin();
   constexpr int kSeconds = 9;
   for (int s = 0; s < kSeconds; ++s) {
-    const double t = s + 0.5 / TargetFlight::kRate_hz;
-    detections_t stray = TargetFlight{}.detections(utimeOf(t), t, 1000 + s);
+    detections_t stray = TargetFlight{}.detections(utimeOf(s + 0.02), s + 0.02, 1000 + s);
     stray.detections[0].x += 2000;
     bus_->publish("DETECTIONS", stray);
     fly(s, s + 1);
@@ -190,6 +189,14 @@ TEST_F(GeolocationNodeTest, AStrayMessageOfAnotherCameraBlindsNobody) {
   for (const targets_t& m : targets_) EXPECT_EQ(m.status, targets_t::GOOD);
   EXPECT_EQ(targets_.back().n, 1);
   EXPECT_EQ(health().damaged, kSeconds);
+  for (int k = 0; k < 80; ++k) {  // one that seldom sees anything
+    detections_t other = TargetFlight{}.detections(utimeOf(kSeconds + k / 24.0), kSeconds, 2000 + k);
+    other.detections[0].x += 2000;
+    if (k % 10 != 0) other.detections.resize(static_cast<size_t>(other.n = 0));
+    bus_->publish("DETECTIONS", other);
+  }
+  fly(kSeconds + 4, kSeconds + 5);
+  EXPECT_EQ(targets_.back().status, targets_t::OTHER_CAMERA);
 }
 
 TEST_F(GeolocationNodeTest, SaysThatTheLensIsNotTheConfiguredOne) {

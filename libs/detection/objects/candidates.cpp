@@ -83,7 +83,8 @@ class ComponentSet {
   bool add(Component component, const cv::Mat1b& pixels) {
     cv::Mat1w labels = found_.labels(component.box - found_.part.tl());
     const cv::Mat1b probability = probability_(component.box);
-    int all = 0, free = 0, sum = 0;
+    int all = 0, free = 0;
+    int64_t sum = 0;
     forEach(pixels, [&](int y, int x) {
       ++all;
       if (labels(y, x) != 0) return;
@@ -92,7 +93,7 @@ class ComponentSet {
     });
     if (free == 0 || free < (1 - kDoubled) * all || found_.isFull()) return false;
     component.area_px = free;
-    component.score = sum / (255.0 * free);
+    component.score = static_cast<double>(sum) / (255.0 * free);
     found_.components.push_back(component);
     const auto label = static_cast<uint16_t>(found_.components.size());
     forEach(pixels, [&](int y, int x) {

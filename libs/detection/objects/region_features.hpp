@@ -26,7 +26,7 @@ enum class RegionFeature : size_t {
   kLogArea,    ///< natural logarithm of px^2
   kFill,       ///< fraction of its box
   kAtBorder,   ///< 1 at the image's border, else 0
-  kGroundOwn,  ///< means of groundDifference(), 0 to 255: of its pixels, 3 to 7 px and 7 to 16 px around it
+  kGroundOwn,  ///< means of GroundDifference, 0 to 255: of its pixels, 3 to 7 px and 7 to 16 px around it
   kGroundNear,
   kGroundFar,
   kAppearanceOwn,  ///< the same of the appearance difference
