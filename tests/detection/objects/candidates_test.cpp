@@ -42,12 +42,12 @@ ForegroundComponents componentsOf(const ForegroundMaps& maps, double log_odds) {
 
 TEST(Candidates, AreRegionsAtEachLevelOfTheDifference) {
   ForegroundMaps maps = mapsWith({{60, 40, 20, 10}});
-  maps.appearance(cv::Rect(50, 30, 40, 30)).setTo(100);
+  maps.appearance(cv::Rect(55, 35, 30, 20)).setTo(100);
   maps.appearance(cv::Rect(60, 40, 20, 10)).setTo(200);
   const std::vector<Candidate> found = candidatesOf(maps);
   ASSERT_EQ(found.size(), 4U);
-  EXPECT_EQ(found[0].box, cv::Rect(50, 30, 40, 30));
-  EXPECT_EQ(found[1].box, cv::Rect(50, 30, 40, 30));
+  EXPECT_EQ(found[0].box, cv::Rect(55, 35, 30, 20));
+  EXPECT_EQ(found[1].box, cv::Rect(55, 35, 30, 20));
   EXPECT_EQ(found[2].box, cv::Rect(60, 40, 20, 10));
   EXPECT_EQ(found[3].box, cv::Rect(60, 40, 20, 10));
 }
