@@ -29,9 +29,7 @@ GroundDetector::GroundDetector(const DetectionParameters& parameters)
       objects_(parameters.objects),
       image_check_(parameters.min_contrast),
       probability_(parameters.refinement),
-      tracker_(parameters.objects, parameters.parallax) {
-  objectTrees();  // read now, rather than in a frame
-}
+      tracker_(parameters.objects, parameters.parallax) {}
 
 DetectorOutput GroundDetector::step(const FrameInput& frame) {
   const bool continues = isConsecutive(frame);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "processes/geolocation/target_messages.hpp"
 #include "processes/geolocation/view_fault_words.hpp"
@@ -58,16 +59,17 @@ GeolocationNode::GeolocationNode(Bus& bus, const Configuration& configuration, c
 }
 
 void GeolocationNode::onDetections(const detections_t& message) {
-  if (countStray(message)) return health().noteDamaged();
+  std::string fault = boxFault(message);
+  if (countStray(message, fault)) return health().noteDamaged();
   queueFrame(pending_, configuration_.channels.detections, CameraTime(fromUtime(message.utime)),
-             Frame{message, WorkTimer()});
+             Frame{message, std::move(fault), WorkTimer()});
   health().noteSkipped(static_cast<int64_t>(pending_.limitTo(kMaxPendingDetections).size()));
   if (const auto newest = pending_.newest()) clock_.noteFrame(*newest);
 }
 
-bool GeolocationNode::countStray(const detections_t& message) {
+bool GeolocationNode::countStray(const detections_t& message, const std::string& box_fault) {
   if (message.detections.empty()) return false;  // fits any camera
-  const bool fits = boxFault(message).empty();
+  const bool fits = box_fault.empty();
   box_fault_score_ = std::clamp(box_fault_score_ + (fits ? -1 : kBoxFaultWeight), 0, kOtherCameraScore);
   return !fits && box_fault_score_ < kOtherCameraScore;
 }
@@ -103,7 +105,7 @@ bool GeolocationNode::processNext() {
   if (pending_.empty() || !isInOrder(pending_) || !isReadyFor(pending_.frontTime())) return false;
   const CameraTime time = pending_.frontTime();
   const Frame frame = pending_.pop();
-  workOn(time, frame.arrival, [&] { locate(time, frame.message); });
+  workOn(time, frame.arrival, [&] { locate(time, frame.message, frame.box_fault); });
   return true;
 }
 
@@ -118,10 +120,10 @@ std::string GeolocationNode::boxFault(const detections_t& detections) const {
   return "";
 }
 
-std::string GeolocationNode::cameraFault(CameraTime time, const detections_t& detections) {
+std::string GeolocationNode::cameraFault(CameraTime time, const std::string& box_fault) {
   if (!lens_fault_.empty()) return lens_fault_;
-  if (std::string fault = boxFault(detections); !fault.empty()) {
-    box_fault_ = std::move(fault);
+  if (!box_fault.empty()) {
+    box_fault_ = box_fault;
     box_fault_time_ = time;
     geolocator_.restart();  // who fitted into the image by chance is elsewhere
   }
@@ -129,8 +131,8 @@ std::string GeolocationNode::cameraFault(CameraTime time, const detections_t& de
   return lasts ? box_fault_ : "";
 }
 
-void GeolocationNode::locate(CameraTime time, const detections_t& detections) {
-  const std::string camera_fault = cameraFault(time, detections);
+void GeolocationNode::locate(CameraTime time, const detections_t& detections, const std::string& box_fault) {
+  const std::string camera_fault = cameraFault(time, box_fault);
   const ViewEstimate estimate = views_.at(imuTimeOf(time));
   const Zoom zoom = lens_ ? lens_->at(imuTimeOf(time)) : Zoom();
   if (lens_) lens_->eraseBefore(imuTimeOf(time) - kLensMemory);

@@ -35,19 +35,20 @@ class GeolocationNode : public Stage {
  private:
   struct Frame {
     detections_t message;
+    std::string box_fault;
     WorkTimer arrival;
   };
   void onDetections(const detections_t& message);
   void onLens(const lens_t& message);
   ImuTime imuTimeOf(CameraTime time) const { return toImu(time, timeshift_); }
   bool isReadyFor(CameraTime time) const;
-  void locate(CameraTime time, const detections_t& detections);
+  void locate(CameraTime time, const detections_t& detections, const std::string& box_fault);
   /// Boxes beyond the image, but too seldom for another camera.
-  bool countStray(const detections_t& message);
+  bool countStray(const detections_t& message, const std::string& box_fault);
   /// What shows that the boxes are of another camera than the configured one; empty: nothing does.
   std::string boxFault(const detections_t& detections) const;
   /// The same, or what has shown it lately; targets that were placed before are forgotten.
-  std::string cameraFault(CameraTime time, const detections_t& detections);
+  std::string cameraFault(CameraTime time, const std::string& box_fault);
   void describe(int8_t status, const ViewEstimate& estimate, const std::string& camera_fault,
                 bool is_lens_known);
   std::string faultText(const ViewEstimate& estimate) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "redbee/detection/objects/candidates.hpp"
 #include "redbee/imaging/enlarged.hpp"
 #include "redbee/imaging/grey_reconstruction.hpp"
 #include "redbee/imaging/guided_filter.hpp"
@@ -46,7 +47,10 @@ ForegroundEvidence::ForegroundEvidence(const ParallaxParameters& parallax,
       to_background_(downscaling(downscale_)),
       motion_(parallax_),
       background_(appearance, shadow, parallax.evidence_sigmas) {
-  if (usesCandidates(parallax, appearance)) ground_.emplace();
+  if (usesCandidates(parallax, appearance)) {
+    ground_.emplace();
+    objectTrees();  // read now, rather than in a frame
+  }
 }
 
 void ForegroundEvidence::reset() {

@@ -5,7 +5,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "redbee/detection/parallax/ground_difference_kernels.hpp"
 #include "redbee/imaging/for_lanes.hpp"
