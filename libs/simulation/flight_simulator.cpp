@@ -89,7 +89,8 @@ Eigen::Matrix3d FlightSimulator::homography(int k) const {
 
 Eigen::Matrix3d FlightSimulator::frontHomography(int k, size_t patch) const {
   const Patch& plane = scenario_.scene.patches.at(patch);
-  if (plane.kind == PatchKind::kMover) throw std::invalid_argument("a moving patch has no homography here");
+  if (plane.kind == PatchKind::kMover || plane.is_round || plane.sway)
+    throw std::invalid_argument("a patch that moves or turns has no homography here");
   if (k == 0) return Eigen::Matrix3d::Identity();
   return planeHomography(cameras(k), motionOver(plane.centre, plane.normal(), pose(k - 1), pose(k)));
 }

@@ -74,7 +74,7 @@ class FlightSimulator {
   /// for k = 0.
   Eigen::Matrix3d homography(int k) const;
   /// The same for the plane of a static patch (index in scene.patches). Throws std::invalid_argument for a
-  /// moving patch.
+  /// patch that moves, sways, or turns towards the camera.
   Eigen::Matrix3d frontHomography(int k, size_t patch) const;
 
   /// From half a second before the first exposure to half a second after the last one.

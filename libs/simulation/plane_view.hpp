@@ -21,12 +21,18 @@ PlaneView viewOf(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis_u, c
                  const CameraPose& pose);
 
 /// Patch coordinates relative to its half width and half height, -1 to 1.
-bool insideShape(PatchShape shape, float x, float y);
+bool insideShape(const Patch& patch, float x, float y);
 
-/// In G [m].
-Eigen::Vector3d centreAt(const Patch& patch, double t_s);
+/// Where a patch is at one time, in G [m].
+struct PatchPose {
+  Eigen::Vector3d centre, axis_u, axis_v;
+};
+/// `seen_from`: in G [m], what a round patch faces.
+PatchPose patchPose(const Patch& patch, double t_s, const Eigen::Vector3d& seen_from);
 
 /// Bounding box of a patch in the image; the whole image if a corner lies behind the camera.
 cv::Rect boxOf(const Patch& patch, const CameraPose& pose, double t_s, const Camera& camera);
+/// Of these points in G [m].
+cv::Rect boxOf(const std::vector<Eigen::Vector3d>& points, const CameraPose& pose, const Camera& camera);
 
 }  // namespace redbee::simulation

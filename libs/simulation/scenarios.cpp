@@ -1,29 +1,12 @@
 #include "redbee/simulation/scenarios.hpp"
 
 #include <cmath>
-#include <random>
 
 #include "redbee/geometry/angle.hpp"
-#include "redbee/geometry/so3.hpp"
+#include "redbee/simulation/scenario_base.hpp"
 
 namespace redbee::simulation {
 namespace {
-
-class Draw {
- public:
-  explicit Draw(unsigned seed) : random_(seed * 2654435761U + 17U) {}
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  Eigen::Vector3d vector(double range) {
-    const double x = uniform(-range, range), y = uniform(-range, range), z = uniform(-range, range);
-    return {x, y, z};
-  }
-  unsigned seed() { return static_cast<unsigned>(random_()); }
-
- private:
-  std::mt19937 random_;
-};
 
 const Eigen::Vector3d kGreen(0.55, 1.0, 0.75), kBrick(0.65, 0.85, 1.3), kBlue(1.5, 1.05, 0.6),
     kRed(0.75, 0.7, 1.5), kBeige(0.8, 1.0, 1.15);
@@ -34,24 +17,6 @@ Material water(Draw& draw) { return {TextureKind::kWater, draw.seed(), 0.015, 10
 Material carPaint(Draw& draw) { return {TextureKind::kBody, draw.seed(), 0.02, 165, 45, kRed}; }
 Material clothes(Draw& draw, double mean) {
   return {TextureKind::kBody, draw.seed(), 0.01, mean, 38, kBeige};
-}
-
-Scenario base(unsigned seed, Draw& draw, Trajectory trajectory, double pitch_down_deg) {
-  Scenario s{std::move(trajectory), {}, {}, {}, {}, {}, {}};
-  s.intrinsics = {640, 480, 500, 500, 319.5, 239.5, {}};
-  s.extrinsics.R_CI = expSO3(draw.vector(0.02)) * pitchedMounting(pitch_down_deg * kDegree);
-  s.extrinsics.p_IC = Eigen::Vector3d(0.06, 0, -0.03) + draw.vector(0.02);
-  s.extrinsics.timeshift_s = draw.uniform(-0.008, 0.008);
-  s.extrinsics.start_height_m = cameraPose(s.trajectory.at(s.extrinsics.timeshift_s), s.extrinsics).p_GC.z();
-  s.extrinsics.start_height_sigma_m = 0.3;
-  s.imu.gyro_bias = draw.vector(0.005);
-  s.imu.accel_bias = draw.vector(0.05);
-  s.imu.seed = seed + 101;
-  s.altimeter.seed = seed + 202;
-  s.sensor.seed = seed + 303;
-  s.sensor.blur_sigma_px = 0.5;
-  s.scene.ground = grass(draw);
-  return s;
 }
 
 Patch car(Draw& draw, double x_m, double y_m, double yaw_rad, double speed) {
@@ -69,21 +34,17 @@ Patch person(Draw& draw, double x_m, double y_m, double mean_grey, const Eigen::
 
 }  // namespace
 
-Eigen::Matrix3d pitchedMounting(double pitch_down_rad) {
-  const double c = std::cos(pitch_down_rad), s = std::sin(pitch_down_rad);
-  Eigen::Matrix3d R_CI;
-  R_CI << 0, -1, 0, -s, 0, -c, c, 0, -s;
-  return R_CI;
-}
-
 Scenario groundOnly(unsigned seed) {
   Draw draw(seed);
-  return base(seed, draw, Trajectory::ordinary(seed, 6), 30);
+  Scenario s = baseScenario(seed, draw, Trajectory::ordinary(seed, 6), 30);
+  s.scene.ground = grass(draw);
+  return s;
 }
 
 Scenario twoPlanes(unsigned seed) {
   Draw draw(seed);
-  Scenario s = base(seed, draw, Trajectory::ordinary(seed, 6), 30);
+  Scenario s = baseScenario(seed, draw, Trajectory::ordinary(seed, 6), 30);
+  s.scene.ground = grass(draw);
   // The wall's right edge stays left of the path, and its far end beyond the flight's.
   s.scene.patches.push_back(uprightPatch(PatchKind::kFront, 30, 16, 8 * kDegree, 28, 14, facade(draw)));
   s.scene.patches.push_back(car(draw, 16, -7, (90 + draw.uniform(-10, 10)) * kDegree, 1.5));
@@ -92,7 +53,8 @@ Scenario twoPlanes(unsigned seed) {
 
 Scenario wavingWater(unsigned seed) {
   Draw draw(seed);
-  Scenario s = base(seed, draw, Trajectory::ordinary(seed, 6), 30);
+  Scenario s = baseScenario(seed, draw, Trajectory::ordinary(seed, 6), 30);
+  s.scene.ground = grass(draw);
   Patch pond = lyingPatch(PatchKind::kWaving, 20, 16, 0, 60, 28, 0.005, water(draw));
   pond.waving = Waving{0.05, 0.7, 0.9, draw.seed()};
   s.scene.patches.push_back(pond);
@@ -102,14 +64,16 @@ Scenario wavingWater(unsigned seed) {
 
 Scenario calibrationFlight(unsigned seed) {
   Draw draw(seed);
-  Scenario s = base(seed, draw, Trajectory::calibration(seed, 6), 60);
+  Scenario s = baseScenario(seed, draw, Trajectory::calibration(seed, 6), 60);
+  s.scene.ground = grass(draw);
   s.frames = 480;
   return s;
 }
 
 Scenario walkers(unsigned seed) {
   Draw draw(seed);
-  Scenario s = base(seed, draw, Trajectory::ordinary(seed, 6), 30);
+  Scenario s = baseScenario(seed, draw, Trajectory::ordinary(seed, 6), 30);
+  s.scene.ground = grass(draw);
   const double greys[] = {190, 45, 200, 170, 40};
   const Eigen::Vector2d starts[] = {{12, -3}, {14, 3.5}, {18, -1}, {20, 5}, {25, 1}};
   const Eigen::Vector2d velocities[] = {{1.4, 0.5}, {1.3, -0.8}, {0.8, 0.9}, {1.0, -1.1}, {-0.6, -0.9}};

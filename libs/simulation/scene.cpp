@@ -5,11 +5,12 @@
 
 namespace redbee::simulation {
 
-Eigen::Vector3d Motion::displacementAt(double t_s) const {
-  double moving_s = t_s;
-  if (pause) moving_s -= std::clamp(t_s - pause->begin_s, 0.0, pause->end_s - pause->begin_s);
-  return velocity * moving_s;
+double Motion::movingTime(double t_s) const {
+  if (!pause) return t_s;
+  return t_s - std::clamp(t_s - pause->begin_s, 0.0, pause->end_s - pause->begin_s);
 }
+
+Eigen::Vector3d Motion::displacementAt(double t_s) const { return velocity * movingTime(t_s); }
 
 bool Motion::isMovingAt(double t_s) const {
   const bool paused = pause && t_s >= pause->begin_s && t_s < pause->end_s;

@@ -20,6 +20,8 @@ struct Motion {
 
   /// Displacement since t = 0 [m].
   Eigen::Vector3d displacementAt(double t_s) const;
+  /// Time that it has moved for since t = 0 [s].
+  double movingTime(double t_s) const;
   bool isMovingAt(double t_s) const;
 };
 
@@ -32,8 +34,24 @@ struct Waving {
   unsigned seed = 1;
 };
 
+/// To and fro about a place, as leaves in the wind.
+struct Sway {
+  Eigen::Vector3d amplitude_m = Eigen::Vector3d::Zero();  ///< in G
+  double frequency_hz = 0.5;
+  double phase_rad = 0;
+};
+
+/// Of a limb, while it moves: to and fro about an axis through the middle of its edge at -height / 2.
+struct Swing {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  ///< unit, in G
+  double amplitude_rad = 0.5;
+  double frequency_hz = 1;
+  double phase_rad = 0;
+};
+
 enum class PatchKind { kFront, kWaving, kMover };
-enum class PatchShape { kRectangle, kEllipse, kPerson };
+/// kTriangle: its tip at -height / 2. kFoliage: ragged, with gaps.
+enum class PatchShape { kRectangle, kEllipse, kPerson, kTriangle, kFoliage };
 
 /// A planar patch: centre + u * axis_u + v * axis_v with |u| <= width / 2, |v| <= height / 2.
 struct Patch {
@@ -47,6 +65,11 @@ struct Patch {
   double height_m = 1;
   Motion motion;                 ///< movers only
   std::optional<Waving> waving;  ///< waving patches only
+  std::optional<Sway> sway;
+  std::optional<Swing> swing;
+  /// Of a round body: it turns about axis_v towards who sees it, as the outline of a cylinder does.
+  bool is_round = false;
+  int object = 0;  ///< movers only: parts of one object share a number; 0: an object of its own
 
   Eigen::Vector3d normal() const { return axis_u.cross(axis_v); }
 };
@@ -55,6 +78,9 @@ struct Scene {
   Material ground;
   std::vector<Patch> patches;  ///< at most 254
   double sky_grey = 205;
+  /// In G, unit, towards the sun: patches cast shadows on the ground. Absent: no shadows.
+  std::optional<Eigen::Vector3d> sun{};
+  double shadow_gain = 0.4;  ///< light of the ground in a shadow over that in the sun
 };
 
 /// An upright rectangle that stands on the ground, its middle at (x, y), facing the direction `yaw_rad` (0:

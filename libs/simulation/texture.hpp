@@ -21,6 +21,11 @@ struct Material {
   double mean = 110;             ///< grey level
   double contrast = 26;          ///< standard deviation, grey levels
   Eigen::Vector3d bgr{1, 1, 1};  ///< colour of the surface; scaled so that the grey level is unchanged
+
+  bool operator==(const Material& other) const {
+    return kind == other.kind && seed == other.seed && texel_m == other.texel_m && mean == other.mean &&
+           contrast == other.contrast && bgr == other.bgr;
+  }
 };
 
 /// A pixel's footprint on the surface: one pixel along x and along y moves the point by these [m].

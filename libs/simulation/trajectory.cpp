@@ -110,6 +110,20 @@ Trajectory Trajectory::brisk(unsigned seed, double height_m) {
   return Trajectory(p);
 }
 
+Trajectory Trajectory::varied(unsigned seed, double height_m) {
+  ChannelMaker make(seed);
+  const double speed = (0.6 + 0.1 * height_m) * make.uniform(0.4, 1.6), course = make.uniform(-1.8, 1.8);
+  const double turn = radians(make.uniform(2, 11)), climb = make.uniform(-0.02, 0.03) * height_m;
+  TrajectoryParameters p;
+  p.position[0] = make.channel(0, speed * std::cos(course), {0.25, 0.08}, 0.1, 0.7);
+  p.position[1] = make.channel(0, speed * std::sin(course), {0.5, 0.1}, 0.1, 0.5);
+  p.position[2] = make.channel(height_m, climb, {0.04 * height_m, 0.05}, 0.1, 0.6);
+  p.yaw_pitch_roll[0] = make.channel(0, radians(make.uniform(-6, 6)), {turn, 0.3 * turn}, 0.1, 0.7);
+  p.yaw_pitch_roll[1] = make.channel(0, 0, {0.4 * turn, 0.2 * turn}, 0.1, 0.8);
+  p.yaw_pitch_roll[2] = make.channel(0, 0, {0.4 * turn, 0.2 * turn}, 0.1, 0.8);
+  return Trajectory(p);
+}
+
 Trajectory Trajectory::calibration(unsigned seed, double height_m) {
   ChannelMaker make(seed);
   TrajectoryParameters p;

@@ -48,6 +48,8 @@ class Trajectory {
   static Trajectory ordinary(unsigned seed, double height_m);
   /// The same path with brisk turns, up to some 70 degrees a second.
   static Trajectory brisk(unsigned seed, double height_m);
+  /// Any way over a landscape: forwards, sideways, climbing, turning, faster the higher it is.
+  static Trajectory varied(unsigned seed, double height_m);
   /// Strong rotation about all axes (25 degrees, 0.3 to 1 Hz) over flat ground, for calibration.
   static Trajectory calibration(unsigned seed, double height_m);
 
