@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "redbee/geometry/time.hpp"
@@ -20,9 +21,9 @@ struct GimbalErrors {
 
 /// The camera's centre is where its axes meet.
 struct Gimbal {
-  Channel yaw_pitch_roll[3];  ///< rad; Rz(yaw) Ry(pitch) Rx(roll), mount: x forward, y left, z up
-  bool is_stabilised = true;  ///< true: these turn M's coordinates into G's; false: into I's
-  double rate_hz = 50;        ///< Hz, of its messages
+  std::array<Channel, 3> yaw_pitch_roll;  ///< rad; Rz(yaw) Ry(pitch) Rx(roll), mount: x forward, y left, z up
+  bool is_stabilised = true;              ///< true: these turn M's coordinates into G's; false: into I's
+  double rate_hz = 50;                    ///< Hz, of its messages
   GimbalErrors errors;
 
   /// Turns IMU coordinates into the mount's, exactly.

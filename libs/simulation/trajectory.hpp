@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -23,10 +24,10 @@ struct Channel {
   double at(double t_s) const;
 };
 
-// The name is clang's own, in the copy of the arrays. NOLINTNEXTLINE(bugprone-reserved-identifier)
 struct TrajectoryParameters {
-  Channel position[3];        ///< of the IMU in G [m]: x, y, z (up)
-  Channel yaw_pitch_roll[3];  ///< rad; R_GI = Rz(yaw) Ry(pitch) Rx(roll), IMU: x forward, y left, z up
+  std::array<Channel, 3> position;  ///< of the IMU in G [m]: x, y, z (up)
+  std::array<Channel, 3>
+      yaw_pitch_roll;  ///< rad; R_GI = Rz(yaw) Ry(pitch) Rx(roll), IMU: x forward, y left, z up
 };
 
 struct TrajectoryState {
