@@ -25,6 +25,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_I
 Scenario plainFlight() {
   Scenario scenario = groundOnly(3);
   scenario.sensor.noise_sigma = 0;
+  scenario.sensor.blur_sigma_px = 0;
   return scenario;
 }
 
@@ -125,13 +126,10 @@ TEST(Scene, WhatSwaysGoesToAndFroAndIsBackground) {
 
 TEST(Scene, WhatIsRoundTurnsToTheCamera) {
   Scenario scenario = plainFlight();
-  Patch edge_on = upright(PatchKind::kFront, inTheMiddle(scenario));
-  edge_on.axis_u = Eigen::Vector3d::UnitX();  // along the line of sight
-  Patch round = edge_on;
-  round.is_round = true;
-  scenario.scene.patches = {edge_on};
+  scenario.scene.patches = {upright(PatchKind::kFront, inTheMiddle(scenario))};
+  scenario.scene.patches[0].axis_u = Eigen::Vector3d::UnitX();  // along the line of sight
   const int thin = cv::countNonZero(FlightSimulator(scenario).frame(0).image.surface == 1);
-  scenario.scene.patches = {round};
+  scenario.scene.patches[0].is_round = true;
   EXPECT_GT(cv::countNonZero(FlightSimulator(scenario).frame(0).image.surface == 1), 5 * thin);
 }
 
@@ -144,7 +142,7 @@ TEST(Scene, AShadowIsGroundInLessLight) {
   const RenderedImage image = FlightSimulator(scenario).frame(0).image;
   EXPECT_TRUE(same(image.surface, lit.surface));
   cv::Mat1b darker = lit.grey != image.grey;
-  EXPECT_GT(cv::countNonZero(darker), 500);
+  EXPECT_GT(cv::countNonZero(darker), 200);
   EXPECT_EQ(cv::countNonZero(darker & (image.surface != kSurfaceGround)), 0);
   EXPECT_NEAR(cv::mean(image.grey, darker)[0] / cv::mean(lit.grey, darker)[0], 0.5, 0.01);
 }
