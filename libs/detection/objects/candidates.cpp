@@ -13,7 +13,7 @@ namespace redbee {
 namespace {
 
 constexpr std::array<int, 4> kLevels{51, 89, 128, 166};  // of the appearance difference, 0 to 255
-// px^2 of the image. Nine of ten candidates of objects that the trees were trained on are smaller.
+// px^2 of the image. Nineteen of twenty candidates of objects that the trees were trained on are smaller.
 constexpr double kLeastArea_px2 = 24, kMostArea_px2 = 3500;
 constexpr int kLeastForeground = 25;  // of 255, of the greatest P_FG of a candidate's pixels
 constexpr double kDoubled = 0.4;      // fraction of the smaller of two boxes inside the other: one object
