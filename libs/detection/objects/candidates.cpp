@@ -20,6 +20,10 @@ constexpr double kDoubled = 0.4;      // fraction of the smaller of two boxes in
 // What is a candidate in one frame is one in the next: what a track adds up is not independent.
 constexpr double kCaution = -1;
 constexpr double kLeastLogOdds = -3;
+// Less sure ones yield to a component of P_FG: it may be of a kind that the trees do not know.
+constexpr double kSureLogOdds = 1.5;
+// A component of P_FG is none where the trees are as sure of that.
+constexpr double kRejectedLogOdds = -1;
 
 cv::Rect inImage(const cv::Rect& box, cv::Size map, cv::Size image) {
   const auto scaled = [&](const cv::Point& at) {
@@ -60,6 +64,26 @@ cv::Rect partOf(const std::vector<Candidate>& candidates, const ForegroundCompon
     if (!candidate.component) part |= inImage(candidate.box, maps, of_foreground.image);
   }
   return part;
+}
+
+/// The components of P_FG that the trees know and do not reject, in their order.
+std::vector<size_t> keptOf(const std::vector<Candidate>& candidates,
+                           const ForegroundComponents& of_foreground) {
+  std::vector<bool> is_rejected(of_foreground.components.size(), false);
+  for (const Candidate& candidate : candidates) {
+    if (candidate.component) is_rejected[*candidate.component] = candidate.log_odds <= kRejectedLogOdds;
+  }
+  std::vector<size_t> kept;
+  for (size_t i = 0; i < is_rejected.size(); ++i) {
+    if (!is_rejected[i] && !isLarge(of_foreground.components[i])) kept.push_back(i);
+  }
+  return kept;
+}
+
+bool isAnyDoubled(const ForegroundComponents& found, const std::vector<size_t>& indices,
+                  const cv::Rect& box) {
+  return std::any_of(indices.begin(), indices.end(),
+                     [&](size_t i) { return areDoubled(found.components[i].box, box); });
 }
 
 /// A component of P_FG as a region of the maps; none where it is too thin for their pixels.
@@ -185,24 +209,26 @@ ForegroundComponents componentsOf(const std::vector<Candidate>& candidates,
   for (size_t i = 0; i < of_foreground.components.size(); ++i) {
     if (isLarge(of_foreground.components[i])) set.add(of_foreground.components[i], of_foreground.pixelsOf(i));
   }
+  const std::vector<size_t> kept = keptOf(candidates, of_foreground);
   cv::Mat1b pixels;
   for (const Candidate& candidate : candidates) {
     if (!mayBecomeComponent(candidate)) break;
+    if (candidate.component) continue;
+    const double log_odds = candidate.log_odds + kCaution;
     Component component;
-    component.box = candidate.component ? of_foreground.components[*candidate.component].box
-                                        : inImage(candidate.box, size, probability.size());
+    component.box = inImage(candidate.box, size, probability.size());
     if (set.isDoubled(component.box)) continue;
-    if (candidate.component) {
-      component.residual_around = of_foreground.components[*candidate.component].residual_around;
-      pixels = of_foreground.pixelsOf(*candidate.component);
-    } else {
-      if (!maps.residual.empty())
-        component.residual_around = meanAround(maps.residual, probability.size(), component.box);
-      cv::resize(candidate.pixels, pixels, component.box.size(), 0, 0, cv::INTER_NEAREST);
-      pixels.setTo(0, unknown(component.box));
-    }
-    component.peak = 1 / (1 + std::exp(-(candidate.log_odds + kCaution)));
+    if (log_odds < kSureLogOdds && isAnyDoubled(of_foreground, kept, component.box)) continue;
+    cv::resize(candidate.pixels, pixels, component.box.size(), 0, 0, cv::INTER_NEAREST);
+    pixels.setTo(0, unknown(component.box));
+    component.peak = 1 / (1 + std::exp(-log_odds));
+    if (!maps.residual.empty())
+      component.residual_around = meanAround(maps.residual, probability.size(), component.box);
     if (set.add(component, pixels)) set.claim(component.box);
+  }
+  for (const size_t i : kept) {
+    const Component& component = of_foreground.components[i];
+    if (!set.isDoubled(component.box)) set.add(component, of_foreground.pixelsOf(i));
   }
   return set.take();
 }

@@ -34,7 +34,9 @@ std::vector<Candidate> findCandidates(const ForegroundMaps& maps, const cv::Mat1
                                       const std::optional<GroundPlane>& ground, const BoostedTrees& trees);
 
 /// The candidates as components, without those that a surer one covers or is covered by; Component::peak is
-/// their probability. Components of P_FG that are larger than the trees know stay. `of_foreground`: as there.
+/// their probability. Those of P_FG stay as they are where no candidate is, in place of candidates that are
+/// not sure, and where they are larger than the trees know, but for those that the trees reject.
+/// `of_foreground`: as there.
 /// `probability`: P_FG * 255.
 ForegroundComponents componentsOf(const std::vector<Candidate>& candidates,
                                   const ForegroundComponents& of_foreground, const cv::Mat1b& probability,

@@ -93,18 +93,23 @@ TEST(Candidates, AreComponentsOfTheForegroundToo) {
   ASSERT_EQ(components.components.size(), 1U);
   EXPECT_EQ(components.components[0].box, cv::Rect(41, 60, 20, 31)) << "as P_FG has it";
   EXPECT_EQ(components.components[0].area_px, componentsOfForeground(probability).components[0].area_px);
-  EXPECT_NEAR(components.components[0].peak, 1 / (1 + std::exp(-2.0)), 1e-5);
+  EXPECT_NEAR(components.components[0].peak, 230 / 255.0, 1e-5);
   EXPECT_NEAR(components.components[0].score, 230 / 255.0, 1e-5);
 }
 
-TEST(Candidates, OfTwoThatCoverEachOtherTheSurerOneStays) {
+TEST(Candidates, OfTwoThatCoverEachOtherASureRegionStaysElseTheComponentOfTheForeground) {
   const ForegroundMaps maps = mapsWith({{60, 40, 20, 10}});
-  const cv::Mat1b probability = foreground({122, 82, 30, 16});
+  const cv::Rect region(120, 80, 40, 20), of_foreground(122, 82, 30, 16);
+  const cv::Mat1b probability = foreground(of_foreground);
   EXPECT_EQ(candidatesOf(maps, 2, probability).size(), 5U);
-  EXPECT_EQ(componentsOf(maps, 3, probability).components.size(), 1U);
+  for (const double log_odds : {3.0, 2.0, 0.0}) {
+    const ForegroundComponents components = componentsOf(maps, log_odds, probability);
+    ASSERT_EQ(components.components.size(), 1U);
+    EXPECT_EQ(components.components[0].box, log_odds > 2.5 ? region : of_foreground) << log_odds;
+  }
 }
 
-TEST(Candidates, UnlikelyComponentsOfTheForegroundAreNone) {
+TEST(Candidates, ComponentsOfTheForegroundThatTheTreesRejectAreNone) {
   EXPECT_TRUE(componentsOf(mapsWith({}), -3, foreground({41, 60, 20, 31})).components.empty());
 }
 
