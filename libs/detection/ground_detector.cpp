@@ -113,12 +113,10 @@ ForegroundComponents GroundDetector::components(const FrameInput& input, const c
                                                 const ForegroundMaps& maps) const {
   if (maps.appearance.empty())
     return findComponents(probability, maps.unknown, objects_, {maps.gain, maps.residual, maps.moving});
-  const ForegroundComponents of_foreground =
-      findComponents(probability, maps.unknown, objects_, {maps.gain, maps.residual, {}});
   const std::vector<Candidate> candidates =
-      findCandidates(maps, maps.unknown, of_foreground, groundOf(input), objectTrees());
+      findCandidates(maps, maps.unknown, groundOf(input), objectTrees());
   if (observer_) observer_(input.time, maps.appearance.size(), candidates);
-  return componentsOf(candidates, of_foreground, probability, maps.unknown, maps);
+  return componentsOf(candidates, probability, maps.unknown, objects_, maps);
 }
 
 DetectorOutput GroundDetector::withObjects(const FrameInput& input, cv::Mat1b probability,

@@ -13,7 +13,7 @@ namespace redbee {
 namespace {
 
 constexpr std::array<int, 4> kLevels{51, 89, 128, 166};  // of the appearance difference, 0 to 255
-// px^2 of the image. Nineteen of twenty candidates of objects that the trees were trained on are smaller.
+// px^2 of the image. Nine of ten candidates of objects that the trees were trained on are smaller.
 constexpr double kLeastArea_px2 = 24, kMostArea_px2 = 3500;
 constexpr int kLeastForeground = 25;  // of 255, of the greatest P_FG of a candidate's pixels
 constexpr double kDoubled = 0.4;      // fraction of the smaller of two boxes inside the other: one object
@@ -22,8 +22,6 @@ constexpr double kCaution = -1;
 constexpr double kLeastLogOdds = -3;
 // Less sure ones yield to a component of P_FG: it may be of a kind that the trees do not know.
 constexpr double kSureLogOdds = 1.5;
-// A component of P_FG is none where the trees are as sure of that.
-constexpr double kRejectedLogOdds = -1;
 
 cv::Rect inImage(const cv::Rect& box, cv::Size map, cv::Size image) {
   const auto scaled = [&](const cv::Point& at) {
@@ -34,6 +32,11 @@ cv::Rect inImage(const cv::Rect& box, cv::Size map, cv::Size image) {
 
 bool areDoubled(const cv::Rect& a, const cv::Rect& b) {
   return (a & b).area() > kDoubled * std::min(a.area(), b.area());
+}
+
+bool areDoubled(const ForegroundComponents& found, const cv::Rect& box) {
+  return std::any_of(found.components.begin(), found.components.end(),
+                     [&](const Component& component) { return areDoubled(component.box, box); });
 }
 
 /// `pixels`: of the box; empty: all of them.
@@ -50,54 +53,14 @@ int greatestForeground(const ForegroundMaps& maps, const cv::Rect& box, const cv
   return most;
 }
 
-/// Larger than what the trees were trained on.
-bool isLarge(const Component& component) { return component.area_px > kMostArea_px2; }
-
-bool mayBecomeComponent(const Candidate& candidate) { return candidate.log_odds + kCaution >= kLeastLogOdds; }
-
-/// The part of the image that holds whatever may become a component.
-cv::Rect partOf(const std::vector<Candidate>& candidates, const ForegroundComponents& of_foreground,
-                cv::Size maps) {
-  cv::Rect part = of_foreground.part;
+/// The part of the image that candidates lie in which may become components.
+cv::Rect partOf(const std::vector<Candidate>& candidates, cv::Size maps, cv::Size image) {
+  cv::Rect part;
   for (const Candidate& candidate : candidates) {
-    if (!mayBecomeComponent(candidate)) break;
-    if (!candidate.component) part |= inImage(candidate.box, maps, of_foreground.image);
+    if (candidate.log_odds + kCaution < kLeastLogOdds) break;
+    part |= inImage(candidate.box, maps, image);
   }
   return part;
-}
-
-/// The components of P_FG that the trees know and do not reject, in their order.
-std::vector<size_t> keptOf(const std::vector<Candidate>& candidates,
-                           const ForegroundComponents& of_foreground) {
-  std::vector<bool> is_rejected(of_foreground.components.size(), false);
-  for (const Candidate& candidate : candidates) {
-    if (candidate.component) is_rejected[*candidate.component] = candidate.log_odds <= kRejectedLogOdds;
-  }
-  std::vector<size_t> kept;
-  for (size_t i = 0; i < is_rejected.size(); ++i) {
-    if (!is_rejected[i] && !isLarge(of_foreground.components[i])) kept.push_back(i);
-  }
-  return kept;
-}
-
-bool isAnyDoubled(const ForegroundComponents& found, const std::vector<size_t>& indices,
-                  const cv::Rect& box) {
-  return std::any_of(indices.begin(), indices.end(),
-                     [&](size_t i) { return areDoubled(found.components[i].box, box); });
-}
-
-/// A component of P_FG as a region of the maps; none where it is too thin for their pixels.
-std::optional<Candidate> candidateOf(const ForegroundComponents& of_foreground, size_t index, cv::Size maps) {
-  const cv::Rect& box = of_foreground.components[index].box;
-  const cv::Size& image = of_foreground.image;
-  const cv::Point first(box.x * maps.width / image.width, box.y * maps.height / image.height);
-  const cv::Point last((box.br().x - 1) * maps.width / image.width,
-                       (box.br().y - 1) * maps.height / image.height);
-  Candidate candidate{cv::Rect(first, last + cv::Point(1, 1)), {}};
-  cv::resize(of_foreground.pixelsOf(index), candidate.pixels, candidate.box.size(), 0, 0, cv::INTER_NEAREST);
-  if (cv::countNonZero(candidate.pixels) == 0) return std::nullopt;
-  candidate.component = index;
-  return candidate;
 }
 
 /// Components without pixels in common.
@@ -164,16 +127,10 @@ const BoostedTrees& objectTrees() {
 }
 
 std::vector<Candidate> findCandidates(const ForegroundMaps& maps, const cv::Mat1b& unknown,
-                                      const ForegroundComponents& of_foreground,
                                       const std::optional<GroundPlane>& ground, const BoostedTrees& trees) {
   std::vector<Candidate> candidates;
   const cv::Size size = maps.appearance.size();
   RegionMeter meter(maps, unknown.size(), ground);
-  const auto judge = [&](Candidate candidate, size_t level) {
-    candidate.features = meter.measure(candidate.box, candidate.pixels, level);
-    candidate.log_odds = trees.logOdds(candidate.features.data());
-    candidates.push_back(std::move(candidate));
-  };
   cv::Mat1b no_statement;
   cv::resize(unknown, no_statement, size, 0, 0, cv::INTER_NEAREST);
   const double pixel_px2 = static_cast<double>(unknown.size().area()) / size.area();
@@ -187,38 +144,36 @@ std::vector<Candidate> findCandidates(const ForegroundMaps& maps, const cv::Mat1
       const cv::Rect& box = regions.box(i);
       if (greatestForeground(maps, box) <= kLeastForeground) continue;
       Candidate candidate{box, regions.pixels(i)};
-      if (greatestForeground(maps, box, candidate.pixels) > kLeastForeground)
-        judge(std::move(candidate), level);
+      if (greatestForeground(maps, box, candidate.pixels) <= kLeastForeground) continue;
+      candidate.features = meter.measure(box, candidate.pixels, level);
+      candidate.log_odds = trees.logOdds(candidate.features.data());
+      candidates.push_back(std::move(candidate));
     }
-  }
-  for (size_t i = 0; i < of_foreground.components.size(); ++i) {
-    if (isLarge(of_foreground.components[i])) continue;
-    if (std::optional<Candidate> candidate = candidateOf(of_foreground, i, size))
-      judge(std::move(*candidate), kLevels.size());
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.log_odds > b.log_odds; });
   return candidates;
 }
 
-ForegroundComponents componentsOf(const std::vector<Candidate>& candidates,
-                                  const ForegroundComponents& of_foreground, const cv::Mat1b& probability,
-                                  const cv::Mat1b& unknown, const ForegroundMaps& maps) {
-  const cv::Size size = maps.appearance.size();
-  ComponentSet set(probability, partOf(candidates, of_foreground, size));
+ForegroundComponents componentsOf(const std::vector<Candidate>& candidates, const cv::Mat1b& probability,
+                                  const cv::Mat1b& unknown, const ObjectParameters& parameters,
+                                  const ForegroundMaps& maps) {
+  const ForegroundComponents of_foreground =
+      findComponents(probability, unknown, parameters, {maps.gain, maps.residual, {}});
+  ComponentSet set(probability,
+                   of_foreground.part | partOf(candidates, maps.appearance.size(), probability.size()));
   for (size_t i = 0; i < of_foreground.components.size(); ++i) {
-    if (isLarge(of_foreground.components[i])) set.add(of_foreground.components[i], of_foreground.pixelsOf(i));
+    const Component& component = of_foreground.components[i];
+    if (component.area_px > kMostArea_px2) set.add(component, of_foreground.pixelsOf(i));
   }
-  const std::vector<size_t> kept = keptOf(candidates, of_foreground);
   cv::Mat1b pixels;
   for (const Candidate& candidate : candidates) {
-    if (!mayBecomeComponent(candidate)) break;
-    if (candidate.component) continue;
     const double log_odds = candidate.log_odds + kCaution;
+    if (log_odds < kLeastLogOdds) break;
     Component component;
-    component.box = inImage(candidate.box, size, probability.size());
+    component.box = inImage(candidate.box, maps.appearance.size(), probability.size());
     if (set.isDoubled(component.box)) continue;
-    if (log_odds < kSureLogOdds && isAnyDoubled(of_foreground, kept, component.box)) continue;
+    if (log_odds < kSureLogOdds && areDoubled(of_foreground, component.box)) continue;
     cv::resize(candidate.pixels, pixels, component.box.size(), 0, 0, cv::INTER_NEAREST);
     pixels.setTo(0, unknown(component.box));
     component.peak = 1 / (1 + std::exp(-log_odds));
@@ -226,9 +181,10 @@ ForegroundComponents componentsOf(const std::vector<Candidate>& candidates,
       component.residual_around = meanAround(maps.residual, probability.size(), component.box);
     if (set.add(component, pixels)) set.claim(component.box);
   }
-  for (const size_t i : kept) {
+  for (size_t i = 0; i < of_foreground.components.size(); ++i) {
     const Component& component = of_foreground.components[i];
-    if (!set.isDoubled(component.box)) set.add(component, of_foreground.pixelsOf(i));
+    if (component.area_px > kMostArea_px2 || set.isDoubled(component.box)) continue;
+    set.add(component, of_foreground.pixelsOf(i));  // of a kind that the trees do not know
   }
   return set.take();
 }

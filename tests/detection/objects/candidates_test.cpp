@@ -29,27 +29,15 @@ ForegroundMaps mapsWith(std::initializer_list<cv::Rect> regions) {
   return maps;
 }
 
-ForegroundComponents componentsOfForeground(const cv::Mat1b& probability) {
-  return findComponents(probability, cv::Mat1b::zeros(kImage), {});
+std::vector<Candidate> candidatesOf(const ForegroundMaps& maps, double log_odds = 2) {
+  return findCandidates(maps, cv::Mat1b::zeros(kImage), {}, treesThatSay(log_odds));
 }
 
-/// P_FG of the image: nothing, or a rectangle.
-cv::Mat1b foreground(const cv::Rect& region = {}) {
-  cv::Mat1b probability = cv::Mat1b::zeros(kImage);
-  probability(region).setTo(230);
-  return probability;
-}
-
-std::vector<Candidate> candidatesOf(const ForegroundMaps& maps, double log_odds = 2,
-                                    const cv::Mat1b& probability = foreground()) {
-  return findCandidates(maps, cv::Mat1b::zeros(kImage), componentsOfForeground(probability), {},
-                        treesThatSay(log_odds));
-}
-
-ForegroundComponents componentsOf(const ForegroundMaps& maps, double log_odds,
-                                  const cv::Mat1b& probability = foreground()) {
-  return componentsOf(candidatesOf(maps, log_odds, probability), componentsOfForeground(probability),
-                      probability, cv::Mat1b::zeros(kImage), maps);
+ForegroundComponents componentsOf(const ForegroundMaps& maps, double log_odds) {
+  const cv::Mat1b unknown = cv::Mat1b::zeros(kImage), probability(kImage, 100);
+  ObjectParameters parameters;
+  parameters.weak_threshold = parameters.threshold = 0.9;  // P_FG has none of its own
+  return componentsOf(candidatesOf(maps, log_odds), probability, unknown, parameters, maps);
 }
 
 TEST(Candidates, AreRegionsAtEachLevelOfTheDifference) {
@@ -68,8 +56,7 @@ TEST(Candidates, NoneWithoutAnyEvidenceOfMotionOrWhereNothingIsKnown) {
   ForegroundMaps maps = mapsWith({{60, 40, 20, 10}});
   cv::Mat1b unknown = cv::Mat1b::zeros(kImage);
   unknown(cv::Rect(100, 60, 80, 60)).setTo(255);
-  EXPECT_TRUE(
-      findCandidates(maps, unknown, componentsOfForeground(foreground()), {}, treesThatSay(2)).empty());
+  EXPECT_TRUE(findCandidates(maps, unknown, {}, treesThatSay(2)).empty());
   maps.motion.setTo(20);
   EXPECT_TRUE(candidatesOf(maps).empty());
 }
@@ -81,45 +68,7 @@ TEST(Candidates, BecomeOneComponentWithLessOddsThanTheTreesSay) {
   EXPECT_EQ(component.box, cv::Rect(120, 80, 40, 20));
   EXPECT_EQ(component.area_px, 40 * 20);
   EXPECT_NEAR(component.peak, 1 / (1 + std::exp(-2.0)), 1e-5);
-}
-
-TEST(Candidates, AreComponentsOfTheForegroundToo) {
-  const cv::Mat1b probability = foreground({41, 60, 20, 31});
-  const std::vector<Candidate> found = candidatesOf(mapsWith({}), 2, probability);
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].component, 0U);
-  EXPECT_EQ(found[0].box, cv::Rect(20, 30, 11, 16)) << "every pixel of the maps that it touches";
-  const ForegroundComponents components = componentsOf(mapsWith({}), 3, probability);
-  ASSERT_EQ(components.components.size(), 1U);
-  EXPECT_EQ(components.components[0].box, cv::Rect(41, 60, 20, 31)) << "as P_FG has it";
-  EXPECT_EQ(components.components[0].area_px, componentsOfForeground(probability).components[0].area_px);
-  EXPECT_NEAR(components.components[0].peak, 230 / 255.0, 1e-5);
-  EXPECT_NEAR(components.components[0].score, 230 / 255.0, 1e-5);
-}
-
-TEST(Candidates, OfTwoThatCoverEachOtherASureRegionStaysElseTheComponentOfTheForeground) {
-  const ForegroundMaps maps = mapsWith({{60, 40, 20, 10}});
-  const cv::Rect region(120, 80, 40, 20), of_foreground(122, 82, 30, 16);
-  const cv::Mat1b probability = foreground(of_foreground);
-  EXPECT_EQ(candidatesOf(maps, 2, probability).size(), 5U);
-  for (const double log_odds : {3.0, 2.0, 0.0}) {
-    const ForegroundComponents components = componentsOf(maps, log_odds, probability);
-    ASSERT_EQ(components.components.size(), 1U);
-    EXPECT_EQ(components.components[0].box, log_odds > 2.5 ? region : of_foreground) << log_odds;
-  }
-}
-
-TEST(Candidates, ComponentsOfTheForegroundThatTheTreesRejectAreNone) {
-  EXPECT_TRUE(componentsOf(mapsWith({}), -3, foreground({41, 60, 20, 31})).components.empty());
-}
-
-TEST(Candidates, AComponentThatIsLargerThanTheTreesKnowStays) {
-  const cv::Mat1b probability = foreground({40, 60, 100, 80});
-  EXPECT_TRUE(candidatesOf(mapsWith({}), 2, probability).empty());
-  const ForegroundComponents components = componentsOf(mapsWith({}), -3, probability);
-  ASSERT_EQ(components.components.size(), 1U);
-  EXPECT_EQ(components.components[0].box, cv::Rect(40, 60, 100, 80));
-  EXPECT_NEAR(components.components[0].peak, 230 / 255.0, 1e-5);
+  EXPECT_NEAR(component.score, 100 / 255.0, 1e-5);
 }
 
 TEST(Candidates, UnlikelyOnesAreNoComponents) {
