@@ -4,7 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "redbee/bus/image.hpp"
@@ -26,6 +31,10 @@ std::vector<image_t> imagesOf(GstreamerSource& source) {
   }
   EXPECT_FALSE(source.isOpen());
   return images;
+}
+std::vector<uint8_t> bytesOf(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 std::string pattern(const std::string& name, const std::string& format, int images = 10) {
   // 33 wide: GStreamer pads the rows of GRAY8 to 36 bytes, of RGB to 100.
@@ -66,15 +75,16 @@ TEST(GstreamerSource, JpegPassesThrough) {
   const std::string file = (folder / "image.jpg").string();
   GstreamerSource encoder(
       "videotestsrc num-buffers=1 ! video/x-raw,width=64,height=48 ! jpegenc ! tee name=t t. ! queue ! "
-      "filesink location=" +
+      "filesink buffer-mode=unbuffered location=" +
       file + " t. ! queue ! appsink sync=false");
   const auto images = imagesOf(encoder);
   ASSERT_EQ(images.size(), 1U);
   EXPECT_EQ(images[0].pixelformat, image_t::MJPEG);
   EXPECT_EQ(declaredSize(images[0]), cv::Size(64, 48));
-  std::ifstream in(file, std::ios::binary);
-  const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  EXPECT_EQ(images[0].data, bytes);
+  // The file's own thread may still have it to write.
+  for (int waits = 0; bytesOf(file).size() < images[0].data.size() && waits < 500; ++waits)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(images[0].data, bytesOf(file));
 }
 
 /// Frames of a live source at 50 Hz: times 20 ms apart as the pipeline made them, whenever they were fetched,
